@@ -78,7 +78,7 @@ def rows_of(sample: EvalSample, source: str, form: str = "") -> list[MotionRows]
         name = truth.parts[i].name
         if name not in joints:
             continue
-        rows = motion_features(around, question.part, question.candidates)
+        rows = motion_features(around, question.candidates)
         joint, center = joints[name], sample.mesh.triangles[sample.labels == i].reshape(-1, 3).mean(0)
         motions = [c.motion for c in question.candidates]
         names = tuple(rows[0])

@@ -27,7 +27,7 @@ from jaxtyping import Bool
 from motion_rows import MotionRows, read_rows
 
 from anymesh.articulation.estimate import MAX_COPIES
-from anymesh.articulation.motion_classifier import likeliest_indices
+from anymesh.articulation.motion_classifier import highest
 from anymesh.articulation.motion_features import SWEPT_FEATURES
 from anymesh.articulation.rank_motions import BLOCKED, share_of_best
 from anymesh.articulation.repeated_parts import ScoredMotions, mean_over_copies
@@ -74,7 +74,7 @@ def of_swept(
 ) -> tuple[list[MotionRows], Scores]:
     """Return the rows and scores of the motions that are swept, chosen by classifiers trained without what is left out."""
     before = held_out(unswept_samples(rows), left, UNSWEPT_MODELS)
-    chosen = [likeliest_indices(score, ArticulationConfig().most_swept) for score in before]
+    chosen = [highest(score, ArticulationConfig().most_swept) for score in before]
     swept = [r.of_motions(k) for r, k in zip(rows, chosen, strict=True)]
     return swept, over_copies(swept, [s.reshape(-1, 2)[k].reshape(-1) for s, k in zip(scores, chosen, strict=True)])
 

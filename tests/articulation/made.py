@@ -14,10 +14,7 @@ from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion, Sweep
 
 X, Y, Z = np.eye(3)
-PLATE = PartFacts(
-    "p", "part", (0.6, 0.4, 0.02), 0.05, 0.3, 0.1, -Y, 1.0, 0.0, size=0.7, diagonal=1.0, handle=None,
-    two_pivot=False, tall=-0.6, height=0.5, back_contact=0.0, free_rim=0.0, covers_opening=0.0,
-)  # fmt: skip
+PLATE = PartFacts("part", size=0.7, roundness=0.3)
 
 
 def context(part: list, rest: list, *siblings: list, **changes: Any) -> PartContext:
@@ -47,10 +44,7 @@ def candidate(role: Role, kind: JointType, axis: np.ndarray, **changes: Any) -> 
     """Return a candidate that is free along its axis."""
     free = np.pi if kind is JointType.REVOLUTE else 0.5
     sweep = Sweep(free, 0.0, True, False)
-    made = Candidate(
-        Motion(kind, axis, np.zeros(3), f"a {role}"), sweep, role, 1, free, 0.0, hinge_support=0.0, sibling=0.0,
-        handle_side=0.0, guided=0.0, depth=0.0, vertical=float(abs(axis[2])), above=0.0, captured=False, outward=1.0,
-    )  # fmt: skip
+    made = Candidate(Motion(kind, axis, np.zeros(3), f"a {role}"), sweep, role, 1, free, 0.0, outward=1.0)
     return replace(made, **changes)
 
 

@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 from assets import box
 from known import KNOWN, QUICK, Watched, ready, true_answers
-from made import Y, Z, context
+from made import Y, context
 from scenes import prism
 from trimesh.creation import annulus
 
-from anymesh.articulation.part_facts import part_facts
+from anymesh.articulation.motion_question import PartFacts
+from anymesh.articulation.part_values import part_values
 from anymesh.articulation.prompted import PromptedJoints, Questions, prompt_joints
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.types import JointType
@@ -89,6 +90,9 @@ def test_questions_name_the_category_and_the_labels() -> None:
     assert (recognized.category, recognized.labels) == ("stove", ("door", "knob"))
 
 
+NONE = np.zeros((0, 3))  # points in contact
+
+
 def upright(*pieces) -> list:
     """Return pieces along y turned upright."""
     return [(v @ np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]), f) for v, f in pieces]
@@ -98,32 +102,33 @@ def upright(*pieces) -> list:
 def test_a_lid_on_a_pot_covers_its_opening_however_thick_it_is(height: float) -> None:
     pot = annulus(0.16, 0.2, 0.3, sections=64)
     lid = upright(prism(0.2, (0.152, 0.152 + height), 0.0, 0.0, 64))
-    facts = part_facts(context(lid, [(np.asarray(pot.vertices), np.asarray(pot.faces))]), "lid", "part", two_pivot=False)
-    assert facts.covers_opening > 0.1  # the share of its rim that is near the pot
-    assert facts.free_rim > 0.9
-    assert facts.rotational_asymmetry < 0.05
-    assert facts.flatness == pytest.approx(height / 0.2, abs=0.02)
-    assert facts.tall == 0
+    values = part_values(context(lid, [(np.asarray(pot.vertices), np.asarray(pot.faces))]), NONE)
+    assert values["covers an opening"] > 0.1  # the share of its rim that is near the pot
+    assert values["free rim"] > 0.9
+    assert values["rotational asymmetry"] < 0.05
+    assert values["height over radius"] == pytest.approx(height / 0.2, abs=0.02)
+    assert values["log2 height over width"] == 0
 
 
 def test_a_disc_in_a_hole_has_no_free_rim_and_an_oval_one_is_no_body_of_revolution() -> None:
     ring = annulus(0.21, 0.4, 0.1, sections=64)
     hole = [(np.asarray(ring.vertices), np.asarray(ring.faces))]
     disc = upright(prism(0.2, (-0.02, 0.02), 0.0, 0.0, 64))
-    assert part_facts(context(disc, hole), "disc", "part", two_pivot=False).free_rim < 0.1
+    assert part_values(context(disc, hole), NONE)["free rim"] < 0.1
     oval = [(v * [1.04, 0.96, 1], f) for v, f in disc]
-    plain, squeezed = (part_facts(context(p, hole), "d", "part", two_pivot=False).rotational_asymmetry for p in (disc, oval))
+    plain, squeezed = (part_values(context(p, hole), NONE)["rotational asymmetry"] for p in (disc, oval))
     assert plain < 0.02 < 0.05 < squeezed
 
 
-def test_the_facts_of_an_upright_panel() -> None:
+def test_the_values_of_an_upright_panel() -> None:
     panel = context([box((0, -0.03, 0.2), (0.6, -0.002, 0.5))], [box((0, 0, 0), (0.6, 0.4, 1))])
-    facts = part_facts(panel, "panel", "door", two_pivot=True)
-    assert (facts.name, facts.label, facts.two_pivot) == ("panel", "door", True)
-    assert facts.tall == pytest.approx(-1)
-    assert facts.height == pytest.approx(0.35)
-    assert facts.back_contact == pytest.approx(1)
-    assert facts.opening_direction == pytest.approx(-Y)
-    assert facts.extents == pytest.approx(np.array([0.6, 0.3, 0.028]) / panel.diagonal)
-    assert (facts.thinness, facts.size) == pytest.approx((0.028 / 0.3, np.linalg.norm([0.6, 0.3, 0.028]) / panel.diagonal))
-    assert abs(facts.opening_direction @ Z) < 1e-9
+    values = part_values(panel, panel.part.samples.points)
+    size = np.linalg.norm([0.6, 0.3, 0.028])
+    expected = {
+        "log2 height over width": -1, "height": 0.35, "back contact": 1, "opening direction up": 0, "contact share": 1,
+        "thinness": 0.028 / 0.3, "width over length": 0.5, "thickness": 0.028 / panel.diagonal, "size": size / panel.diagonal,
+    }  # fmt: skip
+    assert values == pytest.approx(values | expected)
+    assert panel.opening_direction == pytest.approx(-Y)
+    facts = PartFacts.of(panel, "door")
+    assert (facts.label, facts.size, facts.roundness) == ("door", pytest.approx(size), values["roundness"])

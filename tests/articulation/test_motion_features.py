@@ -12,8 +12,6 @@ from anymesh.articulation.evidence import sweep_candidates, swept, unswept
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.motion_classifier import PartMotionScores, likeliest
 from anymesh.articulation.motion_features import MISSING, SWEPT_FEATURES, motion_features, unswept_features
-from anymesh.articulation.motion_question import PartFacts
-from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.rank_motions import rank_motions
 from anymesh.config import Config
 from anymesh.motion.part_context import PartContext
@@ -25,26 +23,26 @@ LEFT_EDGE = Motion(JointType.REVOLUTE, Z, np.array([0.002, -0.012, 0.4]), "left 
 OUT = Motion(JointType.PRISMATIC, -Y, np.zeros(3), "out")
 
 
-def context_of(scene: Scene, T: np.ndarray | None = None) -> tuple[PartContext, PartFacts]:
-    """Return the scene's only part among the rest of the object, and its facts."""
+def context_of(scene: Scene, T: np.ndarray | None = None) -> PartContext:
+    """Return the scene's only part among the rest of the object."""
     mesh, segmentation = built(scene)
     whole = object_shape(mesh if T is None else mesh.transformed(T), 0, labels=segmentation.face_part)
     (only,) = make_cases(whole, segmentation, None, Config())
-    return only.around, part_facts(only.around, "it", "part", two_pivot=False)
+    return only.around
 
 
 def features(scene: Scene, motion: Motion, role: str = "edge", T: np.ndarray | None = None) -> list[dict[str, float]]:
     """Return the features of a motion of the scene's only part, opening along its axis and against it."""
-    around, facts = context_of(scene, T)
-    return motion_features(around, facts, sweep_candidates(around, [(role, motion)]))
+    around = context_of(scene, T)
+    return motion_features(around, sweep_candidates(around, [(role, motion)]))
 
 
 def test_what_needs_no_sweep_is_the_same_to_both_sides() -> None:
-    around, facts = context_of(door("right"))
+    around = context_of(door("right"))
     for motion in (LEFT_EDGE, OUT):
         proposed = [("edge" if motion is LEFT_EDGE else "slide", motion)]
-        (still,) = unswept_features(around, facts, unswept(around, proposed))
-        ways = motion_features(around, facts, sweep_candidates(around, proposed))
+        (still,) = unswept_features(around, unswept(around, proposed))
+        ways = motion_features(around, sweep_candidates(around, proposed))
         for way in ways:
             assert {name: way[name] for name in way if name not in SWEPT_FEATURES} == still
         assert set(ways[0]) == set(still) | set(SWEPT_FEATURES)
@@ -52,14 +50,16 @@ def test_what_needs_no_sweep_is_the_same_to_both_sides() -> None:
 
 @pytest.mark.parametrize("scene", [door("left"), door("right"), lid(), drawer(), wheel()])
 def test_the_likeliest_motions_are_chosen_before_any_is_swept(scene: Scene) -> None:
-    around, facts = context_of(scene)
+    around = context_of(scene)
     motions = unswept(around, propose(around))
-    few = likeliest(around, facts, motions, 8)
-    assert [c for c in motions if c in few] == few
+    rest = unswept_features(around, motions)
+    few = likeliest(rest, 8)
+    assert sorted(set(few)) == few.tolist()
     assert len(few) == 8 < len(motions)
-    assert likeliest(around, facts, motions, len(motions)) == list(motions)
-    assert {id(c) for c in likeliest(around, facts, motions, 3)} < {id(c) for c in few}
-    full, chosen = (PartMotionScores(around, facts, swept(around, some)).question() for some in (motions, few))
+    assert likeliest(rest, len(motions)).tolist() == list(range(len(motions)))
+    assert set(likeliest(rest, 3)) < set(few)
+    some = [motions[k] for k in few]
+    full, chosen = (PartMotionScores(around, "part", swept(around, those)).question() for those in (motions, some))
     best, first = (question.candidates[rank_motions(question).ranking[0]].motion for question in (full, chosen))
     assert best is first
 

@@ -18,7 +18,6 @@ from trimesh.creation import cylinder
 
 from anymesh.articulation.barrels import find_barrel_candidates
 from anymesh.articulation.contact_metrics import contact_retention, hinge_support, lever_arm
-from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_features import MISSING
 from anymesh.segmentation.divide import object_shape
 
@@ -82,10 +81,10 @@ def test_the_hinge_line_of_a_door() -> None:
 
 @pytest.mark.parametrize(("z", "above"), [(0.002, -1.0), (0.599, 0.5), (0.798, 1.0), (0.9, 1.0)])
 def test_a_line_across_a_door_is_at_a_height_of_it(z: float, above: float) -> None:
-    (c, _) = sweep_candidates(context(door("right")["leaf"], door("right")["base"]), [("edge", turn(X, (0.3, -0.012, z)))])
-    assert c.above == pytest.approx(above, abs=1e-6)
-    assert c.handle_off == pytest.approx((0.5625 - 0.3) / 0.298, abs=0.02)
-    assert c.vertical == 0
+    (found, _) = features(door("right"), turn(X, (0.3, -0.012, z)))
+    assert found["above"] == pytest.approx(above, abs=1e-6)
+    assert found["handle off the hinge's middle"] == pytest.approx((0.5625 - 0.3) / 0.298, abs=0.02)
+    assert found["vertical"] == 0
 
 
 def test_a_drawer_that_slides_out() -> None:

@@ -37,7 +37,7 @@ def at(x: float, **changes) -> Candidate:
 
 
 SPREAD = [at(x) for x in (0.0, 0.6, 0.3, 0.15, 0.45)]  # all look different
-LEVEL = [replace(EDGE, motion=turn(X, (0, -0.012, z)), vertical=0.0) for z in (0.0, 0.8)]
+LEVEL = [replace(EDGE, motion=turn(X, (0, -0.012, z))) for z in (0.0, 0.8)]
 
 
 def offered(

@@ -70,11 +70,12 @@ def test_the_copies_of_a_part_are_the_others_of_its_row(monkeypatch: pytest.Monk
     question = PartMotionScores.question
 
     def recorded(motions: PartMotionScores, copies: Sequence[PartMotionScores] = ()) -> MotionQuestion:
-        copies_of[motions.facts.name] = [copy.facts.name for copy in copies]
+        copies_of[motions.facts.label] = [copy.facts.label for copy in copies]
         return question(motions, copies)
 
     monkeypatch.setattr(PartMotionScores, "question", recorded)
     mesh, segmentation = built({**pair("both"), "back": [box((0.002, 0.402, 0.002), (0.299, 0.422, 0.798))]})
+    segmentation = replace(segmentation, parts=tuple(replace(part, label=part.name) for part in segmentation.parts))
     whole = object_shape(mesh, 0, labels=segmentation.face_part)
     assert len(list(estimate.motion_questions(whole, segmentation, Config()))) == 3
     assert copies_of == {"left": ["right"], "right": ["left"], "back": []}

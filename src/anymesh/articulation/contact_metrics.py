@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from jaxtyping import Float
 
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
@@ -16,13 +17,22 @@ CONTACT_RATIO = 0.008  # of the tolerance length: points closer to the parent ar
 RIM_RATIO = 0.15  # of the part's reach across a line: surface closer to the line is its rim
 
 
+def contact_tolerance(around: PartContext) -> float:
+    """Return the distance to the parent within which a point is in contact [m]; it grows with the gap of a part with none."""
+    return max(CONTACT_RATIO * around.tolerance_length, CONTACT_TOLERANCE_FACTOR * float(around.gap.min()))
+
+
+def contact_points(around: PartContext) -> Float[np.ndarray, "n 3"]:
+    """Return the part's samples in contact with the parent [m]."""
+    return around.part.samples.points[around.gap <= contact_tolerance(around)]
+
+
 def contact_retention(around: PartContext, motions: list[Motion], signs: list[int]) -> np.ndarray:
     """Return the share of the contact that stays near the parent at a small opening, one per motion.
 
     signs: sign of the opening, one per motion.
     """
-    tolerance = max(CONTACT_RATIO * around.tolerance_length, CONTACT_TOLERANCE_FACTOR * float(around.gap.min()))
-    contact = around.part.samples.points[around.gap <= tolerance]
+    contact = contact_points(around)
     if len(contact) < 3 or not motions:
         return np.zeros(len(motions))
     contact = contact[:: max(1, len(contact) // MAX_CONTACT_POINTS)]
@@ -33,7 +43,7 @@ def contact_retention(around: PartContext, motions: list[Motion], signs: list[in
         T = motion.transform(sign * amount)
         moved.append(contact @ T[:3, :3].T + T[:3, 3])
     off = around.parent.tree.distance(np.concatenate(moved))
-    return (off.reshape(len(motions), -1) < CONTACT_TOLERANCE_FACTOR * tolerance).mean(1)
+    return (off.reshape(len(motions), -1) < CONTACT_TOLERANCE_FACTOR * contact_tolerance(around)).mean(1)
 
 
 def hinge_support(around: PartContext, motions: list[Motion]) -> np.ndarray:
@@ -71,8 +81,7 @@ def lever_arm(around: PartContext, motion: Motion) -> tuple[float, float, float]
     off = motion.distance(points)
     reach = max(float(off.max()), 1e-9)
     length = max(float(np.ptp(points @ motion.axis)), 1e-9)
-    tolerance = max(CONTACT_RATIO * around.tolerance_length, CONTACT_TOLERANCE_FACTOR * float(around.gap.min()))
-    contact = off[around.gap <= tolerance]
+    contact = off[around.gap <= contact_tolerance(around)]
     proximity = 1 - float(np.median(contact)) / reach if len(contact) else 0.0
     normal = around.body_obb.axes[2]
     height = points @ normal

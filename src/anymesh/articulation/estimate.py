@@ -10,12 +10,12 @@ import numpy as np
 
 from anymesh.articulation.barrels import find_barrel_candidates
 from anymesh.articulation.closed_pose import away_from_closed
-from anymesh.articulation.evidence import swept, unswept
+from anymesh.articulation.evidence import sweep_candidates, swept, unswept
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
 from anymesh.articulation.motion_classifier import PartMotionScores, likeliest
+from anymesh.articulation.motion_features import swept_features, unswept_features
 from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion
-from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.rank_motions import rank_motions
 from anymesh.articulation.repeated_parts import in_a_row, same_size, share_opening_directions
 from anymesh.articulation.tree import descendants, parents
@@ -59,7 +59,7 @@ def motion_questions(
             [part_context(whole, label, shapes, parent, i, config.articulation) for i in numbers]
         )
         scored = [
-            _part_scores(a, parts[i].name, parts[i].label, _most_swept(config.articulation, deadline))
+            _part_scores(a, parts[i].label, _most_swept(config.articulation, deadline))
             for i, a in zip(numbers, arounds, strict=True)
         ]
         for i, around, motions in zip(numbers, arounds, scored, strict=True):
@@ -72,7 +72,7 @@ def relabelled(swept: Iterable[PartMotions], segmentation: Segmentation) -> list
     parts = segmentation.parts
 
     def named(question: MotionQuestion, i: int) -> MotionQuestion:
-        return replace(question, part=replace(question.part, name=parts[i].name, label=parts[i].label))
+        return replace(question, part=replace(question.part, label=parts[i].label))
 
     return [(i, over, around, named(question, i)) for i, over, around, question in swept]
 
@@ -89,7 +89,6 @@ def part_context(
     still = np.isin(label, line)
     moving = np.isin(label, carried)
     others = ~still & ~moving
-    center = whole.shape.bounds.mean(0)
     return PartContext(
         part=whole.of(np.flatnonzero(moving)),
         parent=shapes[parent[i]],
@@ -98,7 +97,7 @@ def part_context(
         everything=whole.of(np.flatnonzero(~moving)),
         barrel_candidates=find_barrel_candidates(whole, shapes[i], shapes[parent[i]]),
         diagonal=whole.diagonal,
-        center=center,
+        center=whole.shape.bounds.mean(0),
         config=config,
         siblings=tuple(shapes[k] for k in range(1, len(shapes)) if k not in carried and k not in line),
         link=shapes[i] if len(carried) > 1 else None,
@@ -111,18 +110,19 @@ def choose_motion(around: PartContext, question: MotionQuestion) -> tuple[Motion
     return answer, _clear_of_others(around, question.candidates[answer.ranking[0]], question.candidates)
 
 
-def motion_question(around: PartContext, name: str, label: str) -> MotionQuestion:
+def motion_question(around: PartContext, label: str) -> MotionQuestion:
     """Propose, sweep and score all motions of a part by itself."""
-    return _part_scores(around, name, label, None).question()
+    return PartMotionScores(around, label, sweep_candidates(around, propose(around))).question()
 
 
-def _part_scores(around: PartContext, name: str, label: str, most: int | None) -> PartMotionScores:
-    """Score the motions of a part: all, or only the `most` likeliest ones."""
-    proposed = propose(around)
-    facts = part_facts(around, name, label, any(role == "two_pivot" for role, _ in proposed))
-    motions = unswept(around, proposed)
-    likely = motions if most is None else likeliest(around, facts, motions, most)
-    return PartMotionScores(around, facts, swept(around, likely))
+def _part_scores(around: PartContext, label: str, most: int) -> PartMotionScores:
+    """Score the `most` motions of a part that are likeliest before any is swept."""
+    motions = unswept(around, propose(around))
+    rest = unswept_features(around, motions)
+    likely = likeliest(rest, most)
+    candidates = swept(around, [motions[k] for k in likely])
+    features = [rest[k] | way for k, way in zip(likely.repeat(2), swept_features(around, candidates), strict=True)]
+    return PartMotionScores(around, label, candidates, features)
 
 
 def _most_swept(config: ArticulationConfig, deadline: Deadline | None) -> int:

@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
+from jaxtyping import Float
 
-from anymesh.articulation.adjacent_panels import adjacent_sides, outer_side, overlap_gain, pair_side
-from anymesh.articulation.contact_metrics import contact_retention, hinge_support, lever_arm
+from anymesh.articulation.adjacent_panels import overlap_gain
+from anymesh.articulation.contact_metrics import contact_retention, hinge_support
 from anymesh.articulation.motion_question import Candidate, Proposal, Role
-from anymesh.config import ALONG_COSINE
 from anymesh.geometry.sweep import free_amounts, sweep_all
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion, Sweep
@@ -30,10 +30,9 @@ def sweep_candidates(around: PartContext, proposed: Sequence[Proposal]) -> tuple
 def unswept(around: PartContext, proposed: Sequence[Proposal]) -> tuple[Candidate, ...]:
     """Measure all motions without moving the part: return one candidate per motion, opening along its axis."""
     hinges = [m for _, m in proposed if m.kind is JointType.REVOLUTE]
-    support = iter(hinge_support(around, hinges))
-    adjacent = adjacent_sides(around)
+    supported = iter(hinge_support(around, hinges))
     return tuple(
-        _revolute(around, role, motion, next(support), adjacent)
+        _revolute(around, role, motion, next(supported))
         if motion.kind is JointType.REVOLUTE
         else _prismatic(around, role, motion)
         for role, motion in proposed
@@ -63,39 +62,24 @@ def _swept_hinge(c: Candidate, sweep: Sweep) -> Candidate:
 
 
 def _swept_slide(around: PartContext, c: Candidate, sweep: Sweep, guided: float) -> Candidate:
-    free = sweep.forward, sweep.backward
     return replace(
-        c, sweep=sweep, opening=free[0] / around.tolerance_length, closing=free[1] / around.tolerance_length, guided=guided,
-        captured=_captured(around, sweep), overlap_gain=overlap_gain(around, c.motion, free),
+        c, sweep=sweep, opening=sweep.forward / around.tolerance_length, closing=sweep.backward / around.tolerance_length,
+        guided=guided, captured=_captured(around, sweep),
+        overlap_gain=overlap_gain(around, c.motion, (sweep.forward, sweep.backward)),
     )  # fmt: skip
 
 
-def _revolute(around: PartContext, role: Role, motion: Motion, near: np.ndarray, adjacent: np.ndarray) -> Candidate:
+def _revolute(around: PartContext, role: Role, motion: Motion, near: Float[np.ndarray, " 3"]) -> Candidate:
     moves = np.cross(motion.axis, around.part.samples.middle - motion.origin)
     across = float(np.linalg.norm(moves))
-    reach, proximity, thick = lever_arm(around, motion)
+    outward = float(moves @ around.opening_direction) / across if across > 1e-9 else 0.0
+    support, sibling, opposite = map(float, near)
     return Candidate(
-        motion, UNSWEPT, role, 1, 0.0, 0.0,
-        hinge_support=float(near[0]),
-        sibling=float(near[1]),
-        handle_side=_handle_side(around, motion),
-        guided=0.0,
-        depth=0.0,
-        vertical=float(abs(motion.axis[2])),
-        above=_axis_height(around, motion),
-        captured=False,
-        outward=float(moves @ around.opening_direction) / across if across > 1e-9 else 0.0,
-        pair=pair_side(around, motion, adjacent),
-        outer=outer_side(around, motion),
-        handle_off=_handle_offset(around, motion),
-        support_opposite=float(near[2]),
-        reach=reach,
-        contact_proximity=proximity,
-        thick=thick,
-    )  # fmt: skip
+        motion, UNSWEPT, role, 1, 0.0, 0.0, outward, support, sibling, opposite, handle_side=_handle_side(around, motion)
+    )
 
 
-def _sides(around: PartContext, motion: Motion) -> np.ndarray:
+def sides(around: PartContext, motion: Motion) -> np.ndarray:
     """Return the (2, 3) unit directions across a slide, along the part's box where that is perpendicular."""
     flat = sorted(around.body_obb.axes, key=lambda a: abs(float(a @ motion.axis)))[:2]
     side = np.array([a - (a @ motion.axis) * motion.axis for a in flat])
@@ -104,7 +88,7 @@ def _sides(around: PartContext, motion: Motion) -> np.ndarray:
 
 def _guided_share(around: PartContext, prismatic: list[Motion]) -> list[float]:
     """Return the share of the four directions across each slide in which the part is stopped within GUIDE_STEP_RATIO."""
-    sideways = [Motion(JointType.PRISMATIC, d, m.origin, "sideways") for m in prismatic for d in _sides(around, m)]
+    sideways = [Motion(JointType.PRISMATIC, d, m.origin, "sideways") for m in prismatic for d in sides(around, m)]
     step = [GUIDE_STEP_RATIO * around.tolerance_length] * (2 * len(sideways))
     signs = [1] * len(sideways) + [-1] * len(sideways)
     free = free_amounts(around.obstacles_at_rest, sideways + sideways, signs, step, 3) if prismatic else []
@@ -113,25 +97,7 @@ def _guided_share(around: PartContext, prismatic: list[Motion]) -> list[float]:
 
 
 def _prismatic(around: PartContext, role: Role, motion: Motion) -> Candidate:
-    inner = around.depth_in_parent(motion.axis)
-    across = min(float(np.ptp(around.part.corners @ d)) for d in _sides(around, motion))
-    return Candidate(
-        motion, UNSWEPT, role, 1, 0.0, 0.0,
-        hinge_support=0.0,
-        sibling=0.0,
-        handle_side=0.0,
-        guided=0.0,
-        depth=float(inner / max(across, 1e-9)),
-        vertical=float(abs(motion.axis[2])),
-        above=0.0,
-        captured=False,
-        outward=float(motion.axis @ around.opening_direction),
-    )  # fmt: skip
-
-
-def _axis_height(around: PartContext, motion: Motion) -> float:
-    low, high = around.part.bounds[:, 2]
-    return float(np.clip(2 * (motion.origin[2] - low) / max(high - low, 1e-9) - 1, -1, 1))
+    return Candidate(motion, UNSWEPT, role, 1, 0.0, 0.0, outward=float(motion.axis @ around.opening_direction))
 
 
 def _captured(around: PartContext, sweep: Sweep) -> bool:
@@ -155,11 +121,3 @@ def _handle_side(around: PartContext, motion: Motion) -> float:
             across = handle.along is not None and around.face_axes[handle.along] == axis
             total -= float(np.clip(side, -1, 1)) * where * (CROSSWISE_HANDLE_WEIGHT if across else 1.0)
     return float(np.clip(total, -1, 1))
-
-
-def _handle_offset(around: PartContext, motion: Motion) -> float:
-    """Return the offset of the handle from the center of the hinge line (0..1): small for flaps, large for doors."""
-    if around.handle is None:
-        return 0.0
-    across = zip(around.face_axes, around.handle.across, strict=True)
-    return max((abs(w) for axis, w in across if abs(around.body_obb.axes[axis] @ motion.axis) > ALONG_COSINE), default=0.0)

@@ -34,7 +34,7 @@ def stays_free(
     part, if known.
     """
     alone, gained = _context(whole, config, without, part), _context(whole, config, joined, part)
-    question = motion_question(alone, "candidate", "part")
+    question = motion_question(alone, "part")
     best: dict[int, Candidate] = {}  # the better one of the two directions along each axis
     for k in rank_motions(question).ranking:
         best.setdefault(id(question.candidates[k].motion), question.candidates[k])

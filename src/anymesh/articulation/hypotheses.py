@@ -1,8 +1,8 @@
 """Candidate motions of a part. Joints are chosen among these and never regressed.
 
 From the paper (3.3): the line along the connecting area, the normal of its fitted plane, directions in that plane.
-Added here: edges, center lines and directions of the part's boxes, the axis of a round outline, the line through two far
-contacts, the axes of round surfaces in contact.
+Added here: edges, center lines and directions of the part's body OBB, the axis of a round outline, the line through two
+far contacts, the axes of round surfaces in contact.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ MIN_REVOLUTION = 0.25  # of the surfaces in contact: least share that turns in p
 SAME_CONTACT_DIRECTION, SAME_CONTACT_LINE = np.cos(np.deg2rad(2.0)), 0.008  # coarser, since these axes are fitted
 
 
-def _edges(box: OrientedBox, what: str) -> list[Proposal]:
+def _edges(box: OrientedBox) -> list[Proposal]:
     edges = []
     for k in range(3):
         i, j = (a for a in range(3) if a != k)
@@ -33,11 +33,11 @@ def _edges(box: OrientedBox, what: str) -> list[Proposal]:
                 local = np.zeros(3)
                 local[i], local[j] = si * box.half[i], sj * box.half[j]
                 origin = box.world(local[None])[0]
-                edges.append(("edge", Motion(JointType.REVOLUTE, box.axes[k], origin, f"edge of {what}")))
+                edges.append(("edge", Motion(JointType.REVOLUTE, box.axes[k], origin, "edge of the part")))
     return edges
 
 
-def _edge_middles(box: OrientedBox, what: str) -> list[Proposal]:
+def _edge_middles(box: OrientedBox) -> list[Proposal]:
     """Return the lines at half the thickness of a plate, along its four rims."""
     lines = []
     for k in range(2):
@@ -46,16 +46,16 @@ def _edge_middles(box: OrientedBox, what: str) -> list[Proposal]:
             local = np.zeros(3)
             local[other] = s * box.half[other]
             origin = box.world(local[None])[0]
-            lines.append(("edge_mid", Motion(JointType.REVOLUTE, box.axes[k], origin, f"rim of {what}")))
+            lines.append(("edge_mid", Motion(JointType.REVOLUTE, box.axes[k], origin, "rim of the part")))
     return lines
 
 
-def _through(box: OrientedBox, what: str) -> list[Proposal]:
-    return [("center", Motion(JointType.REVOLUTE, a, box.center, f"middle line of {what}")) for a in box.axes]
+def _through(box: OrientedBox) -> list[Proposal]:
+    return [("center", Motion(JointType.REVOLUTE, a, box.center, "middle line of the part")) for a in box.axes]
 
 
-def _box_directions(box: OrientedBox, what: str) -> list[Proposal]:
-    return [("slide", Motion(JointType.PRISMATIC, a, box.center, f"direction of {what}")) for a in box.axes]
+def _box_directions(box: OrientedBox) -> list[Proposal]:
+    return [("slide", Motion(JointType.PRISMATIC, a, box.center, "direction of the part")) for a in box.axes]
 
 
 def _principal(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -134,9 +134,9 @@ def contact_axes(around: PartContext) -> list[Proposal]:
 
 def propose(around: PartContext) -> list[Proposal]:
     """Propose all candidate motions of a part with their roles, without near-duplicates, in a fixed order."""
-    core, box = around.body_obb, around.part.box
-    candidates = _edges(core, "the part") + _edge_middles(core, "the part") + _through(core, "the part")
-    candidates += _box_directions(core, "the part")
+    core = around.body_obb
+    candidates = _edges(core) + _edge_middles(core) + _through(core)
+    candidates += _box_directions(core)
     candidates[:0] = barrels(around)
     outline = around.outline
     if outline.roundness > 0.5:
@@ -146,9 +146,6 @@ def propose(around: PartContext) -> list[Proposal]:
     line = two_pivot_line(around)
     if line is not None:
         candidates.insert(0, ("two_pivot", line))
-    if not np.allclose(box.half, core.half, rtol=0.02):
-        candidates += _edges(box, "the part's outer box")
-    candidates += _box_directions(OrientedBox(box.center, np.eye(3), box.half), "the object")
     candidates += _from_contact(around)
     return distinct(candidates + contact_axes(around), around.tolerance_length)
 

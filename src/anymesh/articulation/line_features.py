@@ -5,6 +5,9 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.articulation.adjacent_panels import outer_side, pair_side
+from anymesh.articulation.contact_metrics import lever_arm
+from anymesh.articulation.part_values import MAX_RATIO
 from anymesh.config import ALONG_COSINE
 from anymesh.geometry.revolution import share_in_place
 from anymesh.motion.part_context import PartContext
@@ -15,11 +18,15 @@ MAX_CENTRAL_RATIO = 0.2  # maximum distance of the center from an axis, over the
 MISFIT_ANGLES_RAD = np.deg2rad((60.0, 72.0, 90.0, 120.0, 180.0))
 MISFIT_POINTS = 60  # sample points of the part for the rotations
 SECTORS = 12  # angular sectors of a full turn
-MAX_RATIO = 4.0  # upper limit of ratios of lengths
 
 
-def line_features(around: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"]) -> dict[str, float]:
-    """Return the features of a hinge line. contact: (n, 3) the part's points in contact [m]."""
+def line_features(
+    around: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"], adjacent: Float[np.ndarray, "2 2"]
+) -> dict[str, float]:
+    """Return the features of a hinge line.
+
+    contact: (n, 3) the part's points in contact [m]; adjacent: as from `adjacent_sides`.
+    """
     core, points, axis = around.body_obb, around.part.samples.points, motion.axis
     local = np.abs(core.local(motion.origin[None])[0] / np.maximum(core.half, 1e-9))
     local = np.minimum(local, MAX_RATIO) * (np.abs(core.axes @ axis) < ALONG_COSINE)
@@ -27,6 +34,7 @@ def line_features(around: PartContext, motion: Motion, contact: Float[np.ndarray
     reach, length = max(float(off.max()), 1e-9), max(float(np.ptp(points @ axis)), 1e-9)
     balance = float(motion.distance(around.part.samples.middle[None])[0] / reach)
     outline = around.outline_about(axis)
+    log2_reach, proximity, thick = lever_arm(around, motion)
     low, high = around.parent.bounds
     beside = np.abs(np.minimum(motion.origin - low, high - motion.origin))[np.abs(axis) < ALONG_COSINE]
     return {
@@ -47,8 +55,20 @@ def line_features(around: PartContext, motion: Motion, contact: Float[np.ndarray
         "contact turns in place": share_in_place(around.contact_surfaces[0], axis, motion.origin),
         "off the parent's border": float(beside.min() / around.diagonal) if len(beside) else MISSING,
         "barrel near": float(any(motion.distance(b.box.center[None])[0] < 0.05 * reach for b in around.barrel_candidates)),
+        "log2 reach over length": log2_reach,
+        "contact proximity": proximity,
+        "thick at the line": thick,
+        "above": _height(around, motion),
+        "pair": pair_side(around, motion, adjacent),
+        "outer": outer_side(around, motion),
         **_handle_place(around, motion, reach),
     }  # fmt: skip
+
+
+def _height(around: PartContext, motion: Motion) -> float:
+    """Return the height of a line between the lowest (-1) and the highest (1) point of the part."""
+    low, high = around.part.bounds[:, 2]
+    return float(np.clip(2 * (motion.origin[2] - low) / max(high - low, 1e-9) - 1, -1, 1))
 
 
 def _misfit(around: PartContext, motion: Motion, reach: float) -> float:
@@ -71,16 +91,23 @@ def _coverage(points: Float[np.ndarray, "n 3"], motion: Motion) -> float:
 
 
 def _handle_place(around: PartContext, motion: Motion, reach: float) -> dict[str, float]:
-    """Return the distance of the handle from a line, over the part's reach, and whether a bar handle runs along it."""
+    """Return where the handle is relative to a line.
+
+    Its distance, over the part's reach; its offset from the middle of the line, 0..1: small for flaps, large for doors; and
+    whether a bar runs along the line.
+    """
     handle = around.handle
     if handle is None:
-        return {"handle distance": MISSING, "bar handle along": MISSING}
-    at, along = around.body_obb.center.copy(), MISSING
+        return {"handle distance": MISSING, "handle off the hinge's middle": 0.0, "bar handle along": MISSING}
+    core, bar, off = around.body_obb, MISSING, 0.0
+    at = core.center.copy()
     for axis, where in zip(around.face_axes, handle.across, strict=True):
-        at += where * around.body_obb.half[axis] * around.body_obb.axes[axis]
+        at += where * core.half[axis] * core.axes[axis]
+        off = max(off, abs(where)) if abs(core.axes[axis] @ motion.axis) > ALONG_COSINE else off
     if handle.along is not None:
-        along = abs(float(around.body_obb.axes[around.face_axes[handle.along]] @ motion.axis))
-    return {"handle distance": min(float(motion.distance(at[None])[0] / reach), MAX_RATIO), "bar handle along": along}
+        bar = abs(float(core.axes[around.face_axes[handle.along]] @ motion.axis))
+    distance = min(float(motion.distance(at[None])[0] / reach), MAX_RATIO)
+    return {"handle distance": distance, "handle off the hinge's middle": off, "bar handle along": bar}
 
 
 NO_LINE = dict.fromkeys(
@@ -88,7 +115,8 @@ NO_LINE = dict.fromkeys(
         "off along length", "off along width", "off along thickness", "off the part", "balance", "round about the axis",
         "circle off the axis", "rotational misfit", "contact along the line", "contact off the line",
         "contact middle off the line", "contact around the axis", "contact turns in place", "off the parent's border",
-        "barrel near", "handle distance", "bar handle along",
+        "barrel near", "log2 reach over length", "contact proximity", "thick at the line", "above", "pair", "outer",
+        "handle distance", "handle off the hinge's middle", "bar handle along",
     ),
     MISSING,
 )  # fmt: skip

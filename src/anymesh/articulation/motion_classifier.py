@@ -11,7 +11,7 @@ from functools import cache
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.articulation.motion_features import motion_features, unswept_features
+from anymesh.articulation.motion_features import Features, motion_features
 from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts
 from anymesh.articulation.repeated_parts import ScoredMotions, mean_over_copies
 from anymesh.motion.part_context import PartContext
@@ -19,12 +19,14 @@ from anymesh.scoring.classifier import Classifier
 
 
 class PartMotionScores:
-    """Motions of one part, with their features and the scores of the part by itself."""
+    """Motions of one part with the scores of the part by itself. features: as from `motion_features`, which computes them."""
 
-    def __init__(self, around: PartContext, facts: PartFacts, candidates: Sequence[Candidate]) -> None:
+    def __init__(
+        self, around: PartContext, label: str, candidates: Sequence[Candidate], features: Sequence[Features] | None = None
+    ) -> None:
         classifier = shipped_classifier()
-        self.facts, self.candidates = facts, tuple(candidates)
-        self.table = classifier.table(motion_features(around, facts, candidates))
+        self.facts, self.candidates = PartFacts.of(around, label), tuple(candidates)
+        self.table = classifier.table(features or motion_features(around, candidates))
         axes = np.array([c.motion.axis for c in candidates]).reshape(-1, 3)
         self.alone = ScoredMotions.of(classifier.names, self.table, axes, classifier.score(self.table))
 
@@ -41,23 +43,17 @@ class PartMotionScores:
         return reason
 
 
-def likeliest(around: PartContext, facts: PartFacts, candidates: Sequence[Candidate], most: int) -> list[Candidate]:
-    """Return at most `most` of the motions, the likeliest by features that need no sweep, in the given order."""
-    if len(candidates) <= most:
-        return list(candidates)
+def likeliest(features: Sequence[Features], most: int) -> Int[np.ndarray, " m"]:
+    """Return the indices of at most `most` motions, the likeliest by features that need no sweep, in ascending order."""
+    if len(features) <= most:
+        return np.arange(len(features))
     classifier = unswept_classifier()
-    score = classifier.score(classifier.table(unswept_features(around, facts, candidates)))
-    return [candidates[k] for k in likeliest_indices(score, most)]
+    return highest(classifier.score(classifier.table(features)), most)
 
 
-def likeliest_indices(score: Float[np.ndarray, " n"], most: int) -> Int[np.ndarray, " m"]:
+def highest(score: Float[np.ndarray, " n"], most: int) -> Int[np.ndarray, " m"]:
     """Return the indices of the highest scores, in ascending order."""
     return np.sort(np.argsort(-score, kind="stable")[:most])
-
-
-def score_motions(around: PartContext, facts: PartFacts, candidates: Sequence[Candidate]) -> Float[np.ndarray, " n"]:
-    """Return the log-odds of each motion of a part, without regard to its copies."""
-    return PartMotionScores(around, facts, candidates).alone.score
 
 
 @cache

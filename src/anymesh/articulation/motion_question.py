@@ -14,7 +14,8 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.config import ALONG_COSINE
-from anymesh.types import Handle, JointType, Motion, Sweep
+from anymesh.motion.part_context import PartContext
+from anymesh.types import JointType, Motion, Sweep
 
 MIN_FREE_ANGLE_RAD = float(np.deg2rad(12))  # [rad] a hinge that opens less is blocked
 MIN_FREE_TRAVEL_RATIO = 0.008  # of the tolerance length: a slide with less free travel is blocked
@@ -38,28 +39,19 @@ class SlideDirection(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class PartFacts:
-    """Geometric facts of one part. Lengths are relative to the object's diagonal unless stated otherwise."""
+    """What is known of a part whatever its motion.
 
-    name: str
-    label: str  # standard term, "part" if unknown
-    extents: tuple[float, float, float]  # of its body OBB, longest first
-    thinness: float  # shortest side / middle side of the body OBB
-    roundness: float  # 0..1, of its roundest outline
-    flatness: float  # height along that outline's axis over its radius
-    opening_direction: Float[np.ndarray, " 3"]  # unit
-    visibility: float  # 0..1, share of the part's surface that is visible along the opening direction
-    insertion_depth: float  # depth within the parent along the opening direction, over the smallest side across
-    size: float  # its diagonal over the object's
-    diagonal: float  # the object's [m]
-    handle: Handle | None
-    two_pivot: bool  # supported by two contacts far apart with free space between (a bucket handle)
-    tall: float  # log2 of its face's height over its width; 0 for a horizontal face
-    height: float  # 0..1, of its center within the object's height
-    back_contact: float  # 0..1, share of its back in contact with the parent
-    free_rim: float  # 0..1, for a round part: share of its rim with a free view outside, across its axis
-    # 0..1, for a round part: share of its rim near the parent, times the share of its back with an opening behind it
-    covers_opening: float
-    rotational_asymmetry: float = 1.0  # for a round part: distance from a body of revolution, over its radius
+    label: standard term, "part" if unknown; size: its diagonal [m]; roundness: of its roundest outline, 0..1.
+    """
+
+    label: str
+    size: float
+    roundness: float
+
+    @classmethod
+    def of(cls, around: PartContext, label: str) -> PartFacts:
+        """Return the facts of a part with this label."""
+        return cls(label, around.part.box.diagonal, around.outline.roundness)
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,24 +67,21 @@ class Candidate:
     opening_sign: int
     opening: float
     closing: float
-    hinge_support: float  # 0..1, share of the hinge line near the parent
-    sibling: float  # 0..1, share of the hinge line near another movable part
-    handle_side: float  # -1..1: 1 if the handle is opposite the hinge, 0 if there is no handle or it is level with the hinge
-    guided: float  # 0..1, for a slide: share of the sideways directions in which the part is guided
-    depth: float  # extent of the part along the slide that lies within the parent, over its smallest side across
-    vertical: float  # |axis . up|
-    above: float  # -1..1: position of the axis between the lowest (-1) and the highest (1) point of the part
-    captured: bool  # whether a slide is stopped in both directions, with free travel between
     outward: float  # cosine between the initial motion of the center and the opening direction of the part
-    pair: float = 0.0  # -1..1: 1 if a similar panel meets the part opposite the hinge, -1 if at the hinge
-    outer: float = 0.0  # -1..1: 1 if the hinge is at the object's outer side, -1 if towards its middle
-    handle_off: float = 0.0  # 0..1, offset of the handle from the center of the hinge's length
-    support_opposite: float = 0.0  # 0..1, as hinge_support, of the line at the part's other side, which is 0 for a free side
-    reach: float = 0.0  # log2 of the part's reach across the line over its length along it
-    contact_proximity: float = 0.0  # 0..1, proximity of the contact to the line
-    thick: float = 0.0  # 0..1, thickness at the line over the part's largest
-    contact_retention: float = 0.0  # 0..1, share of the contact that remains when the part opens slightly
+    hinge_support: float = 0.0  # 0..1, share of the hinge line near the parent
+    sibling: float = 0.0  # 0..1, share of the hinge line near another movable part
+    # 0..1, as hinge_support, of the line at the part's other side, which is 0 for a free side
+    support_opposite: float = 0.0
+    handle_side: float = 0.0  # -1..1: 1 if the handle is opposite the hinge, 0 if there is none or it is level with the hinge
+    guided: float = 0.0  # 0..1, for a slide: share of the sideways directions in which the part is guided
+    captured: bool = False  # whether a slide is stopped in both directions, with free travel between
     overlap_gain: float = 0.0  # 0..1, for a slide: gain in overlap with other surfaces
+    contact_retention: float = 0.0  # 0..1, share of the contact that remains when the part opens slightly
+
+    @property
+    def vertical(self) -> float:
+        """Return the cosine between the axis and the vertical, 0..1."""
+        return abs(float(self.motion.axis[2]))
 
     def reversed(self) -> Candidate:
         """Return the candidate that opens the other way."""

@@ -17,7 +17,6 @@ from anymesh.articulation.motion_classifier import PartMotionScores
 from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts, Proposal, SlideDirection
 from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.own_axes import CENTRAL, pivots
-from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.rank_motions import motion_scores
 from anymesh.types import JointType
 from anymesh.vlm.motion_choice import MotionTable
@@ -104,18 +103,17 @@ def scored_motions(case: PartCase) -> MotionQuestion:
     """
     around = case.around
     proposed = propose(around)
-    facts = part_facts(around, case.label, case.label, any(role == "two_pivot" for role, _ in proposed))
     circles: list[Proposal] = [("circle", motion) for motion in case.circles]
     proposed = distinct([*proposed, *circles, *pivots(around, case.shown.normal)], around.tolerance_length)
     first: list[Proposal] = [("asked", case.asked)] if case.asked is not None else []
-    question = PartMotionScores(around, facts, sweep_candidates(around, first + proposed)).question()
+    question = PartMotionScores(around, case.label, sweep_candidates(around, first + proposed)).question()
     scores, chosen = motion_scores(question), []
     for k in range(0, len(scores), 2):
         best, other = sorted((k, k + 1), key=lambda i: (not question.candidates[i].is_free, -scores[i]))
         c = question.candidates[other]
         chosen += [best] if c.is_endless or c.role == "asked" or not c.is_free else [best, other]
     return MotionQuestion(
-        facts,
+        question.part,
         tuple(question.candidates[k] for k in chosen),
         question.scores[chosen],
         lambda k: question.reason(chosen[k]),

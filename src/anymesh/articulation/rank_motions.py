@@ -72,7 +72,7 @@ def same_lines(part: PartFacts, candidates: Sequence[Candidate], best: int) -> B
     same = np.array([m.kind is motion.kind for m in motions])
     same &= np.abs(np.array([m.axis for m in motions]) @ motion.axis) >= SAME_AXIS_COSINE
     if motion.kind is JointType.REVOLUTE:
-        same &= motion.distance(np.array([m.origin for m in motions])) <= SAME_LINE * part.size * part.diagonal
+        same &= motion.distance(np.array([m.origin for m in motions])) <= SAME_LINE * part.size
     return same
 
 

@@ -6,10 +6,9 @@ from anymesh.articulation.answer_evidence import answered_confidence, answers_a_
 from anymesh.articulation.cases import PartCase
 from anymesh.articulation.decode import prismatic
 from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.motion_classifier import score_motions
+from anymesh.articulation.motion_classifier import PartMotionScores
 from anymesh.articulation.motion_question import SlideDirection
 from anymesh.articulation.offers import moves_as
-from anymesh.articulation.part_facts import part_facts
 from anymesh.articulation.verify import Choice, words
 from anymesh.types import JointType, Motion
 from anymesh.vlm.prompting import JointAppearance
@@ -44,7 +43,7 @@ def as_answered(case: PartCase) -> Choice:
     """Return the answered motion unchanged."""
     motion = case.asked or prismatic(case.around.opening_direction, case.around, "nothing moves")
     both = sweep_candidates(case.around, [("asked", motion)])
-    scores = score_motions(case.around, part_facts(case.around, case.label, case.label, two_pivot=False), both)
+    scores = PartMotionScores(case.around, case.label, both).alone.score
     best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is JointType.REVOLUTE else both[0]
     moves = case.recognized.moves if case.recognized else None
     answer = f"answered: {words(case.kind)}; {motion.source}"

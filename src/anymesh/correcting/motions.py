@@ -71,7 +71,7 @@ def ranked_motions(
     shapes = [whole.of(np.flatnonzero(label == k)) for k in range(len(names))]
     number = part_number(asset, part)
     around = part_context(whole, label, shapes, [hangs.get(n, -1) for n in names], number, settings.articulation)
-    question = motion_question(around, part, asset.segmentation.parts[number].label)
+    question = motion_question(around, asset.segmentation.parts[number].label)
     scores = motion_scores(question)
     free = [k for k in np.argsort(-scores, kind="stable") if question.candidates[k].is_free]
     total = float(np.exp(scores[free] - scores.max()).sum()) if free else 1.0

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any
@@ -42,7 +43,7 @@ class Classifier:
         networks = tuple(SetNetwork.from_arrays(f"{NETWORK}{k}", arrays) for k in range(count))
         return cls(BoostedTrees.from_arrays(TREES, arrays), networks, tuple(manifest["features"]), manifest)
 
-    def table(self, features: list[dict[str, float]]) -> Float[np.ndarray, "n k"]:
+    def table(self, features: Sequence[Mapping[str, float]]) -> Float[np.ndarray, "n k"]:
         """Return the features of all candidates in the order of columns."""
         return np.array([[row[name] for name in self.names] for row in features]).reshape(-1, len(self.names))
 
