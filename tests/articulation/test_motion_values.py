@@ -16,8 +16,10 @@ from scenes import door, drawer, lid, wheel
 from test_motion_features import LEFT_EDGE, OUT, features
 from trimesh.creation import cylinder
 
+from anymesh.articulation.adjacent_panels import adjacent_sides
 from anymesh.articulation.barrels import find_barrel_candidates
-from anymesh.articulation.contact_metrics import contact_retention, hinge_support, lever_arm
+from anymesh.articulation.contact_metrics import contact_points, contact_retention, hinge_support
+from anymesh.articulation.line_features import line_features
 from anymesh.articulation.motion_features import MISSING
 from anymesh.segmentation.divide import object_shape
 
@@ -176,12 +178,12 @@ def test_the_support_of_a_line_is_the_share_of_it_near_the_parent_or_another_par
 def test_the_lever_arm_of_a_plate_on_its_rim() -> None:
     """The plate is 0.5 m high, and as thick at its rim as at its largest; its contact is at the line."""
     around = context([box((0, 0, 0), (1, 0.02, 0.5))], [box((0, -0.2, -0.02), (1, 0.2, 0))])
-    reach, proximity, thick = lever_arm(around, turn(X, (0.3, 0.01, 0)))
-    assert reach == pytest.approx(np.log2(0.5 / 1), abs=0.02)
-    assert proximity == pytest.approx(0.98, abs=0.015)
-    assert thick == pytest.approx(1, abs=0.02)
-    far = lever_arm(around, turn(X, (0.3, 0.01, 0.5)))
-    assert far[1] == pytest.approx(0.01, abs=0.02)
+    lines = turn(X, (0.3, 0.01, 0)), turn(X, (0.3, 0.01, 0.5))
+    near, far = (line_features(around, line, contact_points(around), adjacent_sides(around)) for line in lines)
+    assert near["log2 reach over length"] == pytest.approx(np.log2(0.5 / 1), abs=0.02)
+    assert near["contact proximity"] == pytest.approx(0.98, abs=0.015)
+    assert near["thick at the line"] == pytest.approx(1, abs=0.02)
+    assert far["contact proximity"] == pytest.approx(0.01, abs=0.02)
 
 
 @pytest.mark.parametrize(("radius", "y", "found"), [(0.01, -0.02, True), (0.06, -0.02, False), (0.01, -0.3, False)])

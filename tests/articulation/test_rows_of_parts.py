@@ -83,6 +83,7 @@ def test_what_is_visible_does_not_depend_on_the_unit(scale: float) -> None:
     assert (out["visible ahead"], out["visible behind"]) == (1, pytest.approx(0, abs=0.1))
     assert (back["visible ahead"], back["visible behind"]) == (out["visible behind"], out["visible ahead"])
     assert out["two pivots"] == 0
+    assert all(way["two pivots"] == 1 for way in features(context([leaf], [case]), ("slide", slide(Z)), ("two_pivot", turn(X))))
     assert out["upwards"] == pytest.approx(0)
     (up, down) = features(context([leaf], [case]), ("slide", slide(Z)))
     assert (up["upwards"], down["upwards"]) == (1, -1)

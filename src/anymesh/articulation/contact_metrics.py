@@ -1,4 +1,4 @@
-"""Contact between a part and its parent during a motion: retention, hinge support, and lever arm."""
+"""Contact between a part and its parent during a motion: retention and hinge support."""
 
 from __future__ import annotations
 
@@ -14,7 +14,6 @@ WATCHED_ANGLE_RAD = np.deg2rad(30)  # [rad] opening of a hinge at which contact 
 WATCHED_TRAVEL_RATIO = 0.5  # travel of a slide at which contact is measured, relative to the part's extent along it
 CONTACT_TOLERANCE_FACTOR = 1.5  # contact is retained within this factor of its distance at rest
 CONTACT_RATIO = 0.008  # of the tolerance length: points closer to the parent are in contact
-RIM_RATIO = 0.15  # of the part's reach across a line: surface closer to the line is its rim
 
 
 def contact_tolerance(around: PartContext) -> float:
@@ -69,22 +68,3 @@ def hinge_support(around: PartContext, motions: list[Motion]) -> np.ndarray:
         near = around.others.tree.distance(probe) < reach
         other = near.reshape(len(motions), 2, LINE_POINTS).mean(2)[:, 0]
     return np.stack([parent[:, 0], other, parent[:, 1]], 1)
-
-
-def lever_arm(around: PartContext, motion: Motion) -> tuple[float, float, float]:
-    """Return three measures of a hinge line.
-
-    log2 of the part's reach across the line over its length along it; proximity of the contact to the line (0..1); thickness of
-    the part at the line over its largest (0..1), since thin edges are free ones.
-    """
-    points = around.part.samples.points
-    off = motion.distance(points)
-    reach = max(float(off.max()), 1e-9)
-    length = max(float(np.ptp(points @ motion.axis)), 1e-9)
-    contact = off[around.gap <= contact_tolerance(around)]
-    proximity = 1 - float(np.median(contact)) / reach if len(contact) else 0.0
-    normal = around.body_obb.axes[2]
-    height = points @ normal
-    rim = off < RIM_RATIO * reach
-    thick = float(np.ptp(height[rim])) / max(float(np.ptp(height)), 1e-9) if rim.sum() > 3 else 0.0
-    return float(np.log2(reach / length)), proximity, thick

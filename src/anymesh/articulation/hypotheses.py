@@ -135,8 +135,7 @@ def contact_axes(around: PartContext) -> list[Proposal]:
 def propose(around: PartContext) -> list[Proposal]:
     """Propose all candidate motions of a part with their roles, without near-duplicates, in a fixed order."""
     core = around.body_obb
-    candidates = _edges(core) + _edge_middles(core) + _through(core)
-    candidates += _box_directions(core)
+    candidates = _edges(core) + _edge_middles(core) + _through(core) + _box_directions(core)
     candidates[:0] = barrels(around)
     outline = around.outline
     if outline.roundness > 0.5:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from anymesh.articulation.adjacent_panels import outer_side, pair_side
-from anymesh.articulation.contact_metrics import lever_arm
 from anymesh.articulation.part_values import MAX_RATIO
 from anymesh.config import ALONG_COSINE
 from anymesh.geometry.revolution import share_in_place
@@ -15,6 +14,7 @@ from anymesh.scoring.classifier import MISSING
 from anymesh.types import Motion
 
 MAX_CENTRAL_RATIO = 0.2  # maximum distance of the center from an axis, over the reach, of a rotation about its own center
+RIM_RATIO = 0.15  # of the part's reach across a line: surface closer to the line is its rim
 MISFIT_ANGLES_RAD = np.deg2rad((60.0, 72.0, 90.0, 120.0, 180.0))
 MISFIT_POINTS = 60  # sample points of the part for the rotations
 SECTORS = 12  # angular sectors of a full turn
@@ -34,7 +34,7 @@ def line_features(
     reach, length = max(float(off.max()), 1e-9), max(float(np.ptp(points @ axis)), 1e-9)
     balance = float(motion.distance(around.part.samples.middle[None])[0] / reach)
     outline = around.outline_about(axis)
-    log2_reach, proximity, thick = lever_arm(around, motion)
+    held = motion.distance(contact)
     low, high = around.parent.bounds
     beside = np.abs(np.minimum(motion.origin - low, high - motion.origin))[np.abs(axis) < ALONG_COSINE]
     return {
@@ -49,20 +49,26 @@ def line_features(
         ),
         "rotational misfit": _misfit(around, motion, reach) if balance < MAX_CENTRAL_RATIO else MISSING,
         "contact along the line": float(np.clip(np.ptp(contact @ axis) / length, 0, 1)),
-        "contact off the line": float(motion.distance(contact).mean() / reach),
+        "contact off the line": float(held.mean() / reach),
         "contact middle off the line": float(motion.distance(contact.mean(0)[None])[0] / reach),
         "contact around the axis": _coverage(contact, motion),
         "contact turns in place": share_in_place(around.contact_surfaces[0], axis, motion.origin),
         "off the parent's border": float(beside.min() / around.diagonal) if len(beside) else MISSING,
         "barrel near": float(any(motion.distance(b.box.center[None])[0] < 0.05 * reach for b in around.barrel_candidates)),
-        "log2 reach over length": log2_reach,
-        "contact proximity": proximity,
-        "thick at the line": thick,
+        "log2 reach over length": float(np.log2(reach / length)),
+        "contact proximity": 1 - float(np.median(held)) / reach,
+        "thick at the line": _thickness(around, off < RIM_RATIO * reach),
         "above": _height(around, motion),
         "pair": pair_side(around, motion, adjacent),
         "outer": outer_side(around, motion),
         **_handle_place(around, motion, reach),
     }  # fmt: skip
+
+
+def _thickness(around: PartContext, rim: Bool[np.ndarray, " n"]) -> float:
+    """Return the thickness of the part at a line over its largest, 0..1: thin edges are free ones. rim: samples at the line."""
+    height = around.part.samples.points @ around.body_obb.axes[2]
+    return float(np.ptp(height[rim])) / max(float(np.ptp(height)), 1e-9) if rim.sum() > 3 else 0.0
 
 
 def _height(around: PartContext, motion: Motion) -> float:

@@ -32,7 +32,10 @@ Features = dict[str, float]
 
 
 def unswept_features(around: PartContext, candidates: Sequence[Candidate]) -> list[Features]:
-    """Return the features that need no sweep and are the same for both opening directions of a motion."""
+    """Return the features that need no sweep and are the same for both opening directions of a motion.
+
+    candidates: all motions proposed for the part, one each.
+    """
     contact = contact_points(around)
     two_pivots = any(c.role == "two_pivot" for c in candidates)
     part, adjacent = part_values(around, contact) | {"two pivots": float(two_pivots)}, adjacent_sides(around)
