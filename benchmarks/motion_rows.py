@@ -88,7 +88,7 @@ def rows_of(sample: EvalSample, source: str, form: str = "") -> list[MotionRows]
             np.array([[row[n] for n in names] for row in rows], np.float32),
             np.array([m.axis for m in motions]),
             np.array([how_right(joint, m, center, sample.unit) for m in motions]),
-            np.array([_opens_right(joint, c.motion.axis * c.opening_sign) for c in question.candidates]),
+            np.array([opens_right(joint, c.motion.axis * c.opening_sign) for c in question.candidates]),
             np.array([same_joints(question.part, question.candidates, k) for k in range(len(motions))]),
             np.array([c.is_free for c in question.candidates]),
         ))  # fmt: skip
@@ -117,7 +117,7 @@ def how_right(true: TrueJoint, motion: Motion, center: np.ndarray, unit: float) 
     return float(np.exp(-((off / NEAR) ** 2 + (angle / NEAR_ANGLE) ** 2) / 2)) + 1e-3
 
 
-def _opens_right(true: TrueJoint, axis: np.ndarray) -> int:
+def opens_right(true: TrueJoint, axis: np.ndarray) -> int:
     if not true.range_known or opens_both_ways(true.limits):
         return -1
     return int(opening_side(true.limits) * float(axis @ true.axis) > 0)

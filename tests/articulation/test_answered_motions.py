@@ -238,7 +238,7 @@ def test_after_the_deadline_the_likeliest_motions_are_swept_alone() -> None:
 
 
 @pytest.mark.parametrize(
-    ("low", "high", "free"), [((0.1, 0, 0.1), (0.5, 0.3, 0.7), False), ((0.1, -0.06, 0.1), (0.5, -0.022, 0.2), True)]
+    ("low", "high", "free"), [((0.02, 0, 0.02), (0.58, 0.38, 0.78), False), ((0.1, -0.06, 0.1), (0.5, -0.022, 0.2), True)]
 )
 def test_a_part_stays_free_with_what_does_not_stop_it(low: tuple, high: tuple, free: bool) -> None:
     """A door gains a piece that reaches into its case, or one on its front."""

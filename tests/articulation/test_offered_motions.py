@@ -182,7 +182,7 @@ def test_a_slide_between_stops_moves_by_a_quarter_of_its_size(room: float, captu
     assert c.captured == captured
 
 
-@pytest.mark.parametrize("overlap", [0.0, 0.006, 0.05])
+@pytest.mark.parametrize("overlap", [0.0, 0.003])
 def test_a_hinge_is_free_where_the_part_only_leaves_a_post_that_it_overlaps(overlap: float) -> None:
     post = box((-0.1, -0.5, 0), (overlap, 0.5, 0.8))
     around = context([box((0, -0.022, 0), (0.6, -0.002, 0.8))], [box((-0.1, 0.0, 0), (0.6, 0.4, 0.8)), post])

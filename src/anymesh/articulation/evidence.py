@@ -16,6 +16,7 @@ from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion, Sweep
 
 CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of the side of a bar handle that runs across the line
+MIN_ARM_RATIO = 0.05  # of the part's diagonal: nearer to its center, a rotation has no direction
 GUIDE_STEP_RATIO = 0.02  # of the tolerance length: a slide is guided if a sideways step of this length is blocked
 
 
@@ -69,10 +70,19 @@ def _swept_slide(around: PartContext, c: Candidate, sweep: Sweep, guided: float)
     )  # fmt: skip
 
 
-def _revolute(around: PartContext, role: Role, motion: Motion, near: Float[np.ndarray, " 3"]) -> Candidate:
+def initial_direction(around: PartContext, motion: Motion) -> Float[np.ndarray, " 3"]:
+    """Return the direction in which the part's center begins to move along a motion, unit.
+
+    It is shorter for a rotation nearly about the center, whose direction is chance, and 0 for one about the center.
+    """
+    if motion.kind is JointType.PRISMATIC:
+        return motion.axis
     moves = np.cross(motion.axis, around.part.samples.middle - motion.origin)
-    across = float(np.linalg.norm(moves))
-    outward = float(moves @ around.opening_direction) / across if across > 1e-9 else 0.0
+    return moves / max(float(np.linalg.norm(moves)), MIN_ARM_RATIO * around.part.box.diagonal, 1e-300)
+
+
+def _revolute(around: PartContext, role: Role, motion: Motion, near: Float[np.ndarray, " 3"]) -> Candidate:
+    outward = float(initial_direction(around, motion) @ around.opening_direction)
     support, sibling, opposite = map(float, near)
     return Candidate(
         motion, UNSWEPT, role, 1, 0.0, 0.0, outward, support, sibling, opposite, handle_side=_handle_side(around, motion)

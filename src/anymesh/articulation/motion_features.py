@@ -13,7 +13,7 @@ from jaxtyping import Float
 
 from anymesh.articulation.adjacent_panels import adjacent_sides
 from anymesh.articulation.contact_metrics import contact_points
-from anymesh.articulation.evidence import sides
+from anymesh.articulation.evidence import initial_direction, sides
 from anymesh.articulation.line_features import NO_LINE, line_features
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.part_values import MAX_RATIO, part_values
@@ -44,12 +44,12 @@ def unswept_features(around: PartContext, candidates: Sequence[Candidate]) -> li
 
 def swept_features(around: PartContext, candidates: Sequence[Candidate]) -> list[Features]:
     """Return the features of the sweep and of the opening direction of each swept candidate."""
-    ways = np.array([_opening_direction(around, c) for c in candidates]).reshape(-1, 3)
-    ahead, behind = _visible(around, ways), _visible(around, -ways)
+    ways = np.array([c.opening_sign * initial_direction(around, c.motion) for c in candidates]).reshape(-1, 3)
+    ahead, behind = _visible_both_ways(around, ways)
     away = ways @ (around.part.samples.middle - around.center) / around.diagonal
     return [
-        _swept(around, c) | {"visible ahead": float(a), "visible behind": float(b), "away from the middle": float(m)}
-        for c, a, b, m in zip(candidates, ahead, behind, away, strict=True)
+        _swept(around, c, way) | {"visible ahead": float(a), "visible behind": float(b), "away from the middle": float(m)}
+        for c, way, a, b, m in zip(candidates, ways, ahead, behind, away, strict=True)
     ]
 
 
@@ -59,13 +59,15 @@ def motion_features(around: PartContext, candidates: Sequence[Candidate]) -> lis
     return [rest[k // 2] | way for k, way in enumerate(swept_features(around, candidates))]
 
 
-def _opening_direction(around: PartContext, c: Candidate) -> Float[np.ndarray, " 3"]:
-    """Return the initial unit direction of the part's center; meaningless for a rotation about the center."""
-    axis = c.opening_sign * c.motion.axis
-    if c.motion.kind is JointType.PRISMATIC:
-        return axis
-    moves = np.cross(axis, around.part.samples.middle - c.motion.origin)
-    return moves / max(float(np.linalg.norm(moves)), 1e-9)
+def _visible_both_ways(
+    around: PartContext, ways: Float[np.ndarray, "h 3"]
+) -> tuple[Float[np.ndarray, " h"], Float[np.ndarray, " h"]]:
+    """Return the visible shares of the part ahead and behind; their mean for a motion without a direction."""
+    length = np.linalg.norm(ways, axis=1)
+    unit = np.where(length[:, None] > 0, ways / np.maximum(length, 1e-300)[:, None], [0.0, 0.0, 1.0])
+    ahead, behind = _visible(around, unit), _visible(around, -unit)
+    mean, half = (ahead + behind) / 2, length * (ahead - behind) / 2
+    return mean + half, mean - half
 
 
 def _visible(around: PartContext, ways: Float[np.ndarray, "h 3"]) -> Float[np.ndarray, " h"]:
@@ -106,7 +108,7 @@ def _inserted(around: PartContext, c: Candidate) -> float:
     return min(around.depth_in_parent(c.motion.axis) / max(across, 1e-9), MAX_RATIO)
 
 
-def _swept(around: PartContext, c: Candidate) -> Features:
+def _swept(around: PartContext, c: Candidate, way: Float[np.ndarray, " 3"]) -> Features:
     slides, axis = c.motion.kind is JointType.PRISMATIC, c.motion.axis
     unit = max(around.part.box.diagonal / around.tolerance_length if slides else np.pi, 1e-9)
     extent = float(np.ptp(around.part.corners @ axis)) / around.tolerance_length
@@ -123,12 +125,6 @@ def _swept(around: PartContext, c: Candidate) -> Features:
         "free both ways": min(c.opening, c.closing) / unit,
         "outward": c.outward,
         "contact retention": c.contact_retention,
-        "initial slope": MISSING if slides else _rises(around, c),
+        "initial slope": MISSING if slides else float(way[2]),
         **(slide if slides else dict.fromkeys(slide, MISSING)),
     }
-
-
-def _rises(around: PartContext, c: Candidate) -> float:
-    """Return the sine of the initial slope of the center's motion; negative if it goes down."""
-    moves = c.opening_sign * np.cross(c.motion.axis, around.part.samples.middle - c.motion.origin)
-    return float(moves[2] / max(float(np.linalg.norm(moves)), 1e-9))

@@ -6,13 +6,13 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.config import ALONG_COSINE
+from anymesh.geometry.circles import MIN_ROUNDNESS
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 
 # [deg] rotations about its axis; a body of revolution looks the same after all of them
 ASYMMETRY_ANGLES_DEG = (37, 90, 141, 200, 285)
 MAX_RATIO = 4.0  # upper limit of ratios of lengths
-MIN_ROUNDNESS = 0.5  # minimum roundness of the outline of a round part
 MAX_FLATNESS = 8.0  # upper limit of height over radius
 MIN_LEVEL_COSINE = 0.8  # minimum cosine between the vertical and the normal of a level face, which has no height over width
 
@@ -49,7 +49,7 @@ def part_values(around: PartContext, contact: Float[np.ndarray, "n 3"]) -> dict[
         "contact share": float(len(contact) / len(around.gap)),
         "contact length": float(spread[0] / max(around.part.box.diagonal, 1e-12)),
         "contact width": float(spread[1] / max(around.part.box.diagonal, 1e-12)),
-        "log10 gap": float(np.log10(max(float(around.gap.min()) / around.diagonal, 1e-5))),
+        "log10 gap": float(np.log10(max(float(around.gap.min()) / around.diagonal, 1e-4))),
         "parts": float(np.log1p(len(around.siblings))),
         "object height": float(np.clip(extent[2] / extent[:2].max(), 0, MAX_RATIO)),
         "solid": float(around.part.solid @ around.part.areas / max(around.part.area, 1e-300)),

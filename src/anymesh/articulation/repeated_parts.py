@@ -15,7 +15,7 @@ from anymesh.config import SAME_AXIS_COSINE
 from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.boxes import same_box
 from anymesh.geometry.triangle_set import TriangleSet
-from anymesh.motion.part_context import PartContext
+from anymesh.motion.part_context import PartContext, best_direction
 
 # maximum component of the offset along the opening direction, over its length, between parts in a row
 MAX_ROW_OFFSET_RATIO = 0.25
@@ -62,7 +62,7 @@ def _with_row_direction(around: PartContext, row: list[PartContext]) -> PartCont
     for other in row[1:]:
         theirs, weights = other.opening_directions
         total = total + weights[(ways @ theirs.T).argmax(1)]
-    best = np.where(beside, total, -np.inf).argmax()
+    best = best_direction(np.where(beside, total / len(row), -np.inf))
     return around if (ways[best] == around.opening_direction).all() else replace(around, shared_opening_direction=ways[best])
 
 

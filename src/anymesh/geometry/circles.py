@@ -8,6 +8,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 BINS = 36
+MIN_ROUNDNESS = 0.5  # minimum roundness of the outline of a round part
+CHANCE_ROUNDNESS = 0.25  # maximum roundness of the outlines of plates and boxes, of which the roundest is chance
 ROUND = 0.06  # maximum deviation of a bin's outline radius, relative to the median
 
 
@@ -74,6 +76,7 @@ def _last_per_bin(bin_of: Int[np.ndarray, " n"], key: Float[np.ndarray, " n"]) -
 
 
 def roundest(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "k 3"]) -> Outline:
-    """Return the roundest outline among those along the given axes; the first one at a tie."""
+    """Return the roundest outline among those along the given axes; the first one at a tie, and if none is at all round."""
     outlines = [outline_about(points, axis) for axis in axes]
-    return max(outlines, key=lambda o: o.roundness)
+    best = max(outlines, key=lambda o: o.roundness)
+    return best if best.roundness > CHANCE_ROUNDNESS else outlines[0]

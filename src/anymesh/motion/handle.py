@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from jaxtyping import Float
 from scipy.spatial import KDTree
@@ -9,6 +11,7 @@ from scipy.spatial import KDTree
 from anymesh.config import FACING_COSINE
 from anymesh.geometry.body_obb import MAX_PROTRUSION_RATIO
 from anymesh.geometry.boxes import OrientedBox
+from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import Handle
@@ -18,8 +21,10 @@ MAX_HANDLE_GROUPS = 2  # maximum number of separate protrusions of one handle
 # of the handle's height: maximum height of the face around a handle; around the top of a bulge it is higher
 MAX_BULGE_RATIO = 0.25
 MIN_HANDLE_GAP_RATIO = 0.002  # of the tolerance length: a protrusion closer to the parent supports the part and is no handle
-MIN_HANDLE_ASPECT = 0.3  # minimum height of a handle over its smaller width
+MIN_HANDLE_ASPECT = 0.25  # minimum height of a handle over its smaller width
 MIN_HANDLE_HEIGHT_RATIO = 0.012  # minimum height of a handle over the part's diagonal
+MAX_COVERED_SHARE = 0.45  # maximum share of the part's surface in a handle on its face
+GAP_POINTS = 200  # sample points of a protrusion whose distance to the parent is measured
 
 
 def face_axes(box: OrientedBox, opening_direction: Float[np.ndarray, " 3"]) -> list[int]:
@@ -33,67 +38,94 @@ def _outward_axis(box: OrientedBox, opening_direction: np.ndarray) -> int:
 
 
 def find_handle(
-    part: TriangleSet,
-    core: OrientedBox,
-    gap: Float[np.ndarray, " n"],
-    scale: float,
-    opening_direction: Float[np.ndarray, " 3"],
+    part: TriangleSet, core: OrientedBox, parent: TriangleTree, scale: float, opening_direction: Float[np.ndarray, " 3"]
 ) -> Handle | None:
     """Find the handle of a part, None if it has none.
 
     It must be small compared to the face, higher than a raised panel, and in one or two places (a wide drawer has two
     knobs). More protrusions are controls.
 
-    core: box of the part without protrusions; gap: distance of each sample of the part to its parent [m]; scale: reference
-    length of tolerances [m].
+    core: box of the part without protrusions; scale: reference length of tolerances [m].
     """
-    return _face_handle(part, core, gap, scale, opening_direction) or _tab(part, core, gap, scale, opening_direction)
+    return _face_handle(part, core, parent, scale, opening_direction) or _tab(part, core, parent, scale, opening_direction)
 
 
-def _tab(part: TriangleSet, core: OrientedBox, gap: np.ndarray, scale: float, opening_direction: np.ndarray) -> Handle | None:
-    face = face_axes(core, opening_direction)
-    local = core.local(part.samples.points)
+@dataclass(frozen=True, eq=False)
+class _Protrusion:
+    """What lies beyond a level of a part's box.
+
+    points: (n, 3) samples in the box frame [m]; share: of the part's surface; gap: distances of some samples to the parent [m];
+    spacing: mean distance of neighbouring samples [m].
+    """
+
+    points: Float[np.ndarray, "n 3"]
+    share: float
+    gap: Float[np.ndarray, " m"]
+    spacing: float
+
+
+def _height(part: TriangleSet, core: OrientedBox, axis: int, sign: float) -> Float[np.ndarray, " F"]:
+    """Return how far each face extends beyond a side of the box [m]."""
+    return (sign * core.local(part.triangles.reshape(-1, 3))[:, axis] - core.half[axis]).reshape(-1, 3).max(1)
+
+
+def _beyond(
+    part: TriangleSet, core: OrientedBox, parent: TriangleTree, axis: int, sign: float, level: float
+) -> _Protrusion | None:
+    """Return what extends further than `level` beyond a side of the box, None for nothing.
+
+    Only the faces that do so are sampled, since few of the part's samples lie on a small knob.
+    """
+    faces = np.flatnonzero(_height(part, core, axis, sign) > level)
+    if not len(faces):
+        return None
+    some = part.take(faces)
+    local = core.local(some.samples.points)
+    out = np.flatnonzero(sign * local[:, axis] - core.half[axis] > level)
+    if not len(out):
+        return None
+    few = out[:: max(1, len(out) // GAP_POINTS)]
+    share = some.area * len(out) / len(local) / max(part.area, 1e-300)
+    return _Protrusion(local[out], share, parent.distance(some.samples.points[few]), float(np.sqrt(some.area / len(local))))
+
+
+def _tab(
+    part: TriangleSet, core: OrientedBox, parent: TriangleTree, scale: float, opening_direction: np.ndarray
+) -> Handle | None:
+    face, least = face_axes(core, opening_direction), MIN_HANDLE_HEIGHT_RATIO * core.diagonal
     tabs = []
     for row, k in enumerate(face):
         for sign in (-1.0, 1.0):
-            out = sign * local[:, k] > core.half[k] + MIN_HANDLE_HEIGHT_RATIO * core.diagonal
-            if out.sum() < 3 or out.mean() > MAX_PROTRUSION_RATIO or float(np.median(gap[out])) < MIN_TAB_GAP_RATIO * scale:
+            out = _beyond(part, core, parent, k, sign, least)
+            if out is None or out.share > MAX_PROTRUSION_RATIO or float(np.median(out.gap)) < MIN_TAB_GAP_RATIO * scale:
                 continue
-            along, half = local[out][:, face[1 - row]], max(float(core.half[face[1 - row]]), 1e-9)
+            along, half = out.points[:, face[1 - row]], max(float(core.half[face[1 - row]]), 1e-9)
             if np.ptp(along) < half:  # at most half of the rim; a wider one is a ledge
                 tabs.append((row, sign, float(along.mean()) / half, out))
     if len(tabs) != 1:
         return None
     row, sign, level, out = tabs[0]
     across = [sign, float(np.clip(level, -1, 1))]
-    size = float(np.ptp(local[out][:, face], axis=0).max() / core.diagonal)
+    size = float(np.ptp(out.points[:, face], axis=0).max() / core.diagonal)
     return Handle((across[0], across[1]) if row == 0 else (across[1], across[0]), None, size)
 
 
 def _face_handle(
-    part: TriangleSet, core: OrientedBox, gap: np.ndarray, scale: float, opening_direction: np.ndarray
+    part: TriangleSet, core: OrientedBox, parent: TriangleTree, scale: float, opening_direction: np.ndarray
 ) -> Handle | None:
-    k = _outward_axis(core, opening_direction)
-    sign = np.sign(core.axes[k] @ opening_direction)
-    local = core.local(part.samples.points)
-    above = sign * local[:, k] - core.half[k]
-    height = float(above.max())
-    out = above > max(MIN_HANDLE_HEIGHT_RATIO * core.diagonal, height / 2)
-    if out.sum() < 3 or out.mean() > 0.45 or float(np.quantile(gap[out], 0.1)) < MIN_HANDLE_GAP_RATIO * scale:
+    k, face = _outward_axis(core, opening_direction), face_axes(core, opening_direction)
+    sign = float(np.sign(core.axes[k] @ opening_direction))
+    height, least = float(_height(part, core, k, sign).max()), MIN_HANDLE_HEIGHT_RATIO * core.diagonal
+    out = _beyond(part, core, parent, k, sign, max(least, height / 2))
+    if out is None or out.share > MAX_COVERED_SHARE or float(np.quantile(out.gap, 0.1)) < MIN_HANDLE_GAP_RATIO * scale:
         return None
-    face = face_axes(core, opening_direction)
-    at = local[out][:, face]
-    spacing = np.sqrt(part.area / len(local))
-    groups = label_connected(len(at), KDTree(at).query_pairs(max(0.03 * core.diagonal, 6 * spacing), output_type="ndarray"))
-    if groups.max() >= MAX_HANDLE_GROUPS:
+    at = out.points[:, face]
+    near = KDTree(at).query_pairs(max(0.03 * core.diagonal, 6 * out.spacing), output_type="ndarray")
+    if label_connected(len(at), near).max() >= MAX_HANDLE_GROUPS:
         return None
     low, high = at.min(0), at.max(0)
     size = high - low
-    margin = max(height, 2 * spacing)
-    around = ((local[:, face] > low - margin) & (local[:, face] < high + margin)).all(1)
-    around &= ~((local[:, face] >= low) & (local[:, face] <= high)).all(1)
-    around &= part.samples.normals @ opening_direction > FACING_COSINE
-    if around.any() and (above[around] > MAX_BULGE_RATIO * height).mean() > 0.5:
+    if _bulges(part, core, opening_direction, (low, high), height):
         return None
     middle = (low + high) / 2 / np.maximum(core.half[face], 1e-9)
     along = None if size.max() < 1.6 * size.min() + 1e-9 else int(size.argmax())
@@ -102,3 +134,17 @@ def _face_handle(
     return Handle(
         (float(np.clip(middle[0], -1, 1)), float(np.clip(middle[1], -1, 1))), along, float(size.max() / core.diagonal)
     )
+
+
+def _bulges(
+    part: TriangleSet, core: OrientedBox, opening_direction: np.ndarray, bounds: tuple[np.ndarray, np.ndarray], height: float
+) -> bool:
+    """Return whether the face around a protrusion rises towards it, as around the top of a bulge."""
+    k, face = _outward_axis(core, opening_direction), face_axes(core, opening_direction)
+    local, (low, high) = core.local(part.samples.points), bounds
+    above = np.sign(core.axes[k] @ opening_direction) * local[:, k] - core.half[k]
+    margin = max(height, 2 * float(np.sqrt(part.area / len(local))))
+    around = ((local[:, face] > low - margin) & (local[:, face] < high + margin)).all(1)
+    around &= ~((local[:, face] >= low) & (local[:, face] <= high)).all(1)
+    around &= part.samples.normals @ opening_direction > FACING_COSINE
+    return bool(around.any() and (above[around] > MAX_BULGE_RATIO * height).mean() > 0.5)

@@ -22,6 +22,7 @@ from anymesh.types import Handle, JointType, Motion
 DOWNWARD_PENALTY = 0.4  # subtracted from the score of a downward direction, since most objects stand on something
 CONTACT_REACHES = (0.08, 0.2)  # of the link's diagonal: its contact with the parent is within this distance
 MAX_CONTACT_POINTS = 400  # sample points of the surfaces in contact
+MIN_LEAD = 0.03  # of the score of a negative direction along an axis over that of the positive one; less is chance
 MIN_SCALE_RATIO = 1e-9  # of the diagonal: keeps tolerances positive for a part that is a point
 
 
@@ -222,7 +223,7 @@ class PartContext:
         if self.shared_opening_direction is not None:
             return self.shared_opening_direction
         directions, scores = self.opening_directions
-        return directions[int(np.flatnonzero(scores > scores.max() - 1e-9)[0])]
+        return directions[best_direction(scores)]
 
     @cached_property
     def visibility(self) -> float:
@@ -232,9 +233,18 @@ class PartContext:
     @cached_property
     def handle(self) -> Handle | None:
         """Return the handle of the part, None if it has none."""
-        return find_handle(self.part, self.body_obb, self.gap, self.tolerance_length, self.opening_direction)
+        return find_handle(self.part, self.body_obb, self.parent.tree, self.tolerance_length, self.opening_direction)
 
     @cached_property
     def face_axes(self) -> list[int]:
         """Return the two box axes that span the outer face, in the order of Handle.across."""
         return face_axes(self.body_obb, self.opening_direction)
+
+
+def best_direction(scores: Float[np.ndarray, " 6"]) -> int:
+    """Return the opening direction of highest score; the positive one along its axis if both score about the same.
+
+    scores: as from `PartContext.opening_directions`, which has the positive direction of each axis first.
+    """
+    best = int(scores.argmax())
+    return best - 1 if best % 2 and scores[best - 1] > scores[best] - MIN_LEAD else best

@@ -1,0 +1,56 @@
+"""Test that what is read off a part does not depend on chance: on which points of its surface are sampled."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from assets import CABINET, box
+from geometry.rigid import shape_of
+
+from anymesh.config import ArticulationConfig
+from anymesh.motion.part_context import MIN_LEAD, PartContext, best_direction
+
+SEEDS = range(5)
+
+
+def seeded(part: list, others: list, seed: int) -> PartContext:
+    corners = np.concatenate([v for v, _ in [*part, *others]])
+    low, high = corners.min(0), corners.max(0)
+    own, rest = (replace(shape_of(*pieces), seed=seed) for pieces in (part, others))
+    diagonal = float(np.linalg.norm(high - low))
+    return PartContext(own, rest, rest, None, rest, (), diagonal, (low + high) / 2, ArticulationConfig())
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_knob_of_a_thousandth_of_the_surface_is_a_handle(seed: int) -> None:
+    knob = box((0.05, -0.032, 0.3), (0.062, -0.02, 0.312))
+    around = seeded([*CABINET["door"], knob], CABINET["base"], seed)
+    assert shape_of(knob).area < 1.2e-3 * around.part.area
+    assert around.handle is not None
+    assert around.handle.size == pytest.approx(0.012 / around.body_obb.diagonal, rel=0.05)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_outline_of_a_plate_is_seen_along_its_thickness(seed: int) -> None:
+    """None of its outlines is round, so that which is the roundest is chance."""
+    plate = [box((0, -0.02, 0), (0.6, 0, 0.5)), box((0.2, -0.022, 0.2), (0.4, -0.02, 0.3))]
+    outline = seeded(plate, [box((0, 0, 0), (0.6, 0.4, 0.5))], seed).outline
+    assert abs(outline.axis[1]) == pytest.approx(1)
+    assert outline.height == pytest.approx(0.022)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_part_that_is_open_to_both_sides_opens_to_the_positive_one(seed: int) -> None:
+    leaf, posts = [box((0, -0.02, 0), (0.6, 0.02, 1))], [box((x, -0.05, 0), (x + 0.1, 0.05, 1)) for x in (-0.1, 0.6)]
+    assert seeded(leaf, posts, seed).opening_direction == pytest.approx([0, 1, 0])
+
+
+def test_a_negative_direction_must_clearly_lead() -> None:
+    scores = np.array([0.1, 0.2, 0.8, 0.8 + 0.9 * MIN_LEAD, 0.5, 0.4])
+    assert best_direction(scores) == 2
+    scores[3] = 0.8 + 1.1 * MIN_LEAD
+    assert best_direction(scores) == 3
+    scores[4] = scores[3] + 0.1 * MIN_LEAD  # along another axis, no lead is needed
+    assert best_direction(scores) == 4
