@@ -32,6 +32,13 @@ def test_a_knob_of_a_thousandth_of_the_surface_is_a_handle(seed: int) -> None:
     assert around.handle.size == pytest.approx(0.012 / around.body_obb.diagonal, rel=0.05)
 
 
+@pytest.mark.parametrize(("height", "found"), [(0.014, True), (0.009, False)], ids=["ring", "moulding"])
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_handle_is_at_least_a_fifth_as_high_as_it_is_wide(seed: int, height: float, found: bool) -> None:
+    low = box((0.04, -0.02 - height, 0.28), (0.1, -0.02, 0.35))
+    assert (seeded([*CABINET["door"], low], CABINET["base"], seed).handle is not None) is found
+
+
 @pytest.mark.parametrize("seed", SEEDS)
 def test_the_outline_of_a_plate_is_seen_along_its_thickness(seed: int) -> None:
     """None of its outlines is round, so that which is the roundest is chance."""

@@ -21,7 +21,7 @@ MAX_HANDLE_GROUPS = 2  # maximum number of separate protrusions of one handle
 # of the handle's height: maximum height of the face around a handle; around the top of a bulge it is higher
 MAX_BULGE_RATIO = 0.25
 MIN_HANDLE_GAP_RATIO = 0.002  # of the tolerance length: a protrusion closer to the parent supports the part and is no handle
-MIN_HANDLE_ASPECT = 0.25  # minimum height of a handle over its smaller width
+MIN_HANDLE_ASPECT = 0.2  # minimum height of a handle over its smaller width
 MIN_HANDLE_HEIGHT_RATIO = 0.012  # minimum height of a handle over the part's diagonal
 MAX_COVERED_SHARE = 0.45  # maximum share of the part's surface in a handle on its face
 GAP_POINTS = 200  # sample points of a protrusion whose distance to the parent is measured
