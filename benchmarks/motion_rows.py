@@ -118,6 +118,7 @@ def how_right(true: TrueJoint, motion: Motion, center: np.ndarray, unit: float) 
 
 
 def opens_right(true: TrueJoint, axis: np.ndarray) -> int:
+    """Return 1 if an axis opens to the true side, 0 if not, -1 where there is no such side."""
     if not true.range_known or opens_both_ways(true.limits):
         return -1
     return int(opening_side(true.limits) * float(axis @ true.axis) > 0)

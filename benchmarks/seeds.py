@@ -21,26 +21,25 @@ from jaxtyping import Float
 from motion_rows import how_right, opens_right
 
 from anymesh.articulation.estimate import motion_questions
-from anymesh.articulation.motion_question import Candidate
-from anymesh.articulation.rank_motions import rank_motions
+from anymesh.articulation.motion_question import Candidate, PartFacts
+from anymesh.articulation.rank_motions import rank_motions, same_joints
 from anymesh.config import SAME_AXIS_COSINE, Config
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType
 
 MOVED = 0.15  # of half the size of the part's face: a handle that is further off has moved
-SAME_LINE = 0.1  # of the part's diagonal: hinge lines that are nearer are one
 
 
 @dataclass(frozen=True, eq=False)
 class Seen:
-    """What is read off a part with one seed. size: its diagonal [m]; right: whether motion and side are."""
+    """What is read off a part with one seed. right: whether motion and side are."""
 
     handle: tuple[float, float] | None
     opening: Float[np.ndarray, " 3"]
     outline: Float[np.ndarray, " 3"]
     chosen: Candidate
-    size: float
+    part: PartFacts
     right: bool
 
 
@@ -62,7 +61,7 @@ def seen_with(spec: str, seeds: Sequence[int], name: str) -> list[list[Seen]]:
             right &= opens_right(joints[part], best.motion.axis * best.opening_sign) != 0
             handle = around.handle and around.handle.across
             found.setdefault(part, []).append(
-                Seen(handle, around.opening_direction, around.outline.axis, best, question.part.size, right)
+                Seen(handle, around.opening_direction, around.outline.axis, best, question.part, right)
             )
     return list(found.values())
 
@@ -75,12 +74,8 @@ def same_handle(a: Seen, b: Seen) -> bool:
 
 
 def same_motion(a: Seen, b: Seen) -> bool:
-    """Whether the chosen motions are one joint that opens to one side."""
-    one, other = a.chosen.motion, b.chosen.motion
-    along = float(one.axis @ other.axis) * a.chosen.opening_sign * b.chosen.opening_sign
-    if one.kind is not other.kind or (abs(along) if a.chosen.is_endless else along) < SAME_AXIS_COSINE:
-        return False
-    return one.kind is JointType.PRISMATIC or float(one.distance(other.origin[None])[0]) < SAME_LINE * a.size
+    """Whether a user could not distinguish the chosen motions."""
+    return bool(same_joints(a.part, [a.chosen, b.chosen], 0)[1])
 
 
 def changed(parts: Sequence[Sequence[Seen]]) -> dict[str, float]:

@@ -126,7 +126,7 @@ def test_a_square_is_itself_after_a_quarter_turn_and_a_bracket_is_not() -> None:
     bracket = {"base": base, "bracket": [*arms, box((0.08, -0.05, 0.1), (0.1, -0.02, 0.14))]}
     square = {"base": base, "square": [box((-0.1, -0.05, 0.1), (0.1, -0.02, 0.3))]}
     assert features(square, axle)[0]["rotational misfit"] < 0.02
-    assert features(bracket, axle)[0]["rotational misfit"] > 0.04
+    assert features(bracket, axle)[0]["rotational misfit"] > 0.05
 
 
 def test_features_do_not_depend_on_size_place_or_heading() -> None:

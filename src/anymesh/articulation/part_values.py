@@ -6,13 +6,13 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.config import ALONG_COSINE
-from anymesh.geometry.circles import MIN_ROUNDNESS
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 
 # [deg] rotations about its axis; a body of revolution looks the same after all of them
 ASYMMETRY_ANGLES_DEG = (37, 90, 141, 200, 285)
 MAX_RATIO = 4.0  # upper limit of ratios of lengths
+MIN_ROUNDNESS = 0.5  # minimum roundness of the outline of a round part
 MAX_FLATNESS = 8.0  # upper limit of height over radius
 MIN_LEVEL_COSINE = 0.8  # minimum cosine between the vertical and the normal of a level face, which has no height over width
 

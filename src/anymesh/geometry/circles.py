@@ -8,7 +8,6 @@ import numpy as np
 from jaxtyping import Float, Int
 
 BINS = 36
-MIN_ROUNDNESS = 0.5  # minimum roundness of the outline of a round part
 CHANCE_ROUNDNESS = 0.25  # maximum roundness of the outlines of plates and boxes, of which the roundest is chance
 ROUND = 0.06  # maximum deviation of a bin's outline radius, relative to the median
 
