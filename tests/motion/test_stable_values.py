@@ -10,7 +10,9 @@ from assets import CABINET, box
 from geometry.rigid import shape_of
 
 from anymesh.config import ArticulationConfig
-from anymesh.motion.part_context import MIN_LEAD, PartContext, best_direction
+from anymesh.geometry.body_obb import body_obb
+from anymesh.motion.opening import MIN_LEAD, best_direction
+from anymesh.motion.part_context import PartContext
 
 SEEDS = range(5)
 
@@ -54,10 +56,37 @@ def test_a_part_that_is_open_to_both_sides_opens_to_the_positive_one(seed: int) 
     assert seeded(leaf, posts, seed).opening_direction == pytest.approx([0, 1, 0])
 
 
-def test_a_negative_direction_must_clearly_lead() -> None:
-    scores = np.array([0.1, 0.2, 0.8, 0.8 + 0.9 * MIN_LEAD, 0.5, 0.4])
-    assert best_direction(scores) == 2
+@pytest.mark.parametrize("side", [1, -1])
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_part_that_is_open_to_both_sides_opens_away_from_the_middle(seed: int, side: int) -> None:
+    """As a thin door in its frame, with a box of the object's on one side of it."""
+    leaf, posts = [box((0, -0.02, 0), (0.6, 0.02, 1))], [box((x, -0.05, 0), (x + 0.1, 0.05, 1)) for x in (-0.1, 0.6)]
+    step = box((-0.1, -0.05 - 0.02 * side, -0.1), (0.7, 0.05 - 0.02 * side, 0))
+    assert seeded(leaf, [*posts, step], seed).opening_direction == pytest.approx([0, side, 0])
+
+
+def test_a_direction_must_clearly_lead_over_the_opposite_one() -> None:
+    scores, outwards = np.array([0.1, 0.2, 0.8, 0.8 + 0.9 * MIN_LEAD, 0.5, 0.4]), np.zeros(6)
+    assert best_direction(scores, outwards) == 2  # in the middle the positive one
+    outwards[2:4] = -0.1, 0.1
+    assert best_direction(scores, outwards) == 3
+    outwards[2:4] = 0.1, -0.1
+    assert best_direction(scores, outwards) == 2
     scores[3] = 0.8 + 1.1 * MIN_LEAD
-    assert best_direction(scores) == 3
+    assert best_direction(scores, outwards) == 3
     scores[4] = scores[3] + 0.1 * MIN_LEAD  # along another axis, no lead is needed
-    assert best_direction(scores) == 4
+    assert best_direction(scores, outwards) == 4
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_a_small_bulge_is_a_protrusion_whatever_is_sampled(seed: int) -> None:
+    """Its surface is a hundredth of the part's: some 30 samples."""
+    key = [box((0, 0, 0), (0.02, 0.02, 0.006)), box((0.008, 0.008, 0.006), (0.012, 0.012, 0.007))]
+    part = replace(shape_of(*key), seed=seed)
+    assert sorted(body_obb(part).half) == pytest.approx([0.003, 0.01, 0.01])
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_the_centroid_is_exact(seed: int) -> None:
+    shape = replace(shape_of(box((0, 0, 0), (1, 1, 1)), box((2, 0, 0), (4, 1, 1))), seed=seed)
+    assert shape.centroid == pytest.approx([(6 * 0.5 + 10 * 3) / 16, 0.5, 0.5])

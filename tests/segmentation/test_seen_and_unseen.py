@@ -36,7 +36,7 @@ def joined(part: list[int], *pieces) -> list[int]:
     return join_unseen(shape(*pieces)[1], np.array(part), Config()).tolist()
 
 
-POST, ARM = box((1, 1, 0.2), (1.2, 1.2, 2)), box((1.2, 1, 1.8), (2, 1.2, 2))
+POST, ARM = box((1, 1, 0.2), (1.2, 1.2, 2)), box((1.2, 1, 1.85), (2, 1.2, 2))
 
 
 @pytest.mark.parametrize(

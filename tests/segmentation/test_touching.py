@@ -8,8 +8,9 @@ from scipy.spatial.distance import cdist
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.contact import connecting_area
-from anymesh.segmentation.contacts import PROBES, Contacts, find_contacts, gap_within, hanging_on
+from anymesh.segmentation.contacts import Contacts, find_contacts, hanging_on
 from anymesh.segmentation.divide import object_shape
+from anymesh.segmentation.patch_gaps import PROBES, gap_within
 
 BLOCK = box((0, 0, 0), (1, 1, 1))
 
@@ -63,6 +64,16 @@ def test_touching_boxes_are_one_body_that_touches_at_the_face() -> None:
     assert found.component[0] == found.component[1]
     assert found.area[0, 1] == pytest.approx(1, abs=0.1)  # sampled with a thousand points
     assert found.area[1, 0] == pytest.approx(1, abs=0.1)  # sampled with a thousand points
+
+
+@pytest.mark.parametrize("size", [0.02, 0.2])
+def test_the_area_in_contact_is_measured_on_a_large_plate_as_on_a_small_knob(size: float) -> None:
+    """On the plate, it includes what is within the tolerance around the knob, on the knob the bottom of its walls."""
+    plate, knob = box((-5, -3, -0.1), (5, 3, 0)), box((1, 1, 0), (1 + size, 1 + size, size))
+    reach = 2 * SegmentationConfig().touch * float(np.linalg.norm([10, 6, 0.1 + size]))
+    found, walls = contacts(plate, knob).area, 4 * size * min(reach, size)
+    assert found[0, 1] == pytest.approx(size**2 + 4 * size * reach + np.pi * reach**2, rel=0.1)
+    assert found[1, 0] == pytest.approx(size**2 + walls, rel=0.1)
 
 
 def test_a_clearance_keeps_bodies_apart_and_a_wide_one_makes_them_strangers() -> None:

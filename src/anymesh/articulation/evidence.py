@@ -77,7 +77,7 @@ def initial_direction(around: PartContext, motion: Motion) -> Float[np.ndarray, 
     """
     if motion.kind is JointType.PRISMATIC:
         return motion.axis
-    moves = np.cross(motion.axis, around.part.samples.middle - motion.origin)
+    moves = np.cross(motion.axis, around.part.centroid - motion.origin)
     return moves / max(float(np.linalg.norm(moves)), MIN_ARM_RATIO * around.part.box.diagonal, 1e-300)
 
 

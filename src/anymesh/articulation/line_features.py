@@ -32,7 +32,7 @@ def line_features(
     local = np.minimum(local, MAX_RATIO) * (np.abs(core.axes @ axis) < ALONG_COSINE)
     off = motion.distance(points)
     reach, length = max(float(off.max()), 1e-9), max(float(np.ptp(points @ axis)), 1e-9)
-    balance = float(motion.distance(around.part.samples.middle[None])[0] / reach)
+    balance = float(motion.distance(around.part.centroid[None])[0] / reach)
     outline = around.outline_about(axis)
     held = motion.distance(contact)
     low, high = around.parent.bounds

@@ -46,7 +46,7 @@ def swept_features(around: PartContext, candidates: Sequence[Candidate]) -> list
     """Return the features of the sweep and of the opening direction of each swept candidate."""
     ways = np.array([c.opening_sign * initial_direction(around, c.motion) for c in candidates]).reshape(-1, 3)
     ahead, behind = _visible_both_ways(around, ways)
-    away = ways @ (around.part.samples.middle - around.center) / around.diagonal
+    away = ways @ (around.part.centroid - around.center) / around.diagonal
     return [
         _swept(around, c, way) | {"visible ahead": float(a), "visible behind": float(b), "away from the middle": float(m)}
         for c, way, a, b, m in zip(candidates, ways, ahead, behind, away, strict=True)

@@ -15,7 +15,8 @@ from anymesh.config import SAME_AXIS_COSINE
 from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.boxes import same_box
 from anymesh.geometry.triangle_set import TriangleSet
-from anymesh.motion.part_context import PartContext, best_direction
+from anymesh.motion.opening import best_direction
+from anymesh.motion.part_context import PartContext
 
 # maximum component of the offset along the opening direction, over its length, between parts in a row
 MAX_ROW_OFFSET_RATIO = 0.25
@@ -62,7 +63,8 @@ def _with_row_direction(around: PartContext, row: list[PartContext]) -> PartCont
     for other in row[1:]:
         theirs, weights = other.opening_directions
         total = total + weights[(ways @ theirs.T).argmax(1)]
-    best = best_direction(np.where(beside, total / len(row), -np.inf))
+    off = np.mean([a.off_the_middle for a in row], axis=0)
+    best = best_direction(np.where(beside, total / len(row), -np.inf), ways @ off)
     return around if (ways[best] == around.opening_direction).all() else replace(around, shared_opening_direction=ways[best])
 
 

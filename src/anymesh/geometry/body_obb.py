@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from jaxtyping import Float
 
 from anymesh.geometry.boxes import OrientedBox, box_in_frame
+from anymesh.geometry.levels import points_above, shares_above
 from anymesh.geometry.triangle_set import TriangleSet
 
 SIDE_LEVEL_RATIO = 0.12  # of the surface that faces along an axis, either way: the outermost share is not the level of a side
@@ -14,19 +16,20 @@ MAX_PROTRUSION_RATIO = 0.25  # upper bound on the share of the surface that prot
 def body_obb(shape: TriangleSet) -> OrientedBox:
     """Return the oriented box of a part without protrusions: a small share of its surface, narrower than the part."""
     frame = shape.box.axes
-    local = shape.samples.points @ frame.T
-    facing = np.abs(shape.samples.normals @ frame.T) > 0.9
+    local, area = shape.triangles @ frame.T, max(shape.area, 1e-300)
+    facing = np.abs(shape.normals @ frame.T) > 0.9
     corners = shape.corners @ frame.T
     low, high = corners.min(0), corners.max(0)
     tolerance = 0.01 * shape.box.diagonal
     for axis in range(3):
         for sign, edge in ((1.0, high), (-1.0, low)):
-            at = np.sort(sign * local[facing[:, axis], axis])
-            if len(at) < 0.02 * len(local) or len(at) < 3:
+            heights = sign * local[:, :, axis]
+            level = _side_level(heights[facing[:, axis]], shape.areas[facing[:, axis]], 0.02 * area)
+            if level >= sign * edge[axis] - tolerance:
                 continue
-            level = at[-1 - int(SIDE_LEVEL_RATIO * len(at))]
-            out = sign * local[:, axis] > level + tolerance / 2
-            if level < sign * edge[axis] - tolerance and _protrudes(local, out, axis):
+            share = float(shape.areas @ shares_above(heights, level + tolerance / 2)) / area
+            beyond = points_above(local, heights, level + tolerance / 2)
+            if 0 < share < MAX_PROTRUSION_RATIO and _is_narrow(beyond, corners, axis):
                 edge[axis] = sign * level
     if (high - low < 1e-9).any():
         return shape.box
@@ -34,10 +37,18 @@ def body_obb(shape: TriangleSet) -> OrientedBox:
     return box_in_frame(ends @ frame, frame)
 
 
-def _protrudes(local: np.ndarray, beyond: np.ndarray, axis: int) -> bool:
-    """Return whether the samples beyond a level are a protrusion: few, and narrower than the part in one direction."""
-    if not 0 < beyond.mean() < MAX_PROTRUSION_RATIO:
-        return False
+def _side_level(heights: Float[np.ndarray, "F 3"], areas: Float[np.ndarray, " F"], least: float) -> float:
+    """Return the level of the faces that face along an axis, without the outermost; inf if they are smaller than `least`."""
+    if areas.sum() <= least:
+        return np.inf
+    middle = heights.mean(1)
+    order = np.argsort(-middle, kind="stable")
+    outer = np.cumsum(areas[order])
+    return float(middle[order[np.searchsorted(outer, SIDE_LEVEL_RATIO * outer[-1], side="right")]])
+
+
+def _is_narrow(beyond: Float[np.ndarray, "n 3"], corners: Float[np.ndarray, "m 3"], axis: int) -> bool:
+    """Return whether what is beyond a level is narrower than the part in one direction."""
     others = [k for k in range(3) if k != axis]
-    span = np.ptp(local[beyond][:, others], axis=0) / np.maximum(np.ptp(local[:, others], axis=0), 1e-12)
+    span = np.ptp(beyond[:, others], axis=0) / np.maximum(np.ptp(corners[:, others], axis=0), 1e-12)
     return bool(span.min() < 0.6)

@@ -32,11 +32,6 @@ class SurfacePoints:
         return SurfacePoints(*(np.concatenate(pair) for pair in pairs))
 
     @cached_property
-    def middle(self) -> Float[np.ndarray, " 3"]:
-        """Return the mean of the points [m]."""
-        return self.points.mean(0)
-
-    @cached_property
     def moments(self) -> Float[np.ndarray, "n 3"]:
         """Return the moment of each normal about the asset frame's origin [m]."""
         return np.cross(self.points, self.normals)

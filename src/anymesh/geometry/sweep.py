@@ -51,7 +51,7 @@ class Obstacles:
     @cached_property
     def part_normals(self) -> Float32[np.ndarray, "F 3"]:
         """Return the normal of each face of the part, out of it: away from its middle if the surface is open."""
-        arms = self.part.triangles.mean(1) - self.part.samples.middle
+        arms = self.part.triangles.mean(1) - self.part.centroid
         turned = ~self.part.solid & (np.einsum("ij,ij->i", arms, self.part.normals) < 0)
         return np.where(turned[:, None], -self.part.normals, self.part.normals).astype(np.float32)
 

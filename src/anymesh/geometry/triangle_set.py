@@ -116,6 +116,12 @@ class TriangleSet:
         """Return the axis-aligned bounds [m]."""
         return bounds_of(self.triangles.reshape(-1, 3))
 
+    @cached_property
+    def centroid(self) -> Float[np.ndarray, " 3"]:
+        """Return the centroid of the surface [m]; of the corners of the faces if they have no area."""
+        weights = self.areas if self.area > 0 else np.ones(len(self.areas))
+        return weights @ self.triangles.mean(1) / weights.sum()
+
     def depth(self, points: Float[np.ndarray, "n 3"]) -> float:
         """Return how deep the deepest of some points lies inside a closed solid of these triangles [m], 0 for none."""
         if not len(points) or not len(self.triangles):

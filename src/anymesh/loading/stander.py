@@ -53,7 +53,7 @@ class Stander:
         except QhullError:
             return None
         facets, areas = _facets(hull)
-        corners, center = hull.points[hull.vertices], samples.middle
+        corners, center = hull.points[hull.vertices], samples.points.mean(0)
         size = 2 * float(np.linalg.norm(corners - center, axis=1).max())  # the diagonal of bounds depends on the rotation
         points = (samples.points - center) / size
         return cls(points, samples.normals, (corners - center) / size, facets, areas / areas.sum())

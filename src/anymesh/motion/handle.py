@@ -12,6 +12,7 @@ from anymesh.config import FACING_COSINE
 from anymesh.geometry.body_obb import MAX_PROTRUSION_RATIO
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.distance_ import TriangleTree
+from anymesh.geometry.levels import points_above, shares_above
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import Handle
@@ -54,19 +55,20 @@ def find_handle(
 class _Protrusion:
     """What lies beyond a level of a part's box.
 
-    points: (n, 3) samples in the box frame [m]; share: of the part's surface; gap: distances of some samples to the parent [m];
-    spacing: mean distance of neighbouring samples [m].
+    points: (n, 3) samples in the box frame [m]; corners: (c, 3) in the box frame, exact [m]; share: of the part's surface; gap:
+    distances of some samples to the parent [m]; spacing: mean distance of neighbouring samples [m].
     """
 
     points: Float[np.ndarray, "n 3"]
+    corners: Float[np.ndarray, "c 3"]
     share: float
     gap: Float[np.ndarray, " m"]
     spacing: float
 
 
-def _height(part: TriangleSet, core: OrientedBox, axis: int, sign: float) -> Float[np.ndarray, " F"]:
-    """Return how far each face extends beyond a side of the box [m]."""
-    return (sign * core.local(part.triangles.reshape(-1, 3))[:, axis] - core.half[axis]).reshape(-1, 3).max(1)
+def _heights(part: TriangleSet, core: OrientedBox, axis: int, sign: float) -> Float[np.ndarray, "F 3"]:
+    """Return how far the corners of each face are beyond a side of the box [m]."""
+    return (sign * core.local(part.triangles.reshape(-1, 3))[:, axis] - core.half[axis]).reshape(-1, 3)
 
 
 def _beyond(
@@ -76,7 +78,8 @@ def _beyond(
 
     Only the faces that do so are sampled, since few of the part's samples lie on a small knob.
     """
-    faces = np.flatnonzero(_height(part, core, axis, sign) > level)
+    heights = _heights(part, core, axis, sign)
+    faces = np.flatnonzero(heights.max(1) > level)
     if not len(faces):
         return None
     some = part.take(faces)
@@ -85,8 +88,10 @@ def _beyond(
     if not len(out):
         return None
     few = out[:: max(1, len(out) // GAP_POINTS)]
-    share = some.area * len(out) / len(local) / max(part.area, 1e-300)
-    return _Protrusion(local[out], share, parent.distance(some.samples.points[few]), float(np.sqrt(some.area / len(local))))
+    share = float(some.areas @ shares_above(heights[faces], level)) / max(part.area, 1e-300)
+    corners = core.local(points_above(some.triangles, heights[faces], level))
+    spacing = float(np.sqrt(some.area / len(local)))
+    return _Protrusion(local[out], corners, share, parent.distance(some.samples.points[few]), spacing)
 
 
 def _tab(
@@ -99,14 +104,14 @@ def _tab(
             out = _beyond(part, core, parent, k, sign, least)
             if out is None or out.share > MAX_PROTRUSION_RATIO or float(np.median(out.gap)) < MIN_TAB_GAP_RATIO * scale:
                 continue
-            along, half = out.points[:, face[1 - row]], max(float(core.half[face[1 - row]]), 1e-9)
+            along, half = out.corners[:, face[1 - row]], max(float(core.half[face[1 - row]]), 1e-9)
             if np.ptp(along) < half:  # at most half of the rim; a wider one is a ledge
-                tabs.append((row, sign, float(along.mean()) / half, out))
+                tabs.append((row, sign, float(along.min() + along.max()) / 2 / half, out))
     if len(tabs) != 1:
         return None
     row, sign, level, out = tabs[0]
     across = [sign, float(np.clip(level, -1, 1))]
-    size = float(np.ptp(out.points[:, face], axis=0).max() / core.diagonal)
+    size = float(np.ptp(out.corners[:, face], axis=0).max() / core.diagonal)
     return Handle((across[0], across[1]) if row == 0 else (across[1], across[0]), None, size)
 
 
@@ -115,7 +120,7 @@ def _face_handle(
 ) -> Handle | None:
     k, face = _outward_axis(core, opening_direction), face_axes(core, opening_direction)
     sign = float(np.sign(core.axes[k] @ opening_direction))
-    height, least = float(_height(part, core, k, sign).max()), MIN_HANDLE_HEIGHT_RATIO * core.diagonal
+    height, least = float(_heights(part, core, k, sign).max()), MIN_HANDLE_HEIGHT_RATIO * core.diagonal
     out = _beyond(part, core, parent, k, sign, max(least, height / 2))
     if out is None or out.share > MAX_COVERED_SHARE or float(np.quantile(out.gap, 0.1)) < MIN_HANDLE_GAP_RATIO * scale:
         return None
@@ -123,7 +128,7 @@ def _face_handle(
     near = KDTree(at).query_pairs(max(0.03 * core.diagonal, 6 * out.spacing), output_type="ndarray")
     if label_connected(len(at), near).max() >= MAX_HANDLE_GROUPS:
         return None
-    low, high = at.min(0), at.max(0)
+    low, high = out.corners[:, face].min(0), out.corners[:, face].max(0)
     size = high - low
     if _bulges(part, core, opening_direction, (low, high), height):
         return None

@@ -17,12 +17,12 @@ from anymesh.geometry.sampling import SurfacePoints
 from anymesh.geometry.sweep import Obstacles
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.handle import face_axes, find_handle
+from anymesh.motion.opening import best_direction
 from anymesh.types import Handle, JointType, Motion
 
 DOWNWARD_PENALTY = 0.4  # subtracted from the score of a downward direction, since most objects stand on something
 CONTACT_REACHES = (0.08, 0.2)  # of the link's diagonal: its contact with the parent is within this distance
 MAX_CONTACT_POINTS = 400  # sample points of the surfaces in contact
-MIN_LEAD = 0.03  # of the score of a negative direction along an axis over that of the positive one; less is chance
 MIN_SCALE_RATIO = 1e-9  # of the diagonal: keeps tolerances positive for a part that is a point
 
 
@@ -207,7 +207,7 @@ class PartContext:
         Visible, thin and off-center directions score higher.
         """
         directions, scores = [], []
-        away = self.part.samples.middle - self.center
+        away = self.part.centroid - self.center
         for k, axis in enumerate(self.body_obb.axes):
             for sign in (1.0, -1.0):
                 seen = self._open_face(sign * axis)
@@ -217,13 +217,18 @@ class PartContext:
                 scores.append(score - DOWNWARD_PENALTY * max(0.0, -sign * float(axis[2])))
         return np.array(directions), np.array(scores)
 
+    @property
+    def off_the_middle(self) -> Float[np.ndarray, " 3"]:
+        """Return the middle of the part's bounds from that of the object's, over the object's diagonal."""
+        return (self.part.bounds.mean(0) - self.center) / self.diagonal
+
     @cached_property
     def opening_direction(self) -> Float[np.ndarray, " 3"]:
         """Return the opening direction, unit: the box direction with the highest score, or the shared one of its row."""
         if self.shared_opening_direction is not None:
             return self.shared_opening_direction
         directions, scores = self.opening_directions
-        return directions[best_direction(scores)]
+        return directions[best_direction(scores, directions @ self.off_the_middle)]
 
     @cached_property
     def visibility(self) -> float:
@@ -239,12 +244,3 @@ class PartContext:
     def face_axes(self) -> list[int]:
         """Return the two box axes that span the outer face, in the order of Handle.across."""
         return face_axes(self.body_obb, self.opening_direction)
-
-
-def best_direction(scores: Float[np.ndarray, " 6"]) -> int:
-    """Return the opening direction of highest score; the positive one along its axis if both score about the same.
-
-    scores: as from `PartContext.opening_directions`, which has the positive direction of each axis first.
-    """
-    best = int(scores.argmax())
-    return best - 1 if best % 2 and scores[best - 1] > scores[best] - MIN_LEAD else best

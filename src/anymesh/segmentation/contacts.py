@@ -8,23 +8,20 @@ from functools import cached_property
 
 import numpy as np
 from jaxtyping import Float, Float32, Int
-from scipy.spatial.distance import cdist
 
 from anymesh.config import SegmentationConfig
-from anymesh.geometry.boxes import box_pairs, same_box, within
+from anymesh.geometry.boxes import box_pairs, same_box
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.segmentation.dominators import NONE, immediate_dominators
+from anymesh.segmentation.patch_gaps import area_in_contact, crosses, gap_within
 
 MIN_FLATNESS = 0.6  # minimum length of the mean unit normal of a flat sheet with its handle; 1 is plane
 MIN_PLATE_ASPECT = 0.3  # minimum width over length of a plate; planks are narrower
 MIN_ALIGNED_COSINE = 0.95  # minimum cosine between the normals of sheets that face the same way
 MAX_CLEARANCE_FACTOR = 2.0  # neighbours of a component lie within this many times its smallest clearance
 MAX_SMALL_CLEARANCE_FACTOR = 1.3  # the same for a component that is small compared to its nearest patch
-PROBES = 160  # sample points per patch for the distance to another patch
-COARSE = 6  # every how many of these points are measured first
-ROUNDING = 1e-9  # of the reach: tolerance of bounds of distances
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +80,7 @@ def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
     for i, j in touch:
         if (i, j) in shared and _goes_on(shapes[i], shapes[j]):
             continue  # panels side by side in one surface do not support each other
-        area[i, j], area[j, i] = (_touching(shapes[a], shapes[b], 2 * tolerance) for a, b in ((i, j), (j, i)))
+        area[i, j], area[j, i] = (area_in_contact(shapes[a], shapes[b], 2 * tolerance) for a, b in ((i, j), (j, i)))
     return Contacts(shapes, pairs, free, body, area)
 
 
@@ -95,7 +92,7 @@ def _measured(
     for i, j in pairs:
         gap = gap_within(shapes[i], shapes[j], reach, tolerance)
         gap = gap if gap < tolerance else min(gap, gap_within(shapes[j], shapes[i], reach, tolerance))
-        if gap < tolerance or (gap < reach and _crosses(shapes[i], shapes[j])):
+        if gap < tolerance or (gap < reach and crosses(shapes[i], shapes[j])):
             touch.append((i, j))
         elif gap < reach:
             near.append((i, j, gap))
@@ -152,13 +149,6 @@ def _goes_on(a: TriangleSet, b: TriangleSet) -> bool:
     return min(length) > MIN_FLATNESS and bool(mean[0] @ mean[1] > MIN_ALIGNED_COSINE * length[0] * length[1])
 
 
-def _touching(a: TriangleSet, b: TriangleSet, tolerance: float) -> float:
-    """Return the area of a within the tolerance of b [m^2]."""
-    samples = a.samples.points[::3]
-    gap = b.tree.distance(samples[within(samples, b.bounds[0] - tolerance, b.bounds[1] + tolerance)])
-    return a.area * float((gap < tolerance).sum()) / max(len(samples), 1)
-
-
 def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[tuple[int, int]]:
     """Return pairs of touching plates of the same thickness in one plane, such as the boards of a framed door.
 
@@ -178,49 +168,6 @@ def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[t
         if abs(float(a.axes[2] @ b.axes[2])) > 0.9995 and level < tolerance and abs(a.half[2] - b.half[2]) < tolerance:
             pairs.append((int(i), int(j)))
     return pairs
-
-
-def gap_within(a: TriangleSet, b: TriangleSet, reach: float, enough: float = 0.0) -> float:
-    """Return the smallest distance from a to b [m], from a's corners and samples within reach of b's box.
-
-    A result below `enough` or from `reach` on is an upper bound of the smallest distance.
-
-    Every sixth point is measured first. The distance of another point differs by at most its distance to that point, and those
-    that cannot be the closest are not measured.
-    """
-    low, high = b.bounds[0] - reach, b.bounds[1] + reach
-    points = [p[within(p, low, high)] for p in (a.corners, a.samples.points)]
-    points = [p[:: max(1, len(p) // PROBES)] for p in points]
-    probe = np.concatenate(points)
-    if len(probe) == 0:
-        return np.inf
-    rough = probe[::COARSE]
-    distance = b.tree.distance(rough)
-    gap = float(distance.min())
-    if gap < enough:
-        return gap
-    bound = (distance - cdist(probe, rough)).max(1)
-    bound[::COARSE] = np.inf
-    closer = probe[bound < min(gap, reach) + ROUNDING * reach]
-    return min(gap, float(b.tree.distance(closer).min())) if len(closer) else gap
-
-
-def _crosses(a: TriangleSet, b: TriangleSet) -> bool:
-    """Return whether edges of one shape pass through faces of the other."""
-    for one, other in ((a, b), (b, a)):
-        start = one.triangles.reshape(-1, 3)
-        span = one.triangles[:, [1, 2, 0]].reshape(-1, 3) - start
-        step = max(1, len(start) // 3000)
-        start, span = start[::step], span[::step]
-        face = other.scene.first_hit(start, span, 1.0).face
-        hit = np.flatnonzero(face >= 0)
-        if len(hit) == 0:
-            continue
-        slope = np.abs(np.einsum("ij,ij->i", span[hit], other.normals[face[hit]]))
-        # a ray in the plane of a face gives no reliable hit
-        if (slope > 0.02 * np.linalg.norm(span[hit], axis=1)).any():
-            return True
-    return False
 
 
 def hanging_on(contacts: Contacts, group: Int[np.ndarray, " P"], root: int) -> dict[int, list[int]]:

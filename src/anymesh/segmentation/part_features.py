@@ -9,11 +9,12 @@ from jaxtyping import Int
 
 from anymesh.config import IN_LINE, SAME_SIZE, Config
 from anymesh.motion.part_context import PartContext
-from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, has_two_pivots, on_axis, open_behind, touching
+from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, on_axis, open_behind, touching, two_pivots
 from anymesh.segmentation.part_tree import PartTree
 from anymesh.types import Mesh
 
 AT_BORDER = 0.02  # of the diagonal: a candidate reaches a side of the object's bounds within this distance
+SPREAD_IN_MIDDLE = 0.1  # of the half extent: where a contact that is nearer to the middle of the face lies is chance
 MAX_RATIO = 8.0  # upper limit of ratios of lengths
 
 
@@ -127,7 +128,7 @@ def _fit(scene: FeatureScene, around: PartContext) -> dict[str, float]:
         "log10 middle gap": float(np.log10(gaps[1] + 1e-5)),
         "enclosed": enclosed_share(around),
         "depth": _ratio(depth, 2 * float(around.body_obb.half[1])),
-        "two pivots": float(has_two_pivots(around, near, normals)),
+        "two pivots": two_pivots(around, near, normals),
         "on axis": float(on_axis(around)),
         "axle level": float(abs(around.outline.axis[2]) < 0.5),
         **_contact_layout(around, near),
@@ -141,12 +142,11 @@ def _contact_layout(around: PartContext, near: np.ndarray) -> dict[str, float]:
     local = around.body_obb.local(around.part.samples.points[near]) / np.maximum(around.body_obb.half, 1e-12)
     face = local[:, around.face_axes]
     middle, spread = face.mean(0), face.std(0)
-    k = int(np.abs(middle).argmax())
-    axis = around.body_obb.axes[around.face_axes[1 - k]]
+    upright = np.abs(around.body_obb.axes[around.face_axes][::-1, 2])  # along each axis, of the other one
     return {
         "contact spread": float(spread.min()),
         "contact off the middle": float(np.abs(middle).max()),
-        "contact upright": float(abs(axis[2])),
+        "contact upright": float(middle**2 @ upright / max(middle @ middle, SPREAD_IN_MIDDLE**2)),
     }
 
 

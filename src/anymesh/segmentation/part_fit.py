@@ -87,8 +87,8 @@ def enclosed_share(around: PartContext) -> float:
     return float((hit >= 3).mean())
 
 
-def has_two_pivots(around: PartContext, near: np.ndarray, normals: np.ndarray) -> bool:
-    """Return whether the candidate is supported at two far ends by surfaces that face along the line between them.
+def two_pivots(around: PartContext, near: np.ndarray, normals: np.ndarray) -> float:
+    """Return how far the candidate is supported at two far ends by surfaces that face along the line between them, 0..1.
 
     Such contacts are pivots, as opposed to the feet of a fixed handle.
     """
@@ -96,13 +96,12 @@ def has_two_pivots(around: PartContext, near: np.ndarray, normals: np.ndarray) -
     if near.sum() < 4:
         near = around.gap < max(2 * float(around.gap.min()), 0.004 * around.tolerance_length)
         if near.sum() < 4:
-            return False
+            return 0.0
     held = points[near]
     spread = held - held.mean(0)
     line = np.linalg.svd(spread, full_matrices=False)[2][0]
     t = spread @ line
-    middle = (t.max() + t.min()) / 2
-    reach = t.max() - t.min()
-    if reach < 0.4 * around.part.box.diagonal or (np.abs(t - middle) < 0.3 * reach).any():
-        return False
-    return bool(np.abs(normals[near] @ line).mean() > 0.6)
+    reach = float(np.ptp(t))
+    parted = float(np.quantile(np.abs(t - (t.max() + t.min()) / 2), 0.05)) / max(reach / 2, 1e-12)  # 1: no contact between
+    far = min(reach / max(around.part.box.diagonal, 1e-12), 1.0)
+    return far * parted * float(np.abs(normals[near] @ line).mean())
