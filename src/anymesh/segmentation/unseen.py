@@ -89,9 +89,10 @@ def _supported_by(contacts: Contacts, part: np.ndarray, together: bool, reach: f
     assigned_part = part.copy()
     for k in np.unique(part[part > 0]):
         own = np.flatnonzero(part == k)
-        for p in np.flatnonzero(np.isin(unit, hanging[int(unit[own[0]])]) & (assigned_part < 0)):
-            if _near(contacts, int(p), own, reach):
-                assigned_part[p] = k
+        for u in hanging[int(unit[own[0]])]:
+            free = np.flatnonzero((unit == u) & (assigned_part < 0))
+            if any(_near(contacts, int(p), own, reach) for p in free):
+                assigned_part[free] = k
     return _largest_contact(contacts, unit, assigned_part)
 
 
