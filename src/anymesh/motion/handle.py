@@ -25,6 +25,7 @@ MIN_HANDLE_GAP_RATIO = 0.002  # of the tolerance length: a protrusion closer to 
 MIN_HANDLE_ASPECT = 0.2  # minimum height of a handle over its smaller width
 MIN_HANDLE_HEIGHT_RATIO = 0.012  # minimum height of a handle over the part's diagonal
 MAX_COVERED_SHARE = 0.45  # maximum share of the part's surface in a handle on its face
+GROUPED_POINTS = 500  # sample points of a protrusion that are divided into groups
 GAP_POINTS = 200  # sample points of a protrusion whose distance to the parent is measured
 
 
@@ -124,7 +125,7 @@ def _face_handle(
     out = _beyond(part, core, parent, k, sign, max(least, height / 2))
     if out is None or out.share > MAX_COVERED_SHARE or float(np.quantile(out.gap, 0.1)) < MIN_HANDLE_GAP_RATIO * scale:
         return None
-    at = out.points[:, face]
+    at = out.points[:: max(1, len(out.points) // GROUPED_POINTS), face]
     near = KDTree(at).query_pairs(max(0.03 * core.diagonal, 6 * out.spacing), output_type="ndarray")
     if label_connected(len(at), near).max() >= MAX_HANDLE_GROUPS:
         return None
