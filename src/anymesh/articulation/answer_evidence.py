@@ -20,7 +20,7 @@ from anymesh.vlm.prompting import JointAppearance
 
 # calibration of the log-odds by geometry where all motions are swept, fitted to kinds left out of training; where only the
 # likeliest are swept see `rank_motions`
-ALL_SWEPT_SLOPE = 0.72
+ALL_SWEPT_SLOPE = 0.68
 RELIABILITIES = (0.97, 0.9, 0.7, 0.4, 0.1)
 SHARES = (0.55, 0.27, 0.1, 0.05, 0.03)  # of answerers with each reliability, before any of their answers is known
 MISLED_SHARE = 0.1  # share of the parts about whose motion geometry says nothing

@@ -15,7 +15,7 @@ from anymesh.vocabulary import typical_motion
 
 NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint without a plausible motion
 # calibration of the log-odds of a confidence, fitted to kinds left out of training (benchmarks/train_motions.py)
-CALIBRATION_SLOPE, OFFSET = 0.64, -0.06
+CALIBRATION_SLOPE, OFFSET = 0.61, -0.01
 SAME_LINE = 0.1  # of the part's size: maximum distance between lines that a user sees as one
 BLOCKED = -4.0  # [log-odds] penalty of a motion that the sweep finds blocked
 LABEL_PRIOR = {  # [log-odds] added by a label to a hinge, to a rotation about the axis of a round outline, to a slide
