@@ -18,4 +18,4 @@ def best_direction(scores: Float[np.ndarray, " 6"], outwards: Float[np.ndarray, 
     best = int(scores.argmax())
     if scores[best ^ 1] <= scores[best] - MIN_LEAD:
         return best
-    return best & ~1 if abs(outwards[best]) < CENTRAL_RATIO else best ^ int(outwards[best] < 0)
+    return best - best % 2 if abs(outwards[best]) < CENTRAL_RATIO else best ^ int(outwards[best] < 0)
