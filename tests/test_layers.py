@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "anymesh"
 FLOORS = [
-    {"errors", "files", "config", "deadline", "isolation", "progress", "names", "mujoco_", "deferred"},
+    {"errors", "files", "config", "cores", "deadline", "isolation", "progress", "names", "mujoco_", "deferred"},
     {"types", "vocabulary"},
     {"geometry", "loading", "scoring"},
     {"rendering", "motion"},

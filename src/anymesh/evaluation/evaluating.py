@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import datetime
-import os
 import platform
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
@@ -18,6 +17,7 @@ from zlib import crc32
 import numpy as np
 
 from anymesh import __version__
+from anymesh.cores import usable_cores
 from anymesh.errors import OpenQuestionError, OptionError
 from anymesh.evaluation.changes import CHANGES
 from anymesh.evaluation.datasets.dataset import Dataset
@@ -78,7 +78,7 @@ def evaluate(
     alone = (GEOMETRY, ORACLE, *(() if answering.get("wait") else (FILES,)))
     shared = not results.settings["answerer"].startswith(alone)
     waiting: list[OpenQuestionError] = []
-    for done, (name, records) in enumerate(_all(left, work, answerer_for, shared, jobs or _cores(), stop), start=before):
+    for done, (name, records) in enumerate(_all(left, work, answerer_for, shared, jobs or usable_cores(), stop), start=before):
         progress("eval", name, done, total)
         if isinstance(records, OpenQuestionError):
             waiting.append(records)
@@ -148,11 +148,7 @@ def _settings(
     if eval_config.protocol in (EvalProtocol.END_TO_END, EvalProtocol.EXECUTABILITY):
         settings["at least"] = str(answering.get("at_least", 0))
     made = {"date": datetime.datetime.now(datetime.UTC).date().isoformat(), "python": platform.python_version()}
-    return settings | made | {"numpy": np.__version__, "machine": f"{platform.machine()}, {_cores()} cores"}
-
-
-def _cores() -> int:
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    return settings | made | {"numpy": np.__version__, "machine": f"{platform.machine()}, {usable_cores()} cores"}
 
 
 def _answerer_for(answering: Answering, seed: int, stop: Event | None = None) -> SampleAnswerer:

@@ -9,7 +9,6 @@ surface that the part touches at rest, to the side of the part's own shape.
 from __future__ import annotations
 
 import itertools
-import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
@@ -18,6 +17,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float, Float32
 
+from anymesh.cores import usable_cores
 from anymesh.geometry.passage import Passage
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import JointType, Motion, Sweep
@@ -125,7 +125,7 @@ def free_amounts(
     groups = np.array_split(np.arange(len(motions)), -(-len(motions) // AT_ONCE))
     if len(groups) == 1:
         return free(groups[0])
-    with ThreadPoolExecutor(os.cpu_count()) as threads:  # numpy and Embree release the interpreter lock
+    with ThreadPoolExecutor(usable_cores()) as threads:  # numpy and Embree release the interpreter lock
         return [amount for some in threads.map(free, groups) for amount in some]
 
 

@@ -17,6 +17,7 @@ from enum import StrEnum
 from functools import cache
 from typing import Any
 
+from anymesh.cores import usable_cores
 from anymesh.isolation.child import LENGTH, PATIENCE, write_message
 
 START_AFTER = 0.3  # [s] total waiting time of calls before another child is started, which takes about as long
@@ -65,7 +66,7 @@ class ChildPool:
     """
 
     def __init__(self, size: int | None = None, limits: ChildLimits = ChildLimits()) -> None:
-        self.size, self.limits = size or os.cpu_count() or 1, limits
+        self.size, self.limits = size or usable_cores(), limits
         self._idle: list[_Child] = []
         self._room = self.size  # children that may still be started
         self._waited = 0.0  # [s] total of all calls

@@ -6,7 +6,6 @@ set of groups of highest total score. Groups that cannot move are removed, and t
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
@@ -15,6 +14,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.config import Config
+from anymesh.cores import usable_cores
 from anymesh.deadline import SEGMENT, Deadline
 from anymesh.geometry.patches import ObjectShape
 from anymesh.progress import Progress, silent
@@ -87,7 +87,7 @@ def examine_candidates(
         return None if around is None else (around.place, part_features(scene, k, around))
 
     kept, places, features = [], [], []
-    with ThreadPoolExecutor(os.cpu_count()) as threads:  # ray casts and distances release the interpreter lock
+    with ThreadPoolExecutor(usable_cores()) as threads:  # ray casts and distances release the interpreter lock
         for k, measured in enumerate(threads.map(measure, range(len(tree.members)))):
             progress("segment", f"candidate {k}", k, len(tree.members))
             if measured is not None:

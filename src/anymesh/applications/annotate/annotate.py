@@ -20,7 +20,8 @@ from anymesh.applications.annotate.runner import Plan, Runner
 from anymesh.applications.annotate.salvage import open_ledger
 from anymesh.applications.annotate.states import AttemptOutcome
 from anymesh.applications.annotate.tally import Tally, tally
-from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits, Workers, machine_cores
+from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits, Workers
+from anymesh.cores import usable_cores
 from anymesh.deadline import DEFAULT_SECONDS
 from anymesh.errors import OptionError
 from anymesh.export.formats import DEFAULT
@@ -150,7 +151,7 @@ def _workers(speed: Speed, options: Mapping[str, Any], plan: Plan, given: Worker
         workers = RayWorkers(speed.ray, limits, speed.workers)
         yield workers, workers.free
     else:
-        count = speed.workers or machine_cores()
+        count = speed.workers or usable_cores()
         yield LocalWorkers(count, ObjectLimits.default(count, speed.memory, seconds, waits=plan.metered)), count
 
 

@@ -16,7 +16,8 @@ from anymesh.applications.annotate.requests import ObjectRequest
 from anymesh.applications.annotate.states import AttemptOutcome, Claim, Result
 from anymesh.applications.annotate.tally import duration
 from anymesh.applications.annotate.work import Job
-from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits, machine_cores
+from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits
+from anymesh.cores import usable_cores
 from anymesh.deadline import DEFAULT_SECONDS
 from anymesh.errors import OptionError
 from anymesh.pipeline.options import GEOMETRY
@@ -90,7 +91,7 @@ def estimate(source: str, count: int, *, speed: Speed, **options: Any) -> Estima
     who = str(options.get("answerer", who))
     requests = [r for r in find_objects(source, without=Path("/nonexistent")) if not r.refusal]
     chosen = random.Random(int(options.get("seed", 0))).sample(requests, min(count, len(requests)))
-    workers = speed.workers or machine_cores()
+    workers = speed.workers or usable_cores()
     limits = ObjectLimits.default(
         workers, speed.memory, speed.kill_after or KILL * float(options.get("time_limit", DEFAULT_SECONDS))
     )
