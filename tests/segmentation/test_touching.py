@@ -4,13 +4,14 @@ import numpy as np
 import pytest
 import trimesh
 from assets import box, mesh_of
+from geometry.rigid import shape_of
 from scipy.spatial.distance import cdist
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.contact import connecting_area
 from anymesh.segmentation.contacts import Contacts, find_contacts, hanging_on
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.patch_gaps import PROBES, gap_within
+from anymesh.segmentation.patch_gaps import PROBES, area_in_contact, gap_within
 
 BLOCK = box((0, 0, 0), (1, 1, 1))
 
@@ -62,8 +63,8 @@ def test_touching_boxes_are_one_body_that_touches_at_the_face() -> None:
     assert found.touch.tolist() == [[0, 1]]
     assert len(found.near) == 0
     assert found.component[0] == found.component[1]
-    assert found.area[0, 1] == pytest.approx(1, abs=0.1)  # sampled with a thousand points
-    assert found.area[1, 0] == pytest.approx(1, abs=0.1)  # sampled with a thousand points
+    assert found.area[0, 1] == pytest.approx(1, abs=0.1)  # sampled with 500 points
+    assert found.area[1, 0] == pytest.approx(1, abs=0.1)  # sampled with 500 points
 
 
 @pytest.mark.parametrize("size", [0.02, 0.2])
@@ -74,6 +75,14 @@ def test_the_area_in_contact_is_measured_on_a_large_plate_as_on_a_small_knob(siz
     found, walls = contacts(plate, knob).area, 4 * size * min(reach, size)
     assert found[0, 1] == pytest.approx(size**2 + 4 * size * reach + np.pi * reach**2, rel=0.1)
     assert found[1, 0] == pytest.approx(size**2 + walls, rel=0.1)
+
+
+@pytest.mark.parametrize("far", [0.0, 0.5], ids=["a point", "a line"])
+def test_what_has_no_area_has_none_in_contact_and_a_plate_has_little_on_it(far: float) -> None:
+    plate = shape_of(box((-5, -3, -0.1), (5, 3, 0)))
+    needle = shape_of((np.array([[1, 1, 0], [1 + far, 1, 0], [1 + far, 1, 0]]), np.array([[0, 1, 2]])))
+    assert area_in_contact(needle, plate, 0.01) == 0
+    assert area_in_contact(plate, needle, 0.01) == pytest.approx(np.pi * 0.01**2 + 2 * far * 0.01, rel=0.2)
 
 
 def test_a_clearance_keeps_bodies_apart_and_a_wide_one_makes_them_strangers() -> None:

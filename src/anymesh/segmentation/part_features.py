@@ -14,7 +14,7 @@ from anymesh.segmentation.part_tree import PartTree
 from anymesh.types import Mesh
 
 AT_BORDER = 0.02  # of the diagonal: a candidate reaches a side of the object's bounds within this distance
-SPREAD_IN_MIDDLE = 0.1  # of the half extent: where a contact that is nearer to the middle of the face lies is chance
+MIN_OFFSET = 0.1  # of the half extent: to which side of the middle of the face a contact nearer to it lies is chance
 MAX_RATIO = 8.0  # upper limit of ratios of lengths
 
 
@@ -146,7 +146,7 @@ def _contact_layout(around: PartContext, near: np.ndarray) -> dict[str, float]:
     return {
         "contact spread": float(spread.min()),
         "contact off the middle": float(np.abs(middle).max()),
-        "contact upright": float(middle**2 @ upright / max(middle @ middle, SPREAD_IN_MIDDLE**2)),
+        "contact upright": float(middle**2 @ upright / max(middle @ middle, MIN_OFFSET**2)),
     }
 
 

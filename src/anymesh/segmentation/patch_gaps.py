@@ -64,9 +64,10 @@ def area_in_contact(a: TriangleSet, b: TriangleSet, tolerance: float) -> float:
     """Return the area of a within the tolerance of b [m^2], from samples of a near b."""
     low, high = b.bounds[0] - tolerance, b.bounds[1] + tolerance
     triangles = _beside(a.triangles, low, high)
-    while 0 < len(triangles) <= MAX_DIVIDED and normals_and_areas(triangles)[1].sum() > b.area:
-        triangles = _beside(quartered(triangles), low, high)
     areas = normals_and_areas(triangles)[1]
+    while 0 < len(triangles) <= MAX_DIVIDED and areas.sum() > b.area:
+        triangles = _beside(quartered(triangles), low, high)
+        areas = normals_and_areas(triangles)[1]
     points, _ = spread_points(triangles, areas, CONTACT_POINTS, a.seed)
     gap = b.tree.distance(points[within(points, low, high)])
     return float(areas.sum()) * float((gap < tolerance).sum()) / max(len(points), 1)
