@@ -31,11 +31,12 @@ GAP_POINTS = 200  # sample points of a protrusion whose distance to the parent i
 
 def face_axes(box: OrientedBox, opening_direction: Float[np.ndarray, " 3"]) -> list[int]:
     """Return the two box axes that span the outer face, in the order of Handle.across."""
-    k = _outward_axis(box, opening_direction)
+    k = outward_axis(box, opening_direction)
     return [i for i in range(3) if i != k]
 
 
-def _outward_axis(box: OrientedBox, opening_direction: np.ndarray) -> int:
+def outward_axis(box: OrientedBox, opening_direction: Float[np.ndarray, " 3"]) -> int:
+    """Return the box axis along which a part opens."""
     return int(np.abs(box.axes @ opening_direction).argmax())
 
 
@@ -119,7 +120,7 @@ def _tab(
 def _face_handle(
     part: TriangleSet, core: OrientedBox, parent: TriangleTree, scale: float, opening_direction: np.ndarray
 ) -> Handle | None:
-    k, face = _outward_axis(core, opening_direction), face_axes(core, opening_direction)
+    k, face = outward_axis(core, opening_direction), face_axes(core, opening_direction)
     sign = float(np.sign(core.axes[k] @ opening_direction))
     height, least = float(_heights(part, core, k, sign).max()), MIN_HANDLE_HEIGHT_RATIO * core.diagonal
     out = _beyond(part, core, parent, k, sign, max(least, height / 2))
@@ -146,7 +147,7 @@ def _bulges(
     part: TriangleSet, core: OrientedBox, opening_direction: np.ndarray, bounds: tuple[np.ndarray, np.ndarray], height: float
 ) -> bool:
     """Return whether the face around a protrusion rises towards it, as around the top of a bulge."""
-    k, face = _outward_axis(core, opening_direction), face_axes(core, opening_direction)
+    k, face = outward_axis(core, opening_direction), face_axes(core, opening_direction)
     local, (low, high) = core.local(part.samples.points), bounds
     above = np.sign(core.axes[k] @ opening_direction) * local[:, k] - core.half[k]
     margin = max(height, 2 * float(np.sqrt(part.area / len(local))))

@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.config import IN_LINE, SAME_SIZE, Config
+from anymesh.config import SAME_SIZE, Config
 from anymesh.motion.part_context import PartContext
 from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, on_axis, open_behind, touching, two_pivots
+from anymesh.segmentation.part_freedom import blocked_shares, exposure, space_behind
 from anymesh.segmentation.part_tree import PartTree
 from anymesh.types import Mesh
 
@@ -58,6 +59,9 @@ def part_features(scene: FeatureScene, group: int, around: PartContext) -> dict[
         **_copies(scene, group, around),
         **_material(scene, group, around),
         **_handle(around),
+        **blocked_shares(around, scene.config.segmentation),
+        **exposure(around, scene.config.segmentation),
+        **space_behind(around),
     }
 
 
@@ -81,7 +85,6 @@ def _shape(scene: FeatureScene, group: int, around: PartContext) -> dict[str, fl
         "closed": float(around.part.solid @ around.part.areas / max(around.part.area, 1e-300)),
         "roundness": outline.roundness,
         "height over radius": _ratio(outline.height, outline.radius),
-        "patches": float(np.log1p(patches.sum())),
         "largest patch": float(tree.contacts.patch_area[patches].max() / max(tree.area[group], 1e-300)),
         "log patches of the object": float(np.log1p(len(patches))),
     }
@@ -158,16 +161,13 @@ def _neighbours(scene: FeatureScene, group: int) -> dict[str, float]:
     out = inside[pairs[:, 0]] & ~inside[pairs[:, 1]]
     within = inside[pairs[:, 0]] & inside[pairs[:, 1]]
     beside = np.bincount(pairs[out, 1], amount[out], len(inside))
-    near = contacts.near[inside[contacts.near[:, 0]] != inside[contacts.near[:, 1]]]
     shared = tree.whole.shared
     creased = inside[shared[:, 0]] != inside[shared[:, 1]] if len(shared) else np.zeros(0, bool)
     outside, total = float(beside.sum()), max(float(tree.area[group]), 1e-300)
     return {
-        "touching patches": float(np.log1p((beside > 0).sum())),
         "contact with the first": float(beside.max(initial=0) / max(outside, 1e-300)) if outside > 0 else 0.0,
         "contact area": min(outside / total, 1.0),
         "contact within": min(float(amount[within].sum()) / total, 2.0),
-        "patches with clearance": float(np.log1p(len(near))),
         "parted by creases": float(creased.any()),
         "separate": float(not out.any() and not creased.any()),
     }
@@ -180,14 +180,11 @@ def _copies(scene: FeatureScene, group: int, around: PartContext) -> dict[str, f
     alike &= np.abs(tree.area / max(tree.area[group], 1e-300) - 1) < 2 * SAME_SIZE
     alike &= tree.overlap.shared[group] == 0
     middles = tree.bounds[alike].mean(1)
-    mine = tree.bounds[group].mean(0)
-    off = np.abs(middles - mine) / around.diagonal
     outline = around.outline
     arm = middles - outline.center
     across = np.linalg.norm(arm - (arm @ outline.axis)[:, None] * outline.axis, axis=1)
     return {
         "log copies": float(np.log1p(alike.sum())),
-        "copies in a row": float(np.log1p(((off < IN_LINE).sum(1) >= 2).sum())),
         "copy on the axis": float((across < 0.3 * outline.radius).any()),
     }
 
@@ -202,7 +199,6 @@ def _material(scene: FeatureScene, group: int, around: PartContext) -> dict[str,
     return {
         "materials": float(np.log1p(((mine + rest) > 0).sum())),
         "material of its own": float(mine[k] / max(mine[k] + rest[k], 1e-300)),
-        "one material": float(mine[k] / max(mine.sum(), 1e-300)),
     }
 
 

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from anymesh.config import ALONG_COSINE, FACING_COSINE, SegmentationConfig
+from anymesh.motion.handle import outward_axis
 from anymesh.motion.part_context import PartContext
+from anymesh.segmentation.part_freedom import points_behind
 
 RIM = 0.75  # samples beyond this share of the half extent belong to a rim
 
@@ -60,15 +62,9 @@ def open_behind(around: PartContext) -> float:
     An opening is free for three thicknesses and at least 3 % of the diagonal.
     """
     core = around.body_obb
-    k = int(np.abs(core.axes @ around.opening_direction).argmax())
-    thick = 2 * core.half[k]
+    thick = 2 * core.half[outward_axis(core, around.opening_direction)]
     free = max(3 * thick, 0.03 * around.diagonal)
-    grid = np.linspace(-0.85, 0.85, 9)
-    u, v = np.meshgrid(grid, grid)
-    local = np.zeros((u.size, 3))
-    for axis, value in zip(around.face_axes, (u, v), strict=True):
-        local[:, axis] = value.reshape(-1) * core.half[axis]
-    points = core.world(local) - around.opening_direction * (core.half[k] + 1e-4 * around.diagonal)
+    points = points_behind(around, 9)
     rays = np.repeat(-around.opening_direction[None], len(points), 0)
     hits = around.rest.scene.first_hit(points, rays)
     face = np.maximum(hits.face, 0)
