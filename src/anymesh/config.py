@@ -40,7 +40,7 @@ class SegmentationConfig:
     touch: float = 0.0004  # patches closer than this touch; clearances of real fits are wider
     near: float = 0.02  # components closer than this, but not touching, have a clearance
     smallest: float = 0.004  # patches with a smaller diagonal never move on their own
-    most_candidates: int = 300  # largest groups of patches that are examined as parts
+    most_candidates: int = 600  # largest groups of patches that are examined as parts
     at_least: int = 0  # minimum number of parts, even with weak evidence, for objects that are known to move
 
     def __post_init__(self) -> None:
