@@ -62,7 +62,8 @@ def failures(folder: Path) -> list[Failure]:
     """Return all objects, those with the lowest F1 and then the most errors first."""
     rows = read_rows(folder)
     found = []
-    for r, source, kind in zip(rows, *read_scores(folder, rows), strict=True):
+    scores = read_scores(folder, rows)
+    for r, source, kind in zip(rows, scores["source"], scores["kind"], strict=True):
         chosen = assign_parts(overlap_of(r), kind if r.source == OWN else source)
         found.append(Failure(r, scored(r, chosen), owners(r, chosen)))
     return sorted(found, key=lambda f: (f.counts.f1, -f.errors, f.caption))

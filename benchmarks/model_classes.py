@@ -1,9 +1,8 @@
-"""Compare kinds of classifiers of parts on sources and kinds left out of training: log-linear, trees, networks, and their mean.
+"""Compare kinds of classifiers of parts on sources and kinds left out of training: log-linear, trees, networks, and both.
 
 python benchmarks/model_classes.py ROWS
 
-ROWS: as for `benchmarks/train_parts.py`, which must have measured them: the scores of the networks are what its saved scores,
-means of trees and networks, leave when the trees are trained again.
+ROWS: as for `benchmarks/train_parts.py`, which must have measured them.
 """
 
 from __future__ import annotations
@@ -13,12 +12,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from boosting import Sample, Scores, fit, leave_kinds_out, leave_sources_out
+from boosting import Sample, Scores, leave_kinds_out, leave_sources_out
 from jaxtyping import Bool, Float
 from part_rows import PartRows, read_rows
 from scipy.optimize import minimize
 from set_training import knots_of
-from train_parts import CUT, CUT_SCORE, MODELS, counts, read_scores, samples_of, sets_of, with_cuts
+from train_parts import counts, of_both, read_scores, samples_of, sets_of
 
 from anymesh.scoring.set_network import scaled
 
@@ -47,19 +46,16 @@ def _terms(features: Float[np.ndarray, "n k"], knots: Float[np.ndarray, "q k"]) 
     return np.concatenate([own, own**2, np.ones((len(own), 1))], 1)
 
 
-def scores_without(
+def log_linear_without(
     samples: Sequence[Sample], knots: Float[np.ndarray, "q k"], left: Sequence[Bool[np.ndarray, " s"]]
-) -> tuple[Scores, Scores]:
-    """Return the log-linear scores and those of trees, each trained without all that is left out with an object."""
-    linear: Scores = [np.zeros(0)] * len(samples)
-    trees: Scores = [np.zeros(0)] * len(samples)
+) -> Scores:
+    """Return the log-linear scores, each fitted without all that is left out with an object."""
+    found: Scores = [np.zeros(0)] * len(samples)
     for mask in left:
-        known = [samples[k] for k in np.flatnonzero(~mask)]
-        weights, ensemble = log_linear(known, knots), fit(known, MODELS)
+        weights = log_linear([samples[k] for k in np.flatnonzero(~mask)], knots)
         for k in np.flatnonzero(mask):
-            linear[k] = _terms(samples[k].features, knots) @ weights
-            trees[k] = ensemble.score(samples[k].features)
-    return linear, trees
+            found[k] = _terms(samples[k].features, knots) @ weights
+    return found
 
 
 def best_f1(rows: Sequence[PartRows], scores: Scores) -> str:
@@ -82,15 +78,14 @@ def main() -> None:
     samples = samples_of(rows)
     knots = knots_of(sets_of(rows, samples))
     saved = read_scores(rows=rows, folder=parser.parse_args().folder)
-    print("| | log-linear | trees | networks | mean of trees and networks |\n|---|---|---|---|---|")
-    for title, left, mean in (
-        ("sources left out", leave_sources_out(samples), saved[0]),
-        ("kinds left out", leave_kinds_out(samples), saved[1]),
+    print("| | log-linear | trees | networks | both, as they decide |\n|---|---|---|---|---|")
+    for title, name, left in (
+        ("sources left out", "source", leave_sources_out(samples)),
+        ("kinds left out", "kind", leave_kinds_out(samples)),
     ):
-        linear, trees = scores_without(samples, knots, left)
-        cut = [CUT_SCORE * r.features[:, r.names.index(CUT)] for r in rows]
-        networks = [2 * (m - c) - t for m, c, t in zip(mean, cut, trees, strict=True)]
-        figures = [best_f1(rows, s) for s in (with_cuts(rows, linear), with_cuts(rows, trees), with_cuts(rows, networks), mean)]
+        trees, networks = saved[f"{name} trees"], saved[f"{name} networks"]
+        each = (of_both(rows, s, s) for s in (log_linear_without(samples, knots, left), trees, networks))
+        figures = [best_f1(rows, s) for s in (*each, saved[name])]
         print(f"| {title} | {' | '.join(figures)} |", flush=True)
 
 

@@ -33,7 +33,7 @@ from set_training import CandidateSet, train_all
 from anymesh.scoring.classifier import Classifier
 from anymesh.segmentation.candidate_relations import relations
 from anymesh.segmentation.part_assignment import assign_parts
-from anymesh.segmentation.part_classifier import CUT, CUT_SCORE
+from anymesh.segmentation.part_classifier import combined, is_cut
 
 MODELS = (Model(150, 0), Model(250, 1, True), Model(150, 2), Model(250, 3, True))
 EPOCHS, SEEDS = 16, 3  # of the networks
@@ -77,18 +77,20 @@ def held_out(
     samples: Sequence[Sample],
     sets: Sequence[CandidateSet],
     left: Sequence[Bool[np.ndarray, " s"]],
-) -> Scores:
-    """Return the scores of each object by a classifier that was trained without all that is left out with it."""
-    found: Scores = [np.zeros(0)] * len(rows)
+) -> tuple[Scores, Scores]:
+    """Return the scores of each object by trees and by networks that were trained without all that is left out with it."""
+    trees: Scores = [np.zeros(0)] * len(rows)
+    networks: Scores = [np.zeros(0)] * len(rows)
     for mask, classifier in zip(left, classifiers(rows, samples, sets, [np.flatnonzero(~m) for m in left]), strict=True):
         for k in np.flatnonzero(mask):
-            found[k] = classifier.score_together(sets[k].own, sets[k].place, sets[k].relations)
-    return with_cuts(rows, found)
+            trees[k] = classifier.score(sets[k].own)
+            networks[k] = classifier.score_together(sets[k].own, sets[k].place, sets[k].relations)
+    return trees, networks
 
 
-def with_cuts(rows: Sequence[PartRows], scores: Scores) -> Scores:
-    """Return the scores with what is added for parts that are cut out of a surface."""
-    return [s + CUT_SCORE * r.features[:, r.names.index(CUT)] for r, s in zip(rows, scores, strict=True)]
+def of_both(rows: Sequence[PartRows], trees: Scores, networks: Scores) -> Scores:
+    """Return the scores that decide."""
+    return [combined(t, n, is_cut(r.features, r.names)) for r, t, n in zip(rows, trees, networks, strict=True)]
 
 
 def counts(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> Counts:
@@ -128,17 +130,22 @@ def f1_of(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> dict[str, f
     return {g: round(counts([rows[k] for k in of[g]], [scores[k] for k in of[g]]).f1, 3) for g in groups}
 
 
-def save_scores(folder: Path, by_source: Scores, by_kind: Scores) -> None:
+def save_scores(folder: Path, **scores: Scores) -> None:
     """Keep the scores of held-out objects, in the order of the rows."""
     (folder / SCORES.parent).mkdir(exist_ok=True)
-    np.savez_compressed(folder / SCORES, source=np.concatenate(by_source), kind=np.concatenate(by_kind))
+    np.savez_compressed(folder / SCORES, **{name: np.concatenate(some) for name, some in scores.items()})
 
 
-def read_scores(folder: Path, rows: Sequence[PartRows]) -> tuple[Scores, Scores]:
-    """Return the scores of `save_scores`, by classifiers trained on other sources and on other kinds."""
+def read_scores(folder: Path, rows: Sequence[PartRows]) -> dict[str, Scores]:
+    """Return the scores of held-out objects.
+
+    "source trees" and "source networks", trained on other sources; "kind trees" and "kind networks", trained on other kinds;
+    "source" and "kind", which decide.
+    """
     ends = np.cumsum([len(r.features) for r in rows])[:-1]
     with np.load(folder / SCORES) as file:
-        return np.split(file["source"], ends), np.split(file["kind"], ends)
+        found = {name: np.split(file[name], ends) for name in file.files}
+    return found | {left: of_both(rows, found[f"{left} trees"], found[f"{left} networks"]) for left in ("source", "kind")}
 
 
 def confidences(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> Scored:
@@ -180,15 +187,20 @@ def main(argv: Sequence[str] | None = None) -> None:
     rows = read_rows(options.folder)
     samples = samples_of(rows)
     sets = sets_of(rows, samples)
-    by_source = held_out(rows, samples, sets, leave_sources_out(samples))
-    by_kind = held_out(rows, samples, sets, leave_kinds_out(samples))
-    save_scores(options.folder, by_source, by_kind)
+    trees, networks = held_out(rows, samples, sets, leave_sources_out(samples))
+    more_trees, more_networks = held_out(rows, samples, sets, leave_kinds_out(samples))
+    save_scores(
+        options.folder,
+        **{"source trees": trees, "source networks": networks, "kind trees": more_trees, "kind networks": more_networks},
+    )
+    scores = read_scores(options.folder, rows)
+    by_source, by_kind = scores["source"], scores["kind"]
     write_page(rows, by_source, by_kind)
     if not options.write:
         return
-    scores = {"F1, other sources": f1_of(rows, by_source), "F1, other kinds": f1_of(rows, by_kind)}
+    f1 = {"F1, other sources": f1_of(rows, by_source), "F1, other kinds": f1_of(rows, by_kind)}
     (networks,) = train_all(sets, [range(len(rows))], EPOCHS, SEEDS)
-    told = {"scores": scores, "networks": {"epochs": EPOCHS, "seeds": SEEDS, "objects": len(rows)}}
+    told = {"scores": f1, "networks": {"epochs": EPOCHS, "seeds": SEEDS, "objects": len(rows)}}
     objects = sorted({(r.source, r.kind, r.name) for r in rows})
     models = [asdict(m) for m in MODELS]
     candidates = sum(len(r.features) for r in rows)

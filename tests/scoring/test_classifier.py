@@ -26,13 +26,13 @@ def test_a_feature_that_a_candidate_does_not_have_is_no_reason() -> None:
         assert classifier.reasons(table) == [reason]
 
 
-def test_the_score_among_others_is_the_mean_of_the_trees_and_the_networks(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The tree scores 1; one network scores the number of candidates, the other 4 more."""
+def test_the_score_among_others_is_the_mean_of_the_networks(monkeypatch: pytest.MonkeyPatch) -> None:
+    """One network scores the number of candidates, the other 4 more."""
     networks = [SetNetwork(np.full((1, 1), shift, np.float32), {}) for shift in (0, 4)]
     monkeypatch.setattr(SetNetwork, "score", lambda net, own, place, pairs: np.full(len(own), len(own) + net.knots[0, 0]))
     classifier = Classifier(stump(0), tuple(networks), ("size",), {})
     found = classifier.score_together(np.ones((3, 1)), np.zeros((3, 12)), np.zeros((3, 3, 2)))
-    assert found.tolist() == [(1 + (3 + 7) / 2) / 2] * 3
+    assert found.tolist() == [(3 + 7) / 2] * 3
 
 
 def test_a_value_of_minus_zero_is_printed_as_zero() -> None:

@@ -81,6 +81,7 @@ def test_the_networks_have_finite_weights_and_their_inputs() -> None:
 
 def test_a_part_that_is_cut_out_of_a_surface_scores_more(monkeypatch: pytest.MonkeyPatch) -> None:
     """The trees and networks are left out: all three candidates have the log-odds 0.25 by themselves."""
+    monkeypatch.setattr(Classifier, "score", lambda self, own: np.full(len(own), 0.25))
     monkeypatch.setattr(Classifier, "score_together", lambda self, own, place, relations: np.full(len(own), 0.25))
     names = part_classifier.shipped_classifier().names
     features = [dict.fromkeys(names, 0.0) | {part_classifier.CUT: cut} for cut in (0.0, 1.0, 0.0)]

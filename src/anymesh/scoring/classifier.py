@@ -54,12 +54,11 @@ class Classifier:
     def score_together(
         self, own: Float[np.ndarray, "n k"], place: Float[np.ndarray, "n 12"], relations: Float[np.ndarray, "n n r"]
     ) -> Float[np.ndarray, " n"]:
-        """Return the log-odds of each candidate among all of its object: the mean of the trees and of the networks.
+        """Return the log-odds of each candidate among all of its object, by the networks.
 
         place: as from `PartContext.place`; relations: features of each pair.
         """
-        networks = [network.score(own, place, relations) for network in self.networks]
-        return (self.trees.score(own) + np.mean(networks, axis=0)) / 2
+        return np.mean([network.score(own, place, relations) for network in self.networks], axis=0)
 
     def reasons(self, own: Float[np.ndarray, "n k"]) -> list[str]:
         """Return the names of the features that raised each score by the trees the most."""

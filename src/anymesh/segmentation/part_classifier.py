@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from functools import cache
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from anymesh.scoring.classifier import Classifier
 from anymesh.segmentation.candidate_relations import relations
@@ -31,8 +31,23 @@ def score_parts(
     classifier = shipped_classifier()
     own, contacts = classifier.table(features), tree.contacts
     pairs = relations(tree.overlap, tree.members, contacts.area_matrix, contacts.near, place)
-    score = classifier.score_together(own, place, pairs) + CUT_SCORE * np.array([row[CUT] for row in features])
+    score = combined(classifier.score(own), classifier.score_together(own, place, pairs), is_cut(own, classifier.names))
     return score, lambda chosen: classifier.reasons(own[list(chosen)])
+
+
+def is_cut(own: Float[np.ndarray, "n k"], names: Sequence[str]) -> Bool[np.ndarray, " n"]:
+    """Return which candidates are cut out of a surface. names: of the features."""
+    return own[:, list(names).index(CUT)] > 0
+
+
+def combined(
+    trees: Float[np.ndarray, " n"], networks: Float[np.ndarray, " n"], cut: Bool[np.ndarray, " n"]
+) -> Float[np.ndarray, " n"]:
+    """Return the log-odds of candidates: the mean of the scores of the trees and of the networks, and CUT_SCORE for cuts.
+
+    cut: candidates that are cut out of a surface.
+    """
+    return (trees + networks) / 2 + CUT_SCORE * cut
 
 
 @cache
