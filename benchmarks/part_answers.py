@@ -1,0 +1,54 @@
+"""Compare the answers of two viewers on which regions move with the classifier of parts.
+
+python benchmarks/part_answers.py [FOLDER]      FOLDER: of `part_marks.py`; otherwise the one kept here, benchmarks/part_marks
+
+Reads FOLDER/truth.json and the answers FOLDER/viewer_1.json and viewer_2.json, {"K": {"moves": [numbers], "unsure": [numbers]}}
+with K the number of a picture.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+
+import numpy as np
+from jaxtyping import Bool
+
+KEPT = Path(__file__).parent / "part_marks"
+
+
+def f1_of(said: Bool[np.ndarray, " n"], moves: Bool[np.ndarray, " n"]) -> float:
+    """Return the F1 of answers on which regions move."""
+    return 2 * float((said & moves).sum()) / max(float(said.sum() + moves.sum()), 1.0)
+
+
+def table(folder: Path) -> str:
+    """Return how well the classifier and two viewers tell what moves, and where the viewers agree."""
+    truth, *told = (
+        json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) for name in ("truth", "viewer_1", "viewer_2")
+    )
+    lines = [
+        "| objects | regions | movable | F1, classifier | F1, viewer 1 | F1, viewer 2 | differ | both wrong | unsure |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
+    for group in ("worst", "random"):
+        mine = {key: o["regions"] for key, o in truth.items() if o["group"] == group}
+        keys = [(key, int(k)) for key, of in mine.items() for k in of]
+        moves, found = np.array([flags for of in mine.values() for flags in of.values()]).T
+        said, unsure = (np.array([[k in t[key][what] for key, k in keys] for t in told]) for what in ("moves", "unsure"))
+        shares = [f1_of(s, moves) for s in (found, *said)]
+        shares += [float(share.mean()) for share in (said[0] != said[1], (said != moves).all(0), unsure)]
+        figures = " | ".join(f"{share:.2f}" for share in shares)
+        lines.append(f"| {len(mine)} {group} | {len(keys)} | {int(moves.sum())} | {figures} |")
+    return "\n".join(lines)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Compare viewers with the classifier of parts.")
+    parser.add_argument("folder", type=Path, nargs="?", default=KEPT)
+    print(table(parser.parse_args().folder))
+
+
+if __name__ == "__main__":
+    main()
