@@ -77,15 +77,19 @@ def held_out(
     samples: Sequence[Sample],
     sets: Sequence[CandidateSet],
     left: Sequence[Bool[np.ndarray, " s"]],
-) -> tuple[Scores, Scores]:
-    """Return the scores of each object by trees and by networks that were trained without all that is left out with it."""
+    what: str,
+) -> dict[str, Scores]:
+    """Return the scores of each object by trees and by networks that were trained without all that is left out with it.
+
+    what: is left out, the start of the two keys.
+    """
     trees: Scores = [np.zeros(0)] * len(rows)
     networks: Scores = [np.zeros(0)] * len(rows)
     for mask, classifier in zip(left, classifiers(rows, samples, sets, [np.flatnonzero(~m) for m in left]), strict=True):
         for k in np.flatnonzero(mask):
             trees[k] = classifier.score(sets[k].own)
             networks[k] = classifier.score_together(sets[k].own, sets[k].place, sets[k].relations)
-    return trees, networks
+    return {f"{what} trees": trees, f"{what} networks": networks}
 
 
 def of_both(rows: Sequence[PartRows], trees: Scores, networks: Scores) -> Scores:
@@ -130,8 +134,8 @@ def f1_of(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> dict[str, f
     return {g: round(counts([rows[k] for k in of[g]], [scores[k] for k in of[g]]).f1, 3) for g in groups}
 
 
-def save_scores(folder: Path, **scores: Scores) -> None:
-    """Keep the scores of held-out objects, in the order of the rows."""
+def save_scores(folder: Path, scores: dict[str, Scores]) -> None:
+    """Keep the scores of `held_out`, in the order of the rows."""
     (folder / SCORES.parent).mkdir(exist_ok=True)
     np.savez_compressed(folder / SCORES, **{name: np.concatenate(some) for name, some in scores.items()})
 
@@ -187,12 +191,8 @@ def main(argv: Sequence[str] | None = None) -> None:
     rows = read_rows(options.folder)
     samples = samples_of(rows)
     sets = sets_of(rows, samples)
-    trees, networks = held_out(rows, samples, sets, leave_sources_out(samples))
-    more_trees, more_networks = held_out(rows, samples, sets, leave_kinds_out(samples))
-    save_scores(
-        options.folder,
-        **{"source trees": trees, "source networks": networks, "kind trees": more_trees, "kind networks": more_networks},
-    )
+    by_sources = held_out(rows, samples, sets, leave_sources_out(samples), "source")
+    save_scores(options.folder, by_sources | held_out(rows, samples, sets, leave_kinds_out(samples), "kind"))
     scores = read_scores(options.folder, rows)
     by_source, by_kind = scores["source"], scores["kind"]
     write_page(rows, by_source, by_kind)

@@ -90,3 +90,8 @@ def test_a_part_that_is_cut_out_of_a_surface_scores_more(monkeypatch: pytest.Mon
     tree = PartTree(whole, find_contacts(whole, SegmentationConfig()), np.eye(4, dtype=bool)[1:], np.ones(3), ("",) * 4)
     score, _ = part_classifier.score_parts(tree, np.zeros((3, 12)), features)
     assert score == pytest.approx([0.25, 0.25 + part_classifier.CUT_SCORE, 0.25])
+
+
+def test_a_score_is_the_mean_of_the_trees_and_the_networks() -> None:
+    found = part_classifier.combined(np.array([0.0, 2.0]), np.array([4.0, 3.0]), np.array([False, True]))
+    assert found == pytest.approx([2.0, 2.5 + part_classifier.CUT_SCORE])
