@@ -24,13 +24,17 @@ def f1_of(said: Bool[np.ndarray, " n"], moves: Bool[np.ndarray, " n"]) -> float:
 
 
 def table(folder: Path) -> str:
-    """Return how well the classifier and two viewers tell what moves, and where the viewers agree."""
+    """Return how well the classifier and two viewers tell what moves, and where the viewers agree.
+
+    differ, both wrong, unsure: shares of the regions; corrected: of the classifier's errors, where both viewers are right.
+    """
     truth, *told = (
         json.loads((folder / f"{name}.json").read_text(encoding="utf-8")) for name in ("truth", "viewer_1", "viewer_2")
     )
     lines = [
-        "| objects | regions | movable | F1, classifier | F1, viewer 1 | F1, viewer 2 | differ | both wrong | unsure |",
-        "|---|---|---|---|---|---|---|---|---|",
+        "| objects | regions | movable | F1, classifier | F1, viewer 1 | F1, viewer 2 "
+        "| differ | both wrong | unsure | corrected |",
+        "|---|---|---|---|---|---|---|---|---|---|",
     ]
     for group in ("worst", "random"):
         mine = {key: o["regions"] for key, o in truth.items() if o["group"] == group}
@@ -38,7 +42,8 @@ def table(folder: Path) -> str:
         moves, found = np.array([flags for of in mine.values() for flags in of.values()]).T
         said, unsure = (np.array([[k in t[key][what] for key, k in keys] for t in told]) for what in ("moves", "unsure"))
         shares = [f1_of(s, moves) for s in (found, *said)]
-        shares += [float(share.mean()) for share in (said[0] != said[1], (said != moves).all(0), unsure)]
+        right = said == moves
+        shares += [float(share.mean()) for share in (said[0] != said[1], ~right.any(0), unsure, right.all(0)[found != moves])]
         figures = " | ".join(f"{share:.2f}" for share in shares)
         lines.append(f"| {len(mine)} {group} | {len(keys)} | {int(moves.sum())} | {figures} |")
     return "\n".join(lines)
