@@ -53,6 +53,25 @@ def test_the_box_of_a_mostly_flat_surface_is_aligned_with_it(flat: float, volume
     assert (np.abs(found.axes @ Z).max() == pytest.approx(1)) == (flat > 6)
 
 
+def test_the_box_of_a_rough_panel_lies_along_it() -> None:
+    """A strip of which a third is bent up; normals are off by about 3 degrees, as those of a scan."""
+    rng = np.random.default_rng(0)
+    normals = np.repeat([Z, (Z - X) / np.sqrt(2)], [700, 300], 0) + np.deg2rad(3) * rng.standard_normal((1000, 3)) / np.sqrt(2)
+    found = fit_box(BENT, normals / np.linalg.norm(normals, axis=1, keepdims=True), np.ones(1000))
+    assert np.abs(found.axes @ Z).max() > np.cos(np.deg2rad(1))
+
+
+def test_the_box_of_a_cross_lies_along_its_plates() -> None:
+    """Two upright plates, 2 x 0.1 x 2 m; the box along the diagonals of the cross has nearly half the ground."""
+    turn = Rotation.from_rotvec([0, 0, 0.3]).as_matrix()
+    plates = [box((-1, -0.05, 0), (1, 0.05, 2)), box((-0.05, -1, 0), (0.05, 1, 2))]
+    T = np.eye(4)
+    T[:3, :3] = turn
+    found = shape_of(*plates, T=T).box
+    assert found.half == pytest.approx([1, 1, 1])
+    assert np.abs(found.axes @ turn).max(1) == pytest.approx(1)
+
+
 def test_parallel_directions_give_no_frame() -> None:
     with np.errstate(invalid="raise", divide="raise"):
         found = shape_of(box((0, 0, 0), (3, 2, 1))).box

@@ -56,7 +56,9 @@ def _frame(first: np.ndarray, second: np.ndarray) -> np.ndarray | None:
 
 
 BLOCK = 100_000  # points times frames that are transformed at once
-MIN_FLAT_AREA_RATIO = 0.6  # share of the surface facing one way above which the box is aligned with it
+ALIGNED_POWER = 100  # a face lies along an axis by this power of the cosine to its normal: .87 at 3 degrees, .22 at 10
+MIN_BOXY_SHARE = 0.6  # share of the surface along the axes of a frame above which the box is aligned with the surface
+MAX_ALIGNED_LOSS = 0.1  # by how much less of the surface may lie along the axes of the frame that is taken
 
 
 def dominant_normals(
@@ -87,8 +89,8 @@ def fit_box(
 ) -> OrientedBox:
     """Fit the smallest box along the asset axes, the dominant normals, or the principal directions.
 
-    A box must be 3 % smaller to be preferred to the axis-aligned one. The box of a mostly flat surface is aligned with it,
-    since a smaller one may be tilted by a protrusion or by missing surface.
+    A box must be 3 % smaller to be preferred to the axis-aligned one. The box of a surface that mostly lies along three axes is
+    aligned with it, since a smaller one may be tilted by a protrusion or by missing surface.
     """
     frames = [np.eye(3)]
     directions = dominant_normals(normals, weights)
@@ -101,12 +103,10 @@ def fit_box(
         rest.extend(np.eye(3))
         frames.extend(f for second in rest if (f := _frame(first, second)) is not None)
     frames.append(_frame(principal[0], principal[1]) if len(points) > 2 else None)
-    if (
-        len(directions)
-        and weights[np.abs(normals @ directions[0]) > np.cos(np.deg2rad(5))].sum() > MIN_FLAT_AREA_RATIO * weights.sum()
-    ):
-        frames = [f for f in frames if f is not None and np.abs(f @ directions[0]).max() > 1 - 1e-6] or frames
     tried = np.array([f for f in frames if f is not None])
+    aligned = np.array([weights @ np.abs(normals @ f.T).max(1) ** ALIGNED_POWER for f in tried]) / max(weights.sum(), 1e-300)
+    if aligned.max() > MIN_BOXY_SHARE:
+        tried = tried[aligned > aligned.max() - MAX_ALIGNED_LOSS]
     step = max(1, BLOCK // max(len(points), 1))
     sides = np.concatenate([_sides(points, tried[k : k + step]) for k in range(0, len(tried), step)])
     tolerance = 1e-3 * float(np.linalg.norm(np.ptp(points, axis=0)))
