@@ -11,6 +11,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
+from anymesh.articulation.contact_metrics import contact_points
 from anymesh.articulation.motion_question import Proposal
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import outline_about
@@ -20,6 +21,8 @@ from anymesh.types import JointType, Motion
 
 SAME_DIRECTION = np.cos(np.deg2rad(1.0))
 SAME_LINE = 0.004  # of the tolerance length
+MIN_PIVOTS_APART_RATIO = 0.36  # of the part's diagonal: minimum distance of two pivots
+MAX_PIVOT_WIDTH_RATIO = 0.35  # of their distance: maximum width of the contact at a pivot
 MIN_REVOLUTION = 0.25  # of the surfaces in contact: least share that turns in place about their axis
 SAME_CONTACT_DIRECTION, SAME_CONTACT_LINE = np.cos(np.deg2rad(2.0)), 0.008  # coarser, since these axes are fitted
 
@@ -58,19 +61,13 @@ def _box_directions(box: OrientedBox) -> list[Proposal]:
     return [("slide", Motion(JointType.PRISMATIC, a, box.center, "direction of the part")) for a in box.axes]
 
 
-def _principal(points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    spread = points - points.mean(0)
-    _, s, vt = np.linalg.svd(spread, full_matrices=False)
-    return s / np.sqrt(len(points)), vt
-
-
 def _from_contact(around: PartContext) -> list[Proposal]:
     """Return the paper's candidates: the line along the connecting area, its plane's normal, directions in the plane."""
     contact = around.contact
     if len(contact) < 4:
         return []
     middle = contact.mean(0)
-    _, directions = _principal(contact)
+    directions = np.linalg.svd(contact - middle, full_matrices=False)[2]
     return [
         ("contact", Motion(JointType.REVOLUTE, _unit(directions[0]), middle, "line along the connecting area")),
         ("center", Motion(JointType.REVOLUTE, _unit(directions[2]), middle, "normal of the connecting area")),
@@ -89,7 +86,7 @@ def _unit(v: np.ndarray) -> np.ndarray:
 
 def two_pivot_line(around: PartContext) -> Motion | None:
     """Return the line through two contacts far apart with free space between them (a bucket handle, a trunnion)."""
-    near = around.part.samples.points[around.gap < max(0.008 * around.tolerance_length, float(around.gap.min()) * 1.5)]
+    near = contact_points(around)
     if len(near) < 6:
         return None
     spread = near - near.mean(0)
@@ -101,7 +98,7 @@ def two_pivot_line(around: PartContext) -> Motion | None:
     a, b = ((near[side == s].min(0) + near[side == s].max(0)) / 2 for s in (0, 1))
     apart = float(np.linalg.norm(b - a))
     width = max(float(np.linalg.norm(np.ptp(near[side == s], axis=0))) for s in (0, 1))
-    if apart < 0.45 * around.part.box.diagonal * 0.8 or width > 0.35 * apart:
+    if apart < MIN_PIVOTS_APART_RATIO * around.part.box.diagonal or width > MAX_PIVOT_WIDTH_RATIO * apart:
         return None
     return Motion(JointType.REVOLUTE, _unit(b - a), (a + b) / 2, "line through the two far contacts")
 
@@ -135,18 +132,16 @@ def contact_axes(around: PartContext) -> list[Proposal]:
 def propose(around: PartContext) -> list[Proposal]:
     """Propose all candidate motions of a part with their roles, without near-duplicates, in a fixed order."""
     core = around.body_obb
-    candidates = _edges(core) + _edge_middles(core) + _through(core) + _box_directions(core)
-    candidates[:0] = barrels(around)
+    proposals: list[Proposal] = []
+    if (line := two_pivot_line(around)) is not None:
+        proposals.append(("two_pivot", line))
     outline = around.outline
     if outline.roundness > 0.5:
-        candidates.insert(
-            0, ("round", Motion(JointType.REVOLUTE, _unit(outline.axis), outline.center, "axis of its round outline"))
-        )
-    line = two_pivot_line(around)
-    if line is not None:
-        candidates.insert(0, ("two_pivot", line))
-    candidates += _from_contact(around)
-    return distinct(candidates + contact_axes(around), around.tolerance_length)
+        axis = Motion(JointType.REVOLUTE, _unit(outline.axis), outline.center, "axis of its round outline")
+        proposals.append(("round", axis))
+    proposals += barrels(around) + _edges(core) + _edge_middles(core) + _through(core) + _box_directions(core)
+    proposals += _from_contact(around) + contact_axes(around)
+    return distinct(proposals, around.tolerance_length)
 
 
 def distinct(candidates: Iterable[Proposal], tolerance_length: float) -> list[Proposal]:
