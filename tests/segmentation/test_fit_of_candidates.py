@@ -14,7 +14,7 @@ from trimesh.creation import cylinder
 
 from anymesh.config import ArticulationConfig, SegmentationConfig
 from anymesh.motion.part_context import PartContext
-from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, on_axis, open_behind, touching, two_pivots
+from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, on_axis, touching, two_pivots
 from anymesh.types import Material, Mesh
 
 CONFIG = SegmentationConfig()
@@ -133,17 +133,6 @@ def test_rims_with_a_clearance_are_counted(left: float, sides: int, flush: float
     found, touched = fit_of_rim(framed(left), CONFIG)
     assert found == sides
     assert touched == pytest.approx(flush, abs=0.02)
-
-
-@pytest.mark.parametrize(("back", "share"), [(0.11, 1.0), (0.07, 0.0), (None, 1.0)])
-def test_an_opening_behind_a_plate_is_three_thicknesses_deep(back: float | None, share: float) -> None:
-    """The plate is 3 cm thick."""
-    assert open_behind(framed(0.004, back)) == pytest.approx(share, abs=0.05)
-
-
-def test_a_wall_behind_a_half_of_a_plate_leaves_the_other_half_open() -> None:
-    half = around([box((0, 0, 0), (0.6, 0.03, 0.6))], [box((0, 0.05, 0), (0.3, 0.1, 0.6)), box((0, 0.9, 0), (0.6, 1, 0.6))])
-    assert open_behind(half) == pytest.approx(5 / 9, abs=0.06)  # of a grid of nine columns
 
 
 @pytest.mark.parametrize(("sides", "share"), [(2, 0.0), (3, 1.0), (4, 1.0)])

@@ -42,6 +42,15 @@ def test_both_sides_of_an_open_sheet_are_ahead() -> None:
         assert {found["blocked inward"], found["blocked outward"]} == {0, 1}
 
 
+def test_an_open_sheet_is_exposed_with_either_side_whichever_way_its_normals_point() -> None:
+    """A square on the floor sees the sky, with its normal up or down; under a roof as well it sees neither."""
+    square, roof = np.array([[0, 0, 0.01], [0.4, 0, 0.01], [0.4, 0.4, 0.01], [0, 0.4, 0.01]]), box((-1, -1, 1), (1.4, 1.4, 1.1))
+    for faces in ([[0, 1, 2], [0, 2, 3]], [[0, 2, 1], [0, 3, 2]]):
+        sheet = square, np.array(faces)
+        assert exposure(around([sheet], [FLOOR]), CONFIG) == {"exposed": 1, "facing outward": 1, "facing up": 1}
+        assert exposure(around([sheet], [FLOOR, roof]), CONFIG)["exposed"] == 0
+
+
 def test_half_a_wall_blocks_half_of_a_side() -> None:
     half = box((0.5, 0.2, 0), (0.6, 1.4, 0.6))
     assert blocked_shares(around([TILE], [FLOOR, half]), CONFIG)["blocked sideways most"] == pytest.approx(0.5, abs=0.2)
@@ -69,8 +78,19 @@ def test_the_space_behind_a_door_reaches_to_the_wall() -> None:
 @pytest.mark.parametrize(("back", "nothing"), [(0.11, 0.0), (None, 1.0)])
 def test_nothing_is_behind_a_leaf_in_its_frame(back: float | None, nothing: float) -> None:
     leaf = framed(0.004, back)
-    expected = {"space behind": 1.0 if back is None else 0.11 / leaf.diagonal, "nothing behind": nothing}
+    expected = {"space behind": 1.0 if back is None else 0.11 / leaf.diagonal, "nothing behind": nothing, "open behind": 1.0}
     assert space_behind(leaf) == pytest.approx(expected, abs=1e-3)
+
+
+@pytest.mark.parametrize(("back", "share"), [(0.11, 1.0), (0.07, 0.0), (None, 1.0)])
+def test_an_opening_behind_a_plate_is_three_thicknesses_deep(back: float | None, share: float) -> None:
+    """The plate is 3 cm thick."""
+    assert space_behind(framed(0.004, back))["open behind"] == pytest.approx(share, abs=0.05)
+
+
+def test_a_wall_behind_a_half_of_a_plate_leaves_the_other_half_open() -> None:
+    half = around([box((0, 0, 0), (0.6, 0.03, 0.6))], [box((0, 0.05, 0), (0.3, 0.1, 0.6)), box((0, 0.9, 0), (0.6, 1, 0.6))])
+    assert space_behind(half)["open behind"] == pytest.approx(5 / 9, abs=0.06)  # of a grid of nine columns
 
 
 def test_points_behind_lie_in_a_grid_just_behind_the_back() -> None:

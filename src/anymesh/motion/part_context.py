@@ -183,6 +183,11 @@ class PartContext:
         surfaces = [link.samples.take(off[0] < r).joined(theirs.take(off[1] < r)) for r in reach]
         return tuple(s.take(np.arange(0, len(s), -(-len(s) // MAX_CONTACT_POINTS) or 1)) for s in surfaces)
 
+    def facing(self, direction: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " n"]:
+        """Return how far each sample of the part faces along a unit direction, -1..1; open sheets face both ways."""
+        along = self.part.samples.normals @ direction
+        return np.where(self.part.solid[self.part.samples.faces], along, np.abs(along))
+
     def sees_outside(self, direction: Float[np.ndarray, " 3"]) -> Bool[np.ndarray, " n"]:
         """Return which samples of the part have a free line of sight along `direction`."""
         return self._sees(self.part.samples.points[::6], direction)
@@ -194,10 +199,9 @@ class PartContext:
 
     def _open_face(self, direction: np.ndarray) -> float:
         """Return the visible share of the surface facing `direction`, or of the whole surface if hardly any faces it."""
-        facing = self.part.samples.normals @ direction
-        solid = self.part.solid[self.part.samples.faces]
-        faces = np.flatnonzero(np.where(solid, facing, np.abs(facing)) > FACING_COSINE)
-        points = self.part.samples.points[faces] if len(faces) > 0.02 * len(facing) else self.part.samples.points
+        points = self.part.samples.points
+        faces = np.flatnonzero(self.facing(direction) > FACING_COSINE)
+        points = points[faces] if len(faces) > 0.02 * len(points) else points
         return float(self._sees(points[:: max(1, len(points) // 500)], direction).mean())
 
     @cached_property

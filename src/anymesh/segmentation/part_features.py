@@ -9,7 +9,7 @@ from jaxtyping import Int
 
 from anymesh.config import SAME_SIZE, Config
 from anymesh.motion.part_context import PartContext
-from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, on_axis, open_behind, touching, two_pivots
+from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, on_axis, touching, two_pivots
 from anymesh.segmentation.part_freedom import blocked_shares, exposure, space_behind
 from anymesh.segmentation.part_tree import PartTree
 from anymesh.types import Mesh
@@ -124,7 +124,6 @@ def _fit(scene: FeatureScene, around: PartContext) -> dict[str, float]:
     return {
         "rims with clearance": float(sides),
         "flush rim": flush,
-        "open behind": open_behind(around),
         "touching": float(near.mean()),
         "back touches": float(near[back].mean()) if back.sum() > 3 else 0.0,
         "log10 near gap": float(np.log10(gaps[0] + 1e-5)),

@@ -1,13 +1,11 @@
-"""Fit of a part candidate in the object: clearance at its rim, opening behind it, walls beside it, pivots."""
+"""Fit of a part candidate in the object: clearance at its rim, walls beside it, pivots."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from anymesh.config import ALONG_COSINE, FACING_COSINE, SegmentationConfig
-from anymesh.motion.handle import outward_axis
 from anymesh.motion.part_context import PartContext
-from anymesh.segmentation.part_freedom import points_behind
 
 RIM = 0.75  # samples beyond this share of the half extent belong to a rim
 
@@ -54,22 +52,6 @@ def fit_of_rim(around: PartContext, config: SegmentationConfig) -> tuple[int, fl
             touched += int((gap[rim] <= touch).sum())
             count += int(rim.sum())
     return sides, touched / max(count, 1)
-
-
-def open_behind(around: PartContext) -> float:
-    """Return the share of the candidate's back with an opening behind it.
-
-    An opening is free for three thicknesses and at least 3 % of the diagonal.
-    """
-    core = around.body_obb
-    thick = 2 * core.half[outward_axis(core, around.opening_direction)]
-    free = max(3 * thick, 0.03 * around.diagonal)
-    points = points_behind(around, 9)
-    rays = np.repeat(-around.opening_direction[None], len(points), 0)
-    hits = around.rest.scene.first_hit(points, rays)
-    face = np.maximum(hits.face, 0)
-    hits_inside = (hits.face >= 0) & around.rest.solid[face] & (np.einsum("ij,ij->i", rays, around.rest.normals[face]) > 0)
-    return float((~hits_inside & (hits.distance > free)).mean())
 
 
 def enclosed_share(around: PartContext) -> float:

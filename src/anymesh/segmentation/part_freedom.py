@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from anymesh.config import ALONG_COSINE, FACING_COSINE, SegmentationConfig
 from anymesh.motion.handle import outward_axis
@@ -12,7 +12,8 @@ from anymesh.motion.part_context import PartContext
 STRIDE = 8  # every how many samples of the part a ray is cast
 MIN_WAY = 0.03  # of the diagonal: minimum length of a way; otherwise it is as long as the part itself
 MIN_AHEAD_COSINE = 0.2  # minimum cosine between a normal and a direction for surface that is ahead in this direction
-BACK_RAYS = 7  # rays along each side of the back
+BACK_RAYS = 9  # rays along each side of the back
+UP = np.array([0.0, 0.0, 1.0])
 
 
 def blocked_shares(around: PartContext, config: SegmentationConfig) -> dict[str, float]:
@@ -20,13 +21,10 @@ def blocked_shares(around: PartContext, config: SegmentationConfig) -> dict[str,
 
     Surface that faces along the way counts, on sheets without an inside both sides.
     """
-    samples, touch = around.part.samples, config.touch * around.diagonal
-    points, normals = samples.points[::STRIDE], samples.normals[::STRIDE]
-    solid = around.part.solid[samples.faces[::STRIDE]]
+    points, touch = around.part.samples.points[::STRIDE], config.touch * around.diagonal
 
     def blocked(direction: Float[np.ndarray, " 3"], extent: float) -> float:
-        facing = normals @ direction
-        ahead = points[np.where(solid, facing, np.abs(facing)) > MIN_AHEAD_COSINE]
+        ahead = points[around.facing(direction)[::STRIDE] > MIN_AHEAD_COSINE]
         if len(ahead) < 2:
             return 0.0
         way = max(extent, MIN_WAY * around.diagonal) + 2 * touch
@@ -46,29 +44,40 @@ def blocked_shares(around: PartContext, config: SegmentationConfig) -> dict[str,
 
 
 def exposure(around: PartContext, config: SegmentationConfig) -> dict[str, float]:
-    """Return which shares of the part's surface see the outside along their normal, face outward, and face up."""
-    samples, touch = around.part.samples, config.touch * around.diagonal
-    points, normals = samples.points, samples.normals
-    start, rays = points[::STRIDE] + 2 * touch * normals[::STRIDE], 2 * around.diagonal * normals[::STRIDE]
+    """Return which shares of the part's surface see the outside along their normal, face outward, and face up.
+
+    Open sheets count with either side.
+    """
+    samples, off = around.part.samples.take(np.arange(0, len(around.part.samples), STRIDE)), 2 * config.touch * around.diagonal
+    sheet = ~around.part.solid[samples.faces]
+
+    def sees(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
+        return around.rest.scene.first_hit(points + off * normals, 2 * around.diagonal * normals, 1.0).face < 0
+
+    exposed = sees(samples.points, samples.normals)
+    exposed[sheet] |= sees(samples.points[sheet], -samples.normals[sheet])
     return {
-        "exposed": float((around.rest.scene.first_hit(start, rays, 1.0).face < 0).mean()),
-        "facing outward": float((normals @ around.opening_direction > FACING_COSINE).mean()),
-        "facing up": float((normals[:, 2] > ALONG_COSINE).mean()),
+        "exposed": float(exposed.mean()),
+        "facing outward": float((around.facing(around.opening_direction) > FACING_COSINE).mean()),
+        "facing up": float((around.facing(UP) > ALONG_COSINE).mean()),
     }
 
 
 def space_behind(around: PartContext) -> dict[str, float]:
-    """Return the median distance from the part's back to what is behind it, and the share behind which is nothing.
+    """Return what is behind the part's back.
 
-    The distance is relative to the diagonal, which also stands for nothing behind.
+    "space behind": median distance to it relative to the diagonal, which also stands for nothing; "nothing behind": share with
+    nothing behind; "open behind": share with an opening, free for three thicknesses and at least MIN_WAY.
     """
-    points = points_behind(around, BACK_RAYS)
-    hits = around.rest.scene.first_hit(
-        points, np.repeat(-around.diagonal * around.opening_direction[None], len(points), 0), 1.0
-    )
+    points, direction = points_behind(around, BACK_RAYS), around.opening_direction
+    hits = around.rest.scene.first_hit(points, np.repeat(-around.diagonal * direction[None], len(points), 0), 1.0)
+    nothing, face = hits.face < 0, np.maximum(hits.face, 0)
+    inside = ~nothing & around.rest.solid[face] & (around.rest.normals[face] @ direction < 0)
+    thick = 2 * around.body_obb.half[outward_axis(around.body_obb, direction)] / around.diagonal
     return {
-        "space behind": float(np.median(np.where(hits.face >= 0, hits.distance, 1.0))),
-        "nothing behind": float((hits.face < 0).mean()),
+        "space behind": float(np.median(np.where(nothing, 1.0, hits.distance))),
+        "nothing behind": float(nothing.mean()),
+        "open behind": float((nothing | ~inside & (hits.distance > max(3 * thick, MIN_WAY))).mean()),
     }
 
 
