@@ -79,7 +79,7 @@ def samples(sample: EvalSample, rounds: int, rng: np.random.Generator) -> Iterat
     parts = [replace(p, label=f"thing {p.name}") if k else p for k, p in enumerate(plain.parts)]
     segmentation = replace(plain, parts=tuple(parts))
     offers.sweep_candidates = Swept()  # ty: ignore[invalid-assignment]
-    whole = solver.geometry.ready_for(segmentation)
+    whole = solver.geometry.shape_for(segmentation)
     numbers = {p.name: k - 1 for k, p in enumerate(parts)}
     for wrong in WRONG:
         for n in range(1 if wrong == 0 else rounds):

@@ -28,8 +28,8 @@ from anymesh.rendering.sheet import question_sheet
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.part_assignment import assign_parts
+from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
 from anymesh.segmentation.part_classifier import score_parts
-from anymesh.segmentation.part_tree import PartTree, part_tree
 from anymesh.segmentation.segment import examine_candidates
 from anymesh.types import JointType, Mesh, Picture
 
@@ -38,14 +38,14 @@ MOST = 9  # candidates that are drawn
 MOTIONS = 7  # motions that are drawn
 
 
-def patches(studio: VisualPrompts, mesh: Mesh, tree: PartTree) -> Picture:
+def patches(studio: VisualPrompts, mesh: Mesh, tree: PartCandidates) -> Picture:
     """Every patch in a colour of its own."""
     color = np.array([mark_color(k) for k in tree.whole.mesh_patch], np.uint8)
     views = [render(mesh, view.camera, face_color=color, scene=studio.scene).color for view in studio.views[:4]]
     return question_sheet([encode(view, f"{len(tree.members[0])} patches") for view in views])
 
 
-def candidates(studio: VisualPrompts, tree: PartTree, score: np.ndarray, chosen: list[int]) -> Picture:
+def candidates(studio: VisualPrompts, tree: PartCandidates, score: np.ndarray, chosen: list[int]) -> Picture:
     """The candidates of highest score, each marked, with its probability and whether it was chosen."""
     cards = []
     for k in np.argsort(-score, kind="stable")[:MOST]:
@@ -81,7 +81,7 @@ def main() -> None:
     mesh = place_mesh(load_mesh(path)).mesh
     solver, studio = Solver(mesh, config), VisualPrompts(mesh, config)
     contacts = find_contacts(solver.whole, config.segmentation)
-    tree = part_tree(mesh, solver.whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
+    tree = part_candidates(mesh, solver.whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
     tree, place, rows = examine_candidates(mesh, tree, config)
     score, _ = score_parts(tree, place, rows)
     found = solver.parts().segmentation

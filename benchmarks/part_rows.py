@@ -21,7 +21,7 @@ from anymesh.config import Config
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.part_tree import part_tree
+from anymesh.segmentation.part_candidates import part_candidates
 from anymesh.segmentation.segment import examine_candidates
 
 ARRAYS = ("features", "members", "area", "place", "contact", "near")
@@ -87,8 +87,8 @@ def rows_of(sample: EvalSample, source: str, form: str = "") -> PartRows:
     mesh, truth, config = sample.mesh, sample.truth, Config()
     whole = object_shape(mesh, config.seed, config.pieces)
     contacts = find_contacts(whole, config.segmentation)
-    tree = part_tree(mesh, whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
-    examined, place, rows = examine_candidates(mesh, tree, config)
+    candidates = part_candidates(mesh, whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
+    examined, place, rows = examine_candidates(mesh, candidates, config)
     names = tuple(rows[0]) if rows else ()
     shape = len(contacts.shapes), len(truth.parts)
     area = np.bincount(whole.mesh_patch * shape[1] + sample.labels, mesh.face_areas, shape[0] * shape[1]).reshape(shape)

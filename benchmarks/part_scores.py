@@ -9,7 +9,7 @@ from jaxtyping import Int
 from part_rows import PartRows
 from scipy.optimize import linear_sum_assignment
 
-from anymesh.segmentation.part_tree import Overlap
+from anymesh.segmentation.part_candidates import Overlap
 
 RIGHT = 0.5  # IoU from which a part is found
 

@@ -7,9 +7,10 @@ from dataclasses import asdict, dataclass, field
 
 from anymesh.errors import OptionError
 
-# directions, sizes and rows as both stages compare them
+# directions as both stages compare them, sizes and rows as stage A does
 ALONG_COSINE = 0.7  # about 45 degrees: minimum cosine between two directions that are along each other, not across
 FACING_COSINE = 0.5  # 60 degrees: minimum cosine between a normal or a motion and the side that it faces
+ACROSS_COSINE = 0.3  # 73 degrees: maximum cosine between two directions that are across each other
 SAME_AXIS_COSINE = 0.97  # 14 degrees: minimum cosine between axes that a user sees as one
 SAME_SIZE = 0.02  # maximum relative difference of the diagonals of copies
 IN_LINE = 0.02  # of the object's diagonal: maximum offset of the centers of copies in one row
@@ -58,7 +59,7 @@ class ArticulationConfig:
     most_swept: int = 8  # motions of a part that are swept, the likeliest of the part at rest; more choose no better
     late_swept: int = 2  # the same when most of the time limit is spent
     sweep_steps: int = 36  # steps of a sweep in each direction: 5 degrees each over half a turn
-    fine_steps: int = 30  # a third of the steps over the range of a hinge, half of those of a slide, for the limits
+    fine_steps: int = 30  # for the limits: three times as many over the range of a hinge, twice as many of a slide
     door_most: float = 110.0  # [deg] upper limit of an unobstructed hinge with an upright axis (common cup hinges)
     flap_most: float = 90.0  # [deg] upper limit of an unobstructed hinge with a horizontal axis
     slide_hidden: float = 0.6  # travel of a panel whose box is hidden, as a share of the parent's depth

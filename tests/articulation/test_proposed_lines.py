@@ -196,5 +196,5 @@ def test_of_the_lines_at_one_rim_the_one_that_clears_the_neighbours_is_chosen() 
     back, front = (replace(EDGE, motion=turn(Z, (0, y, 0)), opening_sign=-1) for y in (-0.002, -0.022))
     question = MotionQuestion(PartFacts.of(around, "part"), (back, front), np.array([3.0, 0]), lambda _: "")
     assert choose_motion(around, question)[1] is front
-    alone = replace(around, siblings=())
+    alone = replace(around, other_parts=())
     assert choose_motion(alone, question)[1] is back

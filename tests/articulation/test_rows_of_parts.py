@@ -188,9 +188,9 @@ def test_the_context_of_a_part_has_what_it_carries_and_what_is_static() -> None:
     def faces(shape) -> int:
         return 0 if shape is None else len(shape.triangles)
 
-    counts = {k: [faces(s) for s in (a.part, a.parent, a.rest, a.others, a.everything)] for k, a in found.items()}
+    counts = {k: [faces(s) for s in (a.part, a.parent, a.rest, a.others, a.without_part)] for k, a in found.items()}
     assert counts == {1: [24, 12, 12, 12, 24], 2: [12, 12, 24, 12, 36], 3: [12, 12, 12, 24, 36]}
-    assert {k: len(a.siblings) for k, a in found.items()} == {1: 1, 2: 1, 3: 2}
+    assert {k: len(a.other_parts) for k, a in found.items()} == {1: 1, 2: 1, 3: 2}
     assert found[2].parent.bounds == pytest.approx(np.array([[0, -0.1, 0], [1, -0.001, 1]]))
     assert found[1].center == pytest.approx([1, 0.4, 0.5])
     assert found[1].part.bounds[0, 1] == -0.2  # with its knob

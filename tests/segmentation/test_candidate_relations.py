@@ -3,7 +3,7 @@
 import numpy as np
 
 from anymesh.segmentation.candidate_relations import relations
-from anymesh.segmentation.part_tree import Overlap
+from anymesh.segmentation.part_candidates import Overlap
 
 NAMES = (
     "iou", "inside", "around", "crosses", "contact", "contact of the other", "touches", "clearance", "copy", "copy in a row",

@@ -19,17 +19,17 @@ from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import MIN_SCORE
+from anymesh.segmentation.part_candidates import PartCandidates, _merges, part_candidates
 from anymesh.segmentation.part_classifier import Reasons
-from anymesh.segmentation.part_tree import PartTree, _merges, part_tree
 from anymesh.segmentation.rigid_groups import rigid_groups
 from anymesh.types import Mesh, Node, Segmentation
 
 CONFIG = SegmentationConfig()
 
 
-def tree_of(mesh: Mesh, most: int = 100) -> PartTree:
+def tree_of(mesh: Mesh, most: int = 100) -> PartCandidates:
     whole = object_shape(mesh)
-    return part_tree(mesh, whole, find_contacts(whole, CONFIG), CONFIG.smallest, most)
+    return part_candidates(mesh, whole, find_contacts(whole, CONFIG), CONFIG.smallest, most)
 
 
 def merges(*boxes) -> list[set[int]]:
@@ -76,7 +76,7 @@ def test_the_largest_candidates_are_kept(most: int, smallest: float, pieces: lis
     loose = [box((2, k, 0), (2 + s, k + s, s)) for k, s in enumerate((0.5, 0.3, 0.1))]
     mesh = mesh_of([box((0, 0, 0), (1, 1, 1)), *loose])[0]
     whole = object_shape(mesh)
-    tree = part_tree(mesh, whole, find_contacts(whole, CONFIG), smallest, most)
+    tree = part_candidates(mesh, whole, find_contacts(whole, CONFIG), smallest, most)
     alone = [int(np.flatnonzero(m)[0]) for m in tree.members if m.sum() == 1]
     assert [k for k in alone if k > 0] == pieces
     assert len(tree.members) <= most
@@ -113,7 +113,7 @@ def segmented(monkeypatch: pytest.MonkeyPatch, scores: list[float], names: tuple
     mesh, piece = mesh_of(LOOSE)
     mesh = replace(mesh, face_node=piece, nodes=tuple(map(Node, names)))
 
-    def score_parts(tree: PartTree, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
+    def score_parts(tree: PartCandidates, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
         side = [0.6 if abs(row["size"] * mesh.diagonal / np.sqrt(3) - 0.6) < 0.01 else 0.5 for row in features]
         near = [abs(row["size"] * mesh.diagonal / np.sqrt(3) - s) < 0.01 for row, s in zip(features, side, strict=True)]
         found = [scores[0 if s == 0.6 else 1] if good else -9.0 for s, good in zip(side, near, strict=True)]

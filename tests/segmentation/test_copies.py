@@ -11,8 +11,8 @@ from anymesh.segmentation import segment
 from anymesh.segmentation.contacts import coplanar, find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_assignment import MIN_SCORE
+from anymesh.segmentation.part_candidates import Overlap, PartCandidates
 from anymesh.segmentation.part_classifier import Reasons
-from anymesh.segmentation.part_tree import Overlap, PartTree
 from anymesh.segmentation.rigid_groups import RigidGroups, with_supported
 from anymesh.types import Segmentation
 
@@ -42,12 +42,12 @@ def test_a_surface_that_creases_part_moves_as_one_but_not_with_the_root() -> Non
     assert 0 not in with_supported(units([0, 0, 2, 3]), 1)
 
 
-def no_part(tree: PartTree, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
+def no_part(tree: PartCandidates, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
     """Score every candidate below the threshold, large ones lowest."""
     return np.array([MIN_SCORE - 0.1 - row["size"] for row in features]), lambda chosen: ["nothing"] * len(chosen)
 
 
-def all_parts(tree: PartTree, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
+def all_parts(tree: PartCandidates, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
     """Score every candidate as a part, small ones highest."""
     return np.array([1 - row["size"] / 10 for row in features]), lambda chosen: ["all"] * len(chosen)
 
@@ -78,7 +78,7 @@ def test_a_candidate_that_is_held_makes_room_for_the_next(monkeypatch: pytest.Mo
     """A board nailed through the case scores highest but cannot move; then the box on top is chosen."""
     nail, top = box((0.48, -0.2, 0.48), (0.52, 0.02, 0.52)), box((0.2, 0.1, 1.0), (0.8, 0.4, 1.2))
 
-    def by_size(tree: PartTree, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
+    def by_size(tree: PartCandidates, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
         scores = [1.0 if row["size"] < 0.3 else MIN_SCORE - row["size"] for row in features]
         return np.array(scores), lambda chosen: ["size"] * len(chosen)
 
@@ -101,7 +101,7 @@ def test_candidates_that_never_move_leave_the_base_alone(monkeypatch: pytest.Mon
     """After the last assignment, its parts join the base too, although more candidates are left."""
     tops = [box((0.2 * k, 0.1, 1.0), (0.2 * k + 0.1, 0.4, 1.1 + 0.1 * k)) for k in range(5)]
 
-    def by_size(tree: PartTree, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
+    def by_size(tree: PartCandidates, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
         scores = [1.0 if row["size"] < 0.5 else MIN_SCORE - row["size"] for row in features]
         return np.array(scores), lambda chosen: ["size"] * len(chosen)
 

@@ -15,7 +15,7 @@ from anymesh.segmentation import divide
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.handles import SurfaceHandle, aligned, find_handles, is_main_component, region_sizes
 from anymesh.segmentation.layout import tile
-from anymesh.segmentation.part_tree import Overlap
+from anymesh.segmentation.part_candidates import Overlap
 from anymesh.types import Mesh, Node
 
 CONFIG = PiecesConfig()

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 from assets import assert_fixed
-from test_part_tree import BODY, HANDLE, LEAF, candidates
+from test_part_candidates import BODY, HANDLE, LEAF, candidates
 from test_small_groundings import Scripted, asking, scene
 
 from anymesh.config import Config
 from anymesh.segmentation.ask_marks import MarkAnswers
 from anymesh.segmentation.grounded_parts import GroundedParts, SampledObject, ShownViews
-from anymesh.segmentation.part_features import FeatureScene
-from anymesh.segmentation.part_tree import Overlap
+from anymesh.segmentation.part_candidates import Overlap
+from anymesh.segmentation.part_features import FeatureInputs
 from anymesh.segmentation.propose import Proposal
 from anymesh.segmentation.regions import Marks
 
@@ -30,7 +30,7 @@ def sampled() -> SampledObject:
 MAKERS = {
     "overlap": lambda: Overlap(np.ones(1), np.eye(1)),
     "tree": lambda: candidates([BODY, *LEAF, HANDLE]),
-    "features": lambda: FeatureScene(candidates([BODY, HANDLE]), Config(), np.zeros(24, np.int64)),
+    "features": lambda: FeatureInputs(candidates([BODY, HANDLE]), Config(), np.zeros(24, np.int64)),
     "proposal": lambda: Proposal(0, np.ones((2, 2), np.int64), (1,)),
     "sampled object": sampled,
     "views": lambda: ShownViews([], [], NONE),

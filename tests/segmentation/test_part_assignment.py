@@ -13,7 +13,7 @@ from anymesh.config import Config, SegmentationConfig
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_assignment import MIN_SCORE, assign_parts, conflicts, join_floating
-from anymesh.segmentation.part_tree import Overlap
+from anymesh.segmentation.part_candidates import Overlap
 
 
 def overlap(members: np.ndarray, patch: np.ndarray) -> Overlap:

@@ -7,8 +7,8 @@ from assets import box, mesh_of
 from anymesh.config import Config
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
-from anymesh.segmentation.part_tree import part_tree
+from anymesh.segmentation.part_candidates import part_candidates
+from anymesh.segmentation.part_features import FeatureInputs, part_context_of, part_features
 from anymesh.types import Mesh
 
 WALLS = [
@@ -23,9 +23,9 @@ def features(mesh: Mesh, solids: set[int]) -> dict[str, float]:
     config = Config()
     whole = object_shape(mesh)
     contacts = find_contacts(whole, config.segmentation)
-    tree = part_tree(mesh, whole, contacts, 0.004, 150)
+    tree = part_candidates(mesh, whole, contacts, 0.004, 150)
     group = next(k for k, m in enumerate(tree.members) if set(np.flatnonzero(m).tolist()) == solids)
-    scene = FeatureScene.of(mesh, tree, config)
+    scene = FeatureInputs.of(mesh, tree, config)
     around = part_context_of(scene, group)
     assert around is not None
     return part_features(scene, group, around)

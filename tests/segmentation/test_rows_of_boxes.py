@@ -11,7 +11,7 @@ from anymesh.geometry.patches import ObjectShape
 from anymesh.segmentation.contacts import Contacts, coplanar, find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_assignment import join_floating
-from anymesh.segmentation.part_tree import part_tree
+from anymesh.segmentation.part_candidates import part_candidates
 from anymesh.segmentation.rigid_groups import rigid_groups, root_ranking, with_supported
 from anymesh.types import Material, Mesh, Node
 
@@ -162,7 +162,7 @@ def test_what_a_group_supports_grows_by_what_touches_it_most() -> None:
 def test_patches_with_most_of_their_contact_merge_first() -> None:
     """A row of three: the thin plate between two blocks shares all of its contact, and joins one of them first."""
     mesh, whole, contacts = made(box((0, 0, 0), (1, 1, 1)), box((1, 0, 0), (1.05, 1, 1)), box((1.05, 0, 0), (2, 1, 1)))
-    tree = part_tree(mesh, whole, contacts, 0.004, 100)
+    tree = part_candidates(mesh, whole, contacts, 0.004, 100)
     groups = {frozenset(np.flatnonzero(m).tolist()) for m in tree.members}
     assert frozenset({0, 2}) not in groups
     assert frozenset({0, 1}) in groups or frozenset({1, 2}) in groups

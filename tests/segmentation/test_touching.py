@@ -9,7 +9,7 @@ from scipy.spatial.distance import cdist
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.contact import connecting_area
-from anymesh.segmentation.contacts import Contacts, find_contacts, hanging_on
+from anymesh.segmentation.contacts import Contacts, dominated_by, find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.patch_gaps import PROBES, area_in_contact, gap_within
 
@@ -62,7 +62,7 @@ def test_touching_boxes_are_one_body_that_touches_at_the_face() -> None:
     found = contacts(BLOCK, box((1, 0, 0), (3, 1, 1)))
     assert found.touch.tolist() == [[0, 1]]
     assert len(found.near) == 0
-    assert found.component[0] == found.component[1]
+    assert found.touching_group[0] == found.touching_group[1]
     assert found.area[0, 1] == pytest.approx(1, abs=0.1)  # sampled with 500 points
     assert found.area[1, 0] == pytest.approx(1, abs=0.1)  # sampled with 500 points
 
@@ -90,7 +90,7 @@ def test_a_clearance_keeps_bodies_apart_and_a_wide_one_makes_them_strangers() ->
     far = contacts(BLOCK, box((1.5, 0, 0), (2, 1, 1)))
     assert (near.touch.tolist(), near.near.tolist()) == ([], [[0, 1]])
     assert (far.touch.tolist(), far.near.tolist()) == ([], [])
-    assert near.component[0] != near.component[1]
+    assert near.touching_group[0] != near.touching_group[1]
 
 
 def test_boxes_that_cross_touch() -> None:
@@ -107,5 +107,5 @@ def test_what_reaches_the_root_only_through_a_piece_hangs_on_it() -> None:
         box((1, 0, 1), (2, 1, 1.5)),
         box((9, 0, 0), (9.5, 1, 1)),
     )
-    hanging = hanging_on(found, np.arange(5), root=0)
-    assert {k: sorted(v) for k, v in hanging.items()} == {0: [0, 1, 2, 3, 4], 1: [1, 2], 2: [2], 3: [3], 4: [4]}
+    dominated = dominated_by(found, np.arange(5), root=0)
+    assert {k: sorted(v) for k, v in dominated.items()} == {0: [0, 1, 2, 3, 4], 1: [1, 2], 2: [2], 3: [3], 4: [4]}

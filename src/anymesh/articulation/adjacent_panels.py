@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from anymesh.config import ACROSS_COSINE
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.motion.part_context import PartContext
 from anymesh.types import Motion
@@ -22,7 +23,7 @@ def adjacent_sides(around: PartContext) -> np.ndarray:
     core, counts = around.body_obb, np.zeros((2, 2))
     flat = around.face_axes
     thin = next(k for k in range(3) if k not in flat)
-    for panel in around.siblings:
+    for panel in around.other_parts:
         size, offset = _extent(panel.box, core), core.local(panel.box.center[None])[0]
         mine = 2 * core.half
         if any(abs(size[k] - mine[k]) > MAX_SIZE_DIFFERENCE * max(size[k], mine[k]) for k in flat):
@@ -49,7 +50,7 @@ def pair_side(around: PartContext, motion: Motion, adjacent: np.ndarray) -> floa
     core, total = around.body_obb, 0.0
     arm = motion.origin - core.center
     for axis, sides in zip(around.face_axes, adjacent, strict=True):
-        if abs(core.axes[axis] @ motion.axis) < 0.3:
+        if abs(core.axes[axis] @ motion.axis) < ACROSS_COSINE:
             side = float(np.clip(arm @ core.axes[axis] / max(float(core.half[axis]), 1e-9), -1, 1))
             total -= side * float(np.clip(sides[1] - sides[0], -1, 1))
     return float(np.clip(total, -1, 1))
@@ -62,7 +63,7 @@ def outer_side(around: PartContext, motion: Motion) -> float:
     total = 0.0
     for axis in around.face_axes:
         direction = core.axes[axis]
-        if abs(direction @ motion.axis) < 0.3:
+        if abs(direction @ motion.axis) < ACROSS_COSINE:
             side = float(np.clip(arm @ direction / max(float(core.half[axis]), 1e-9), -1, 1))
             reach = float(np.abs(around.bounds - around.center).max(0) @ np.abs(direction))
             total += side * float(np.clip(2 * (away @ direction) / max(reach, 1e-9), -1, 1))
@@ -77,7 +78,7 @@ def overlap_gain(around: PartContext, motion: Motion, free: tuple[float, float])
     width = float(np.ptp(around.part.corners @ motion.axis))
     thin = max(2 * float(around.body_obb.half[2]), 0.004 * around.tolerance_length)
     normal = around.body_obb.axes[2]
-    if abs(float(normal @ motion.axis)) > 0.3:
+    if abs(float(normal @ motion.axis)) > ACROSS_COSINE:
         return 0.0
     points = around.part.samples.points[::6]
 
@@ -85,7 +86,7 @@ def overlap_gain(around: PartContext, motion: Motion, free: tuple[float, float])
         """Return the share of the part with a surface on one side only; surfaces on both sides would mean a cavity."""
         start = points + shift * motion.axis
         rays = np.repeat(normal[None] * (BEHIND_THICKNESSES + 1) * thin, len(points), 0)
-        front, back = (around.everything.scene.first_hit(start, sign * rays, 1.0).face >= 0 for sign in (1.0, -1.0))
+        front, back = (around.without_part.scene.first_hit(start, sign * rays, 1.0).face >= 0 for sign in (1.0, -1.0))
         return float(max((front & ~back).mean(), (back & ~front).mean()))
 
     rest = over(0.0)

@@ -9,7 +9,7 @@ from anymesh.geometry.triangle_set import TriangleSet
 
 
 def find_barrel_candidates(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) -> tuple[TriangleSet, ...]:
-    """Find connected components near both part and parent that are long, thin and small: possible hinge barrels."""
+    """Find patches near both part and parent that are long, thin and small: possible hinge barrels."""
     diagonal = part.box.diagonal
     reach = 0.015 * min(whole.diagonal, 5 * diagonal)
     label = whole.patch

@@ -33,7 +33,7 @@ MIN_PARALLEL_COSINE = 0.999  # minimum cosine between the axes of such lines
 SUFFICIENT_OPENING_RAD = np.deg2rad(110)  # [rad] larger openings are not compared
 TIGHT_PENETRATION_SCALE = 0.2  # penetration scale for the clearance to neighbours, which is a few millimetres
 MAX_COPIES = 8  # maximum number of copies whose motions are compared with those of a part
-PartMotions = tuple[int, int, PartContext, MotionQuestion]  # part number, parent number, context, motions
+PartMotions = tuple[int, int, PartContext, MotionQuestion]  # part index, parent index, context, motions
 MIN_OPENING_GAIN_RAD = np.deg2rad(5)  # [rad] minimum gain in opening angle
 
 
@@ -50,7 +50,10 @@ def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions]) 
 def motion_questions(
     whole: ObjectShape, segmentation: Segmentation, config: Config, deadline: Deadline | None = None
 ) -> Iterator[PartMotions]:
-    """Yield the part number, parent number, context and motion question of each part but the root, copies together."""
+    """Yield the part index, parent index, context and motion question of each part but the root, copies together.
+
+    Only the likeliest motions are swept and offered.
+    """
     label, parts = segmentation.face_part[whole.source], segmentation.parts
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(parts))]
     parent = parents(shapes, whole.diagonal)
@@ -68,7 +71,7 @@ def motion_questions(
 
 
 def relabelled(swept: Iterable[PartMotions], segmentation: Segmentation) -> list[PartMotions]:
-    """Return the questions about parts with the same faces, with the names and labels of this segmentation."""
+    """Return the questions about parts with the same faces, with the labels of this segmentation."""
     parts = segmentation.parts
 
     def named(question: MotionQuestion, i: int) -> MotionQuestion:
@@ -82,24 +85,24 @@ def part_context(
 ) -> PartContext:
     """Build the context of part i with its descendants; the root and its ancestors are static."""
     carried = [i, *descendants(parent, i)]
-    line, at = [0], parent[i]
+    ancestors, at = [0], parent[i]
     while at > 0:
-        line.append(at)
+        ancestors.append(at)
         at = parent[at]
-    still = np.isin(label, line)
+    static = np.isin(label, ancestors)
     moving = np.isin(label, carried)
-    others = ~still & ~moving
+    others = ~static & ~moving
     return PartContext(
         part=whole.of(np.flatnonzero(moving)),
         parent=shapes[parent[i]],
-        rest=whole.of(np.flatnonzero(still)),
+        rest=whole.of(np.flatnonzero(static)),
         others=whole.of(np.flatnonzero(others)) if others.any() else None,
-        everything=whole.of(np.flatnonzero(~moving)),
+        without_part=whole.of(np.flatnonzero(~moving)),
         barrel_candidates=find_barrel_candidates(whole, shapes[i], shapes[parent[i]]),
         diagonal=whole.diagonal,
         center=whole.shape.bounds.mean(0),
         config=config,
-        siblings=tuple(shapes[k] for k in range(1, len(shapes)) if k not in carried and k not in line),
+        other_parts=tuple(shapes[k] for k in range(1, len(shapes)) if k not in carried and k not in ancestors),
         link=shapes[i] if len(carried) > 1 else None,
     )
 
@@ -110,7 +113,7 @@ def choose_motion(around: PartContext, question: MotionQuestion) -> tuple[Motion
     return answer, _clear_of_others(around, question.candidates[answer.ranking[0]], question.candidates)
 
 
-def motion_question(around: PartContext, label: str) -> MotionQuestion:
+def question_of_all_motions(around: PartContext, label: str) -> MotionQuestion:
     """Propose, sweep and score all motions of a part by itself."""
     return PartMotionScores(around, label, sweep_candidates(around, propose(around))).question()
 
@@ -135,7 +138,7 @@ def _most_swept(config: ArticulationConfig, deadline: Deadline | None) -> int:
 def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:
     """Among hinge lines at one rim, choose the one with the largest opening when the other parts are at rest."""
     rims = ("edge", "edge_mid")
-    if best.role not in rims or not around.siblings:
+    if best.role not in rims or not around.other_parts:
         return best
     near = replace(around.obstacles_at_rest, tolerance=TIGHT_PENETRATION_SCALE * around.penetration)
     thickness = max(2 * float(around.body_obb.half[2]), MIN_RIM_THICKNESS_RATIO * around.tolerance_length)
@@ -189,7 +192,7 @@ def joint_of(
         parent=parent,
         child=name,
         origin=_on_part(motion, around),
-        axis=motion.axis / np.linalg.norm(motion.axis),
+        axis=motion.axis,
         limits=limits(around, best, kind, answered),
         confidence=confidence,
         reason=reason,
@@ -199,6 +202,3 @@ def joint_of(
 def _on_part(motion: Motion, around: PartContext) -> np.ndarray:
     """Return the point of the axis nearest to the center of the part [m]."""
     return motion.origin + ((around.part.box.center - motion.origin) @ motion.axis) * motion.axis
-
-
-__all__ = ["choose_motion", "estimate_joints", "joint_of", "motion_questions", "part_context", "relabelled"]

@@ -11,6 +11,7 @@ from jaxtyping import Float
 from anymesh.articulation.adjacent_panels import overlap_gain
 from anymesh.articulation.contact_metrics import contact_retention, hinge_support
 from anymesh.articulation.motion_question import Candidate, Proposal, Role
+from anymesh.config import ACROSS_COSINE
 from anymesh.geometry.sweep import free_amounts, sweep_all
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion, Sweep
@@ -126,7 +127,7 @@ def _handle_side(around: PartContext, motion: Motion) -> float:
     total = 0.0
     arm = motion.origin - around.body_obb.center
     for axis, where in zip(around.face_axes, handle.across, strict=True):
-        if abs(around.body_obb.axes[axis] @ motion.axis) < 0.3:
+        if abs(around.body_obb.axes[axis] @ motion.axis) < ACROSS_COSINE:
             side = float(arm @ around.body_obb.axes[axis]) / max(float(around.body_obb.half[axis]), 1e-9)
             across = handle.along is not None and around.face_axes[handle.along] == axis
             total -= float(np.clip(side, -1, 1)) * where * (CROSSWISE_HANDLE_WEIGHT if across else 1.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.articulation.estimate import motion_question, part_context
+from anymesh.articulation.estimate import part_context, question_of_all_motions
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.rank_motions import rank_motions
@@ -34,7 +34,7 @@ def stays_free(
     part, if known.
     """
     alone, gained = _context(whole, config, without, part), _context(whole, config, joined, part)
-    question = motion_question(alone, "part")
+    question = question_of_all_motions(alone, "part")
     best: dict[int, Candidate] = {}  # the better one of the two directions along each axis
     for k in rank_motions(question).ranking:
         best.setdefault(id(question.candidates[k].motion), question.candidates[k])

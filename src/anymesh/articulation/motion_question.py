@@ -21,7 +21,8 @@ MIN_FREE_ANGLE_RAD = float(np.deg2rad(12))  # [rad] a hinge that opens less is b
 MIN_FREE_TRAVEL_RATIO = 0.008  # of the tolerance length: a slide with less free travel is blocked
 ENDLESS_ANGLE = 3.0  # [rad] minimum free angle in each direction of an endless rotation; the sweep ends at half a turn
 
-# Relation of a motion to its part: that of a hinge's axis; of a slide ("slide", "contact_slide"); or an answered one ("asked").
+# Relation of a motion to its part: of a hinge's axis ("center" also names the normal of the connecting area, "pin" its width);
+# of a slide ("slide", "contact_slide"); or an answered one ("asked").
 Role = Literal[
     "edge", "edge_mid", "center", "round", "pin", "circle", "pivot", "hub", "two_pivot", "barrel", "surface", "contact",
     "slide", "contact_slide", "asked",

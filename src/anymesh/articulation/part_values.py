@@ -50,7 +50,7 @@ def part_values(around: PartContext, contact: Float[np.ndarray, "n 3"]) -> dict[
         "contact length": float(spread[0] / max(around.part.box.diagonal, 1e-12)),
         "contact width": float(spread[1] / max(around.part.box.diagonal, 1e-12)),
         "log10 gap": float(np.log10(max(float(around.gap.min()) / around.diagonal, 1e-4))),
-        "parts": float(np.log1p(len(around.siblings))),
+        "parts": float(np.log1p(len(around.other_parts))),
         "object height": float(np.clip(extent[2] / extent[:2].max(), 0, MAX_RATIO)),
         "solid": float(around.part.solid @ around.part.areas / max(around.part.area, 1e-300)),
         "horizontal offset": float(np.linalg.norm(((middle - low) / extent * 2 - 1)[:2])),

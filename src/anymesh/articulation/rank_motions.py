@@ -15,7 +15,7 @@ from anymesh.vocabulary import typical_motion
 
 NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint without a plausible motion
 # calibration of the log-odds of a confidence, fitted to kinds left out of training (benchmarks/train_motions.py)
-CALIBRATION_SLOPE, OFFSET = 0.61, -0.01
+CALIBRATION_SLOPE, CALIBRATION_OFFSET = 0.61, -0.01
 SAME_LINE = 0.1  # of the part's size: maximum distance between lines that a user sees as one
 BLOCKED = -4.0  # [log-odds] penalty of a motion that the sweep finds blocked
 LABEL_PRIOR = {  # [log-odds] added by a label to a hinge, to a rotation about the axis of a round outline, to a slide
@@ -40,7 +40,7 @@ def rank_motions(question: MotionQuestion) -> MotionAnswer:
     if not best.is_free:
         return MotionAnswer(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "no candidate motion is free and plausible")
     share = np.clip(share_of_best(scores, same), 1e-6, 1 - 1e-6)
-    confidence = confidence_of(float(np.log(share / (1 - share))), CALIBRATION_SLOPE, OFFSET)
+    confidence = confidence_of(float(np.log(share / (1 - share))), CALIBRATION_SLOPE, CALIBRATION_OFFSET)
     why = f"{reason(question.part, best)}; {question.reason(ranking[0])}"
     return MotionAnswer(ranking, joint_type(best), confidence, why)
 

@@ -28,7 +28,7 @@ def parents(shapes: list[TriangleSet], diagonal: float, answered: Sequence[set[i
     named = _answered_parents(shapes, answered, reach) if answered else {}
     _, over = breadth_first_order(minimum_spanning_tree(_separations(shapes, reach)), 0, directed=False)
     parent = [-1, *(named.get(i, int(over[i])) for i in range(1, len(shapes)))]
-    return _without_circles(parent, named)
+    return _without_cycles(parent, named)
 
 
 def _separations(shapes: Sequence[TriangleSet], reach: Float[np.ndarray, " p"]) -> Float[np.ndarray, "p p"]:
@@ -85,7 +85,7 @@ def _nearest(points: np.ndarray, shapes: list[TriangleSet], among: set[int], rea
     return best if best is not None and off[best] < reach else None
 
 
-def _without_circles(parent: list[int], answered: Collection[int]) -> list[int]:
+def _without_cycles(parent: list[int], answered: Collection[int]) -> list[int]:
     """Return the parents with the root as parent of one part of each circle, which is not an answered one."""
     for i in sorted(range(1, len(parent)), key=lambda i: i in answered):
         seen, at = set(), parent[i]

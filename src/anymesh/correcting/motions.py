@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.articulation.estimate import joint_of, motion_question, part_context
+from anymesh.articulation.estimate import joint_of, part_context, question_of_all_motions
 from anymesh.articulation.rank_motions import joint_type, motion_scores, reason
 from anymesh.config import Config
 from anymesh.correcting.corrections import ChooseMotion, vector
@@ -26,7 +26,7 @@ SAME_AXIS_RATIO = 0.02  # share of the object's diagonal: distance of hinge line
 
 @dataclass(frozen=True, eq=False)
 class Ready:
-    """An asset's mesh prepared for both stages, in patches that belong to one part each; part: of each triangle."""
+    """An asset's mesh prepared for both stages, simplified so that no face lies in two parts; part: of each face."""
 
     whole: ObjectShape
     part: Int[np.ndarray, " n"]
@@ -71,7 +71,7 @@ def ranked_motions(
     shapes = [whole.of(np.flatnonzero(label == k)) for k in range(len(names))]
     number = part_number(asset, part)
     around = part_context(whole, label, shapes, [hangs.get(n, -1) for n in names], number, settings.articulation)
-    question = motion_question(around, asset.segmentation.parts[number].label)
+    question = question_of_all_motions(around, asset.segmentation.parts[number].label)
     scores = motion_scores(question)
     free = [k for k in np.argsort(-scores, kind="stable") if question.candidates[k].is_free]
     total = float(np.exp(scores[free] - scores.max()).sum()) if free else 1.0

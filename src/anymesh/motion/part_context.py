@@ -37,19 +37,19 @@ class PartContext:
     parent: TriangleSet
     rest: TriangleSet  # static while the part moves
     others: TriangleSet | None  # the other movable parts
-    everything: TriangleSet  # the object without the part
+    without_part: TriangleSet  # the object without what moves
     barrel_candidates: tuple[TriangleSet, ...]  # long thin components that may be hinge barrels
     diagonal: float
     center: Float[np.ndarray, " 3"]
     config: ArticulationConfig
-    siblings: tuple[TriangleSet, ...] = ()  # the other movable parts, one each
+    other_parts: tuple[TriangleSet, ...] = ()  # the other movable parts, one each
     shared_opening_direction: Float[np.ndarray, " 3"] | None = None  # common to a row of repeated parts
     link: TriangleSet | None = None  # the part without what hangs on it; None if nothing does
 
     @cached_property
     def bounds(self) -> Float[np.ndarray, "2 3"]:
         """Return the axis-aligned bounds of the object [m]."""
-        both = np.array([self.part.bounds, self.everything.bounds])
+        both = np.array([self.part.bounds, self.without_part.bounds])
         return np.array([both[:, 0].min(0), both[:, 1].max(0)])
 
     @cached_property
@@ -113,12 +113,8 @@ class PartContext:
         """Return the obstacles of a motion: for a slide along the surface, also the other movable parts at rest."""
         if motion.kind is not JointType.PRISMATIC:
             return self.obstacles_of_hinges
-        return self.obstacles_at_rest if self.slides_along_surface(motion) else self.obstacles
-
-    def slides_along_surface(self, motion: Motion) -> bool:
-        """Return whether a motion is a slide across the opening direction."""
-        along = abs(float(motion.axis @ self.opening_direction)) <= ALONG_COSINE
-        return motion.kind is JointType.PRISMATIC and along
+        along_surface = abs(float(motion.axis @ self.opening_direction)) <= ALONG_COSINE
+        return self.obstacles_at_rest if along_surface else self.obstacles
 
     @cached_property
     def penetration(self) -> float:
@@ -128,7 +124,7 @@ class PartContext:
     @cached_property
     def obstacles_at_rest(self) -> Obstacles:
         """Return the obstacles with the other movable parts at rest, which guide a part sideways."""
-        return Obstacles(self.part, self.everything, self.penetration)
+        return Obstacles(self.part, self.without_part, self.penetration)
 
     @cached_property
     def outline(self) -> Outline:

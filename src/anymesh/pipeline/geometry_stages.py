@@ -75,13 +75,13 @@ class GeometryStages:
         """Sweep the motions of all parts; the last result is cached."""
         faces = segmentation.face_part.tobytes()
         if self._swept is None or self._swept[0] != faces:
-            motions = motion_questions(self.ready_for(segmentation), segmentation, self.config, self.deadline)
+            motions = motion_questions(self.shape_for(segmentation), segmentation, self.config, self.deadline)
             self._swept = faces, list(_with_progress(motions, segmentation, progress))
             return self._swept[1]
         return list(_with_progress(relabelled(self._swept[1], segmentation), segmentation, progress))
 
-    def ready_for(self, segmentation: Segmentation) -> ObjectShape:
-        """Return the object with patches that each belong to one of these parts."""
+    def shape_for(self, segmentation: Segmentation) -> ObjectShape:
+        """Return the object's shape, simplified so that no face lies in two of these parts."""
         label, whole = segmentation.face_part, self.whole
         if (label == label[whole.source][np.unique(whole.patch, return_index=True)[1]][whole.mesh_patch]).all():
             return whole

@@ -106,7 +106,7 @@ class PromptedStages:
         answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._geometry.reference(segmentation)))
         questions = Questions(self.visual_prompts, answerer, self.config, recognition, progress)
         reground = self._regrounding(questions, segmentation) if grounded and recognition is not None else None
-        made = prompt_joints(questions, self._geometry.ready_for, segmentation, reground)
+        made = prompt_joints(questions, self._geometry.shape_for, segmentation, reground)
         warnings = (*answerer.warnings, *made.warnings, *self.deadline.warnings())
         estimated = joint_result(made.joints, answerer.name, warnings, answerer.exchanges)
         return replace(estimated, segmentation=made.segmentation if made.segmentation is not segmentation else None)

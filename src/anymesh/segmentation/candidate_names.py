@@ -8,7 +8,7 @@ from enum import IntEnum
 import numpy as np
 
 from anymesh.segmentation.part_assignment import MIN_SCORE
-from anymesh.segmentation.part_tree import PartTree
+from anymesh.segmentation.part_candidates import PartCandidates
 from anymesh.vocabulary import is_fixed_name, recognize, words_of
 
 
@@ -33,9 +33,9 @@ def name_class(name: str) -> NameClass:
     return NameClass.HANDLE if word.label == "handle" else NameClass.MOVABLE
 
 
-def shared_name(tree: PartTree, group: int) -> str:
+def shared_name(candidates: PartCandidates, group: int) -> str:
     """Return the recognized name shared by all patches of a candidate, or the words that all their names begin with."""
-    names = {tree.names[p] for p in np.flatnonzero(tree.members[group])}
+    names = {candidates.names[p] for p in np.flatnonzero(candidates.members[group])}
     if len(names) == 1:
         return names.pop()
     # the common prefix of the first and last name in order is common to all

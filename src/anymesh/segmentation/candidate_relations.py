@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Float32, Int
 
 from anymesh.config import IN_LINE
-from anymesh.segmentation.part_tree import Overlap
+from anymesh.segmentation.part_candidates import Overlap
 
 SIZE_SCALE, MAX_SIZE = 4.0, 2.0  # the logarithm of a ratio of areas is divided by the first, up to the second
 

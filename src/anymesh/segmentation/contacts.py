@@ -20,22 +20,22 @@ from anymesh.segmentation.patch_gaps import area_in_contact, crosses, gap_within
 MIN_FLATNESS = 0.6  # minimum length of the mean unit normal of a flat sheet with its handle; 1 is plane
 MIN_PLATE_ASPECT = 0.3  # minimum width over length of a plate; planks are narrower
 MIN_ALIGNED_COSINE = 0.95  # minimum cosine between the normals of sheets that face the same way
-MAX_CLEARANCE_FACTOR = 2.0  # neighbours of a component lie within this many times its smallest clearance
-MAX_SMALL_CLEARANCE_FACTOR = 1.3  # the same for a component that is small compared to its nearest patch
+MAX_CLEARANCE_FACTOR = 2.0  # neighbours of a set of touching patches lie within this many times its smallest clearance
+MAX_SMALL_CLEARANCE_FACTOR = 1.3  # the same for a set that is small compared to its nearest patch
 
 
 @dataclass(frozen=True, eq=False)
 class Contacts:
     """Patches and their contacts.
 
-    shapes: one per patch; touch: (m, 2) pairs that touch or cross; near: (k, 2) pairs of different components with a clearance;
-    component: (P,) index of the connected component of each patch, where touching patches are connected.
+    shapes: one per patch; touch: (m, 2) pairs that touch or cross; near: (k, 2) pairs of different sets with a clearance;
+    touching_group: (P,) number of the set of patches, connected by touching pairs, that each patch belongs to.
     """
 
     shapes: tuple[TriangleSet, ...]
     touch: Int[np.ndarray, "m 2"]
     near: Int[np.ndarray, "k 2"]
-    component: Int[np.ndarray, " P"]
+    touching_group: Int[np.ndarray, " P"]
     # contact area of the first patch on the second [m^2]; no entry between parts of one flat surface
     area: dict[tuple[int, int], float]
 
@@ -74,14 +74,14 @@ def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
     touch, measured = _measured(shapes, close, tolerance, reach)
     touch = sorted(shared) + touch
     pairs = np.array(touch, np.int64).reshape(-1, 2)
-    body = label_connected(len(shapes), pairs)
-    free = _neighbours(measured, beside, body, shapes, tolerance, reach)
+    group = label_connected(len(shapes), pairs)
+    free = _neighbours(measured, beside, group, shapes, tolerance, reach)
     area = {}
     for i, j in touch:
-        if (i, j) in shared and _goes_on(shapes[i], shapes[j]):
+        if (i, j) in shared and _in_one_sheet(shapes[i], shapes[j]):
             continue  # panels side by side in one surface do not support each other
         area[i, j], area[j, i] = (area_in_contact(shapes[a], shapes[b], 2 * tolerance) for a, b in ((i, j), (j, i)))
-    return Contacts(shapes, pairs, free, body, area)
+    return Contacts(shapes, pairs, free, group, area)
 
 
 def _measured(
@@ -102,47 +102,47 @@ def _measured(
 def _neighbours(
     near: list[tuple[int, int, float]],
     beside: list[tuple[float, int, int]],
-    component: np.ndarray,
+    group: np.ndarray,
     shapes: tuple[TriangleSet, ...],
     tolerance: float,
     reach: float,
 ) -> np.ndarray:
-    """Return the pairs of components with a clearance that are among the nearest of the smaller component.
+    """Return the pairs of patches of two groups with a clearance that are among the nearest of the smaller group.
 
-    The clearances around a fitted part differ by up to a factor of two. A component that is small compared to its nearest patch
+    The clearances around a fitted part differ by up to a factor of two. A group that is small compared to its nearest patch
     depends on that patch alone.
 
     near: pairs with their distance; beside: pairs that are not yet measured, each with the lower bound of its distance first.
     """
     size = [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes]
-    extent = np.zeros(int(component.max()) + 1)
-    np.maximum.at(extent, component, size)
+    extent = np.zeros(int(group.max()) + 1)
+    np.maximum.at(extent, group, size)
 
     def ordered(i: int, j: int) -> tuple[int, int]:
-        first, second = sorted((i, j), key=lambda p: (extent[component[p]], component[p]))
+        first, second = sorted((i, j), key=lambda p: (extent[group[p]], group[p]))
         return first, second
 
-    pairs = [(gap, *ordered(i, j)) for i, j, gap in near if component[i] != component[j]]
+    pairs = [(gap, *ordered(i, j)) for i, j, gap in near if group[i] != group[j]]
     nearest = np.full(len(extent), np.inf)
-    np.minimum.at(nearest, component[[small for _, small, _ in pairs]], [gap for gap, *_ in pairs])
+    np.minimum.at(nearest, group[[small for _, small, _ in pairs]], [gap for gap, *_ in pairs])
     for least, i, j in sorted(beside):
         small, large = ordered(i, j)
-        if component[i] == component[j] or least > MAX_CLEARANCE_FACTOR * nearest[component[small]] + tolerance:
+        if group[i] == group[j] or least > MAX_CLEARANCE_FACTOR * nearest[group[small]] + tolerance:
             continue
         gap = min(gap_within(shapes[i], shapes[j], reach), gap_within(shapes[j], shapes[i], reach))
         if gap < reach:
             pairs.append((gap, small, large))
-            nearest[component[small]] = min(nearest[component[small]], gap)
+            nearest[group[small]] = min(nearest[group[small]], gap)
     most: dict[int, float] = {}
     kept = []
     for gap, small, large in sorted(pairs):
-        factor = MAX_SMALL_CLEARANCE_FACTOR if extent[component[small]] < 0.5 * size[large] else MAX_CLEARANCE_FACTOR
-        if gap <= most.setdefault(int(component[small]), factor * gap) + tolerance:
+        factor = MAX_SMALL_CLEARANCE_FACTOR if extent[group[small]] < 0.5 * size[large] else MAX_CLEARANCE_FACTOR
+        if gap <= most.setdefault(int(group[small]), factor * gap) + tolerance:
             kept.append((min(small, large), max(small, large)))
     return np.array(sorted(kept), np.int64).reshape(-1, 2)
 
 
-def _goes_on(a: TriangleSet, b: TriangleSet) -> bool:
+def _in_one_sheet(a: TriangleSet, b: TriangleSet) -> bool:
     """Return whether both are sheets that face the same way."""
     mean = [s.areas @ s.normals / max(s.area, 1e-300) for s in (a, b)]
     length = [float(np.linalg.norm(m)) for m in mean]
@@ -170,7 +170,7 @@ def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[t
     return pairs
 
 
-def hanging_on(contacts: Contacts, group: Int[np.ndarray, " P"], root: int) -> dict[int, list[int]]:
+def dominated_by(contacts: Contacts, group: Int[np.ndarray, " P"], root: int) -> dict[int, list[int]]:
     """Return for every group its dominated set: the groups that reach the root only through it, itself first.
 
     Groups join patches that are known to move together. Components without neighbours depend on the root.

@@ -8,7 +8,7 @@ from scipy.sparse import csr_array
 
 from anymesh.geometry.topology import label_connected
 from anymesh.segmentation.contacts import Contacts
-from anymesh.segmentation.part_tree import Overlap
+from anymesh.segmentation.part_candidates import Overlap
 
 MIN_SCORE = -0.75  # [log-odds] minimum score of a part; F1 on kinds and sources left out of training grows little below
 MAX_TRIED = 10  # candidates in conflict, directly or through others, up to which all sets are tried

@@ -10,7 +10,7 @@ from jaxtyping import Bool, Float
 
 from anymesh.scoring.classifier import Classifier
 from anymesh.segmentation.candidate_relations import relations
-from anymesh.segmentation.part_tree import PartTree
+from anymesh.segmentation.part_candidates import PartCandidates
 
 Reasons = Callable[[Sequence[int]], list[str]]
 # [log-odds] added for a part that is cut out of a surface: the score grows with the IoU, and the border of a cut is not exact.
@@ -20,7 +20,7 @@ CUT = "parted by creases"  # the feature that is 1 for such a part
 
 
 def score_parts(
-    tree: PartTree, place: Float[np.ndarray, "n 12"], features: list[dict[str, float]]
+    candidates: PartCandidates, place: Float[np.ndarray, "n 12"], features: list[dict[str, float]]
 ) -> tuple[Float[np.ndarray, " n"], Reasons]:
     """Return the log-odds that each candidate is a part, and a function that names what decided for some of them.
 
@@ -29,8 +29,8 @@ def score_parts(
     if not features:
         return np.zeros(0), lambda chosen: []
     classifier = shipped_classifier()
-    own, contacts = classifier.table(features), tree.contacts
-    pairs = relations(tree.overlap, tree.members, contacts.area_matrix, contacts.near, place)
+    own, contacts = classifier.table(features), candidates.contacts
+    pairs = relations(candidates.overlap, candidates.members, contacts.area_matrix, contacts.near, place)
     score = combined(classifier.score(own), classifier.score_together(own, place, pairs), is_cut(own, classifier.names))
     return score, lambda chosen: classifier.reasons(own[list(chosen)])
 

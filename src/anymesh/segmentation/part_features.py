@@ -9,58 +9,58 @@ from jaxtyping import Int
 
 from anymesh.config import SAME_SIZE, Config
 from anymesh.motion.part_context import PartContext
+from anymesh.segmentation.part_candidates import PartCandidates
 from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, on_axis, touching, two_pivots
 from anymesh.segmentation.part_freedom import blocked_shares, exposure, space_behind
-from anymesh.segmentation.part_tree import PartTree
 from anymesh.types import Mesh
 
 AT_BORDER = 0.02  # of the diagonal: a candidate reaches a side of the object's bounds within this distance
-MIN_OFFSET = 0.1  # of the half extent: to which side of the middle of the face a contact nearer to it lies is chance
+MIN_OFFSET = 0.1  # of the half extent: below this offset from the middle of the face, the side of a contact is chance
 MAX_RATIO = 8.0  # upper limit of ratios of lengths
 
 
 @dataclass(frozen=True, eq=False)
-class FeatureScene:
-    """Data shared by the features of all candidates of an object.
+class FeatureInputs:
+    """What the features of all candidates of an object are computed from.
 
-    material: (R,) material of each face of `tree.whole`.
+    material: (R,) material of each face of `candidates.whole`.
     """
 
-    tree: PartTree
+    candidates: PartCandidates
     config: Config
     material: Int[np.ndarray, " R"]
 
     @classmethod
-    def of(cls, mesh: Mesh, tree: PartTree, config: Config) -> FeatureScene:
+    def of(cls, mesh: Mesh, candidates: PartCandidates, config: Config) -> FeatureInputs:
         """Build the data of a mesh and its candidates."""
-        return cls(tree, config, mesh.face_material[tree.whole.source])
+        return cls(candidates, config, mesh.face_material[candidates.whole.source])
 
 
-def part_context_of(scene: FeatureScene, group: int) -> PartContext | None:
+def part_context_of(inputs: FeatureInputs, group: int) -> PartContext | None:
     """Return a group as a part among the rest of the object; None if it has no face or nothing is left."""
-    tree = scene.tree
-    moving = tree.members[group][tree.whole.patch]
+    whole = inputs.candidates.whole
+    moving = inputs.candidates.members[group][whole.patch]
     if not moving.any() or moving.all():
         return None
-    rest = tree.whole.of(np.flatnonzero(~moving))
+    rest = whole.of(np.flatnonzero(~moving))
     return PartContext(
-        part=tree.whole.of(np.flatnonzero(moving)), parent=rest, rest=rest, others=None, everything=rest, barrel_candidates=(),
-        diagonal=tree.whole.diagonal, center=tree.whole.shape.bounds.mean(0), config=scene.config.articulation,
+        part=whole.of(np.flatnonzero(moving)), parent=rest, rest=rest, others=None, without_part=rest, barrel_candidates=(),
+        diagonal=whole.diagonal, center=whole.shape.bounds.mean(0), config=inputs.config.articulation,
     )  # fmt: skip
 
 
-def part_features(scene: FeatureScene, group: int, around: PartContext) -> dict[str, float]:
+def part_features(inputs: FeatureInputs, group: int, around: PartContext) -> dict[str, float]:
     """Return all features of a candidate; the keys are the same for all."""
     return {
-        **_shape(scene, group, around),
+        **_shape(inputs, group, around),
         **_place(around),
-        **_fit(scene, around),
-        **_neighbours(scene, group),
-        **_copies(scene, group, around),
-        **_material(scene, group, around),
+        **_fit(inputs, around),
+        **_neighbours(inputs, group),
+        **_copies(inputs, group, around),
+        **_material(inputs, group, around),
         **_handle(around),
-        **blocked_shares(around, scene.config.segmentation),
-        **exposure(around, scene.config.segmentation),
+        **blocked_shares(around, inputs.config.segmentation),
+        **exposure(around, inputs.config.segmentation),
         **space_behind(around),
     }
 
@@ -69,23 +69,23 @@ def _ratio(a: float, b: float) -> float:
     return float(np.clip(a / max(b, 1e-12), 0, MAX_RATIO))
 
 
-def _shape(scene: FeatureScene, group: int, around: PartContext) -> dict[str, float]:
-    core, outline, tree = around.body_obb, around.outline, scene.tree
-    extents = np.sort(np.ptp(tree.whole.shape.bounds, axis=0))
+def _shape(inputs: FeatureInputs, group: int, around: PartContext) -> dict[str, float]:
+    core, outline, candidates = around.body_obb, around.outline, inputs.candidates
+    extents = np.sort(np.ptp(candidates.whole.shape.bounds, axis=0))
     box_area = 8 * float(core.half[0] * core.half[1] + core.half[1] * core.half[2] + core.half[0] * core.half[2])
-    patches = tree.members[group]
+    patches = candidates.members[group]
     return {
         "thinness": _ratio(core.half[2], core.half[1]),
         "width over length": _ratio(core.half[1], core.half[0]),
         "size": around.part.box.diagonal / around.diagonal,
         "thickness": float(2 * core.half[2] / around.diagonal),
-        "area share": float(tree.area[group] / tree.contacts.patch_area.sum()),
+        "area share": float(candidates.area[group] / candidates.contacts.patch_area.sum()),
         "face share": _ratio(4 * core.half[0] * core.half[1], extents[1] * extents[2]),
         "area over box": _ratio(around.part.area, box_area),
         "closed": float(around.part.solid @ around.part.areas / max(around.part.area, 1e-300)),
         "roundness": outline.roundness,
         "height over radius": _ratio(outline.height, outline.radius),
-        "largest patch": float(tree.contacts.patch_area[patches].max() / max(tree.area[group], 1e-300)),
+        "largest patch": float(candidates.contacts.patch_area[patches].max() / max(candidates.area[group], 1e-300)),
         "log patches of the object": float(np.log1p(len(patches))),
     }
 
@@ -113,8 +113,8 @@ def _place(around: PartContext) -> dict[str, float]:
     }
 
 
-def _fit(scene: FeatureScene, around: PartContext) -> dict[str, float]:
-    settings = scene.config.segmentation
+def _fit(inputs: FeatureInputs, around: PartContext) -> dict[str, float]:
+    settings = inputs.config.segmentation
     near, normals = touching(around, 2 * settings.touch * around.diagonal)
     sides, flush = fit_of_rim(around, settings)
     gaps = np.quantile(around.gap, [0.05, 0.5]) / around.diagonal
@@ -152,17 +152,17 @@ def _contact_layout(around: PartContext, near: np.ndarray) -> dict[str, float]:
     }
 
 
-def _neighbours(scene: FeatureScene, group: int) -> dict[str, float]:
-    tree = scene.tree
-    inside, contacts = tree.members[group], tree.contacts
+def _neighbours(inputs: FeatureInputs, group: int) -> dict[str, float]:
+    candidates = inputs.candidates
+    inside, contacts = candidates.members[group], candidates.contacts
     pairs = np.array(list(contacts.area), np.int64).reshape(-1, 2)
     amount = np.array(list(contacts.area.values()), float)
     out = inside[pairs[:, 0]] & ~inside[pairs[:, 1]]
     within = inside[pairs[:, 0]] & inside[pairs[:, 1]]
     beside = np.bincount(pairs[out, 1], amount[out], len(inside))
-    shared = tree.whole.shared
+    shared = candidates.whole.shared
     creased = inside[shared[:, 0]] != inside[shared[:, 1]] if len(shared) else np.zeros(0, bool)
-    outside, total = float(beside.sum()), max(float(tree.area[group]), 1e-300)
+    outside, total = float(beside.sum()), max(float(candidates.area[group]), 1e-300)
     return {
         "contact with the first": float(beside.max(initial=0) / max(outside, 1e-300)) if outside > 0 else 0.0,
         "contact area": min(outside / total, 1.0),
@@ -172,13 +172,13 @@ def _neighbours(scene: FeatureScene, group: int) -> dict[str, float]:
     }
 
 
-def _copies(scene: FeatureScene, group: int, around: PartContext) -> dict[str, float]:
+def _copies(inputs: FeatureInputs, group: int, around: PartContext) -> dict[str, float]:
     """Return features of other groups of the same size that share no patch with this one."""
-    tree = scene.tree
-    alike = np.abs(tree.size - tree.size[group]) < SAME_SIZE * tree.size[group]
-    alike &= np.abs(tree.area / max(tree.area[group], 1e-300) - 1) < 2 * SAME_SIZE
-    alike &= tree.overlap.shared[group] == 0
-    middles = tree.bounds[alike].mean(1)
+    candidates = inputs.candidates
+    alike = np.abs(candidates.size - candidates.size[group]) < SAME_SIZE * candidates.size[group]
+    alike &= np.abs(candidates.area / max(candidates.area[group], 1e-300) - 1) < 2 * SAME_SIZE
+    alike &= candidates.overlap.shared[group] == 0
+    middles = candidates.bounds[alike].mean(1)
     outline = around.outline
     arm = middles - outline.center
     across = np.linalg.norm(arm - (arm @ outline.axis)[:, None] * outline.axis, axis=1)
@@ -188,12 +188,12 @@ def _copies(scene: FeatureScene, group: int, around: PartContext) -> dict[str, f
     }
 
 
-def _material(scene: FeatureScene, group: int, around: PartContext) -> dict[str, float]:
+def _material(inputs: FeatureInputs, group: int, around: PartContext) -> dict[str, float]:
     """Return how well the part's most frequent material separates it from the rest."""
-    whole, count = scene.tree.whole, int(scene.material.max()) + 2
-    moving = scene.tree.members[group][whole.patch]
-    mine = np.bincount(scene.material[moving] + 1, whole.shape.areas[moving], count)
-    rest = np.bincount(scene.material[~moving] + 1, whole.shape.areas[~moving], count)
+    whole, count = inputs.candidates.whole, int(inputs.material.max()) + 2
+    moving = inputs.candidates.members[group][whole.patch]
+    mine = np.bincount(inputs.material[moving] + 1, whole.shape.areas[moving], count)
+    rest = np.bincount(inputs.material[~moving] + 1, whole.shape.areas[~moving], count)
     k = int(mine.argmax())
     return {
         "materials": float(np.log1p(((mine + rest) > 0).sum())),

@@ -11,7 +11,7 @@ RIM = 0.75  # samples beyond this share of the half extent belong to a rim
 
 
 def on_axis(around: PartContext) -> bool:
-    """Return whether the rest has surface on the axis of the round outline, within 5 % of the part's diagonal."""
+    """Return whether the rest has surface on the axis of the round outline, within 5 % of the object's diagonal of an end."""
     outline = around.outline
     ends = outline.center + np.array([[-0.5], [0.5]]) * outline.height * outline.axis
     rays = np.array([[-1.0], [1.0]]) * outline.axis * 0.05 * around.diagonal
@@ -35,11 +35,11 @@ def fit_of_rim(around: PartContext, config: SegmentationConfig) -> tuple[int, fl
     touch, reach = config.touch * around.diagonal, config.near * around.diagonal
     # start slightly inside, since a ray that starts on a surface would miss it
     start = samples.points - samples.normals * 2 * touch
-    hits = around.everything.scene.first_hit(start, samples.normals * reach, 1.0)
+    hits = around.without_part.scene.first_hit(start, samples.normals * reach, 1.0)
     gap = hits.distance * reach - 2 * touch
     face = np.maximum(hits.face, 0)
-    along = np.einsum("ij,ij->i", samples.normals, around.everything.normals[face])
-    gap[(hits.face >= 0) & around.everything.solid[face] & (along > 0)] = 0  # the rim lies inside the surface opposite
+    along = np.einsum("ij,ij->i", samples.normals, around.without_part.normals[face])
+    gap[(hits.face >= 0) & around.without_part.solid[face] & (along > 0)] = 0  # the rim lies inside the surface opposite
     gap[(np.abs(along) < FACING_COSINE) & (gap > touch)] = np.inf  # ignore slopes and fillets beside the rim
     sides, touched, count = 0, 0, 0
     for axis in around.face_axes:

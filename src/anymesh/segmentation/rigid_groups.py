@@ -1,4 +1,4 @@
-"""Rigid groups: patches that move together, what each group supports, and which patch is the likeliest base."""
+"""Rigid groups: patches that move together, what is attached only through each, and which patch is the likeliest base."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from jaxtyping import Float, Int
 from anymesh.config import ALONG_COSINE
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import label_connected
-from anymesh.segmentation.contacts import Contacts, coplanar, hanging_on
+from anymesh.segmentation.contacts import Contacts, coplanar, dominated_by
 from anymesh.types import Mesh
 from anymesh.vocabulary import is_fixed_name, recognize
 
@@ -20,13 +20,16 @@ MAX_SURFACE_SHARE = 0.5  # share of the object's surface above which a creased s
 
 @dataclass(frozen=True, eq=False)
 class RigidGroups:
-    """Patches joined into groups that move together, and the groups that each supports."""
+    """Patches joined into groups that move together.
+
+    dominated: of each group, the groups that reach the root only through it, itself first.
+    """
 
     contacts: Contacts
     group: Int[np.ndarray, " P"]
     names: list[str]
     root: int
-    hanging: dict[int, list[int]]
+    dominated: dict[int, list[int]]
     surface: Int[np.ndarray, " P"]  # patches with the same number are separated by creases only
 
     @cached_property
@@ -46,8 +49,8 @@ def rigid_groups(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_patch:
     key = np.arange(len(shapes))
     if not divided:
         same = np.array(coplanar(contacts, whole, 1e-3 * whole.diagonal), np.int64).reshape(-1, 2)
-        mine = contacts.component == contacts.component[root_patch]
-        key = np.where(mine, label_connected(len(shapes), same), len(shapes) + contacts.component)
+        mine = contacts.touching_group == contacts.touching_group[root_patch]
+        key = np.where(mine, label_connected(len(shapes), same), len(shapes) + contacts.touching_group)
     names = [""] * len(shapes)
     faces = np.split(np.argsort(whole.mesh_patch, kind="stable"), np.cumsum(np.bincount(whole.mesh_patch))[:-1])
     common = _most(mesh.face_material[faces[root_patch]])
@@ -63,7 +66,7 @@ def rigid_groups(mesh: Mesh, whole: ObjectShape, contacts: Contacts, root_patch:
     group = group.reshape(-1)
     root = int(group[root_patch])
     surface = label_connected(len(shapes), np.array(whole.shared, np.int64).reshape(-1, 2))
-    return RigidGroups(contacts, group, [names[p] for p in first], root, hanging_on(contacts, group, root), surface)
+    return RigidGroups(contacts, group, [names[p] for p in first], root, dominated_by(contacts, group, root), surface)
 
 
 def _most(numbers: np.ndarray) -> int:
@@ -98,7 +101,7 @@ def with_supported(groups: RigidGroups, u: int) -> list[int]:
     groups with most of their contact on these members are added (a shelf on a door).
     """
     surface = _of_one_surface(groups, u)
-    members = set(groups.hanging[u]).union(*(groups.hanging[v] for v in surface))
+    members = set(groups.dominated[u]).union(*(groups.dominated[v] for v in surface))
     if not surface:
         members = _grown(groups, members)
     return [u, *sorted(members - {u, groups.root})]
@@ -116,7 +119,7 @@ def _grown(groups: RigidGroups, members: set[int]) -> set[int]:
         here = np.bincount(beside[within], amount[outer][within], count)
         elsewhere = np.bincount(beside[~within], amount[outer][~within], count)
         new = [int(v) for v in np.flatnonzero((here > elsewhere) & (area < own)) if v != groups.root]
-        grown = members.union(*(groups.hanging[v] for v in new)) - {groups.root}
+        grown = members.union(*(groups.dominated[v] for v in new)) - {groups.root}
         if grown == members:
             break
         members = grown

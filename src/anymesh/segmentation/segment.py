@@ -1,7 +1,7 @@
 """Stage A (paper, 3.2) by geometry: find the movable parts of an unlabelled mesh.
 
-Steps: patches and their contacts, a tree of candidate groups of patches, geometric features of each, a learned score, and the
-set of groups of highest total score. Groups that cannot move are removed, and the set is chosen again.
+Steps: patches and their contacts, candidate groups of patches, geometric features of each, a learned score, and the set of
+groups of highest total score. Groups that cannot move are removed, and the set is chosen again.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from anymesh.segmentation.candidate_names import NAME_SCORE, name_class, shared_
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import MIN_SCORE, assign_parts, conflicts, join_floating
+from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
 from anymesh.segmentation.part_classifier import score_parts
-from anymesh.segmentation.part_features import FeatureScene, part_context_of, part_features
-from anymesh.segmentation.part_tree import PartTree, part_tree
+from anymesh.segmentation.part_features import FeatureInputs, part_context_of, part_features
 from anymesh.types import Mesh, Segmentation
 from anymesh.vocabulary import recognize
 
@@ -48,10 +48,10 @@ def segment_parts(
     progress("segment", "contacts", 0, 2)
     settings = config.segmentation
     contacts = find_contacts(whole, settings)
-    tree = part_tree(mesh, whole, contacts, settings.smallest, settings.most_candidates)
+    candidates = part_candidates(mesh, whole, contacts, settings.smallest, settings.most_candidates)
     progress("segment", "candidates", 1, 2)
     deadline = deadline or Deadline()
-    examined, place, features = examine_candidates(mesh, tree, config, progress, deadline)
+    examined, place, features = examine_candidates(mesh, candidates, config, progress, deadline)
     score, reasons = score_parts(examined, place, features)
     words = [shared_name(examined, k) for k in range(len(score))]
     score = score + np.array([NAME_SCORE[name_class(word)] for word in words])
@@ -74,27 +74,28 @@ def segment_parts(
 
 
 def examine_candidates(
-    mesh: Mesh, tree: PartTree, config: Config, progress: Progress = silent, deadline: Deadline | None = None
-) -> tuple[PartTree, Float[np.ndarray, "n 12"], list[dict[str, float]]]:
+    mesh: Mesh, candidates: PartCandidates, config: Config, progress: Progress = silent, deadline: Deadline | None = None
+) -> tuple[PartCandidates, Float[np.ndarray, "n 12"], list[dict[str, float]]]:
     """Return the examined candidates, and the place and the features of each."""
-    scene, limit = FeatureScene.of(mesh, tree, config), deadline or Deadline()
+    inputs, limit = FeatureInputs.of(mesh, candidates, config), deadline or Deadline()
 
     def measure(k: int) -> tuple[Float[np.ndarray, " 12"], dict[str, float]] | None:
         if limit.late(SEGMENT):
             limit.leave_out("segmentation: some candidates for parts were not examined")
             return None
-        around = part_context_of(scene, k)
-        return None if around is None else (around.place, part_features(scene, k, around))
+        around = part_context_of(inputs, k)
+        return None if around is None else (around.place, part_features(inputs, k, around))
 
     kept, places, features = [], [], []
     with ThreadPoolExecutor(usable_cores()) as threads:  # ray casts and distances release the interpreter lock
-        for k, measured in enumerate(threads.map(measure, range(len(tree.members)))):
-            progress("segment", f"candidate {k}", k, len(tree.members))
+        for k, measured in enumerate(threads.map(measure, range(len(candidates.members)))):
+            progress("segment", f"candidate {k}", k, len(candidates.members))
             if measured is not None:
                 kept.append(k)
                 places.append(measured[0])
                 features.append(measured[1])
-    return replace(tree, members=tree.members[kept], size=tree.size[kept]), np.array(places).reshape(-1, 12), features
+    examined = replace(candidates, members=candidates.members[kept], size=candidates.size[kept])
+    return examined, np.array(places).reshape(-1, 12), features
 
 
 def _reason(learned: str, name: str, score: float) -> str:
@@ -103,29 +104,29 @@ def _reason(learned: str, name: str, score: float) -> str:
     return "; ".join([*reasons, learned])
 
 
-def _chosen_at_least(tree: PartTree, score: Float[np.ndarray, " n"], chosen: list[int], count: int) -> list[int]:
+def _chosen_at_least(candidates: PartCandidates, score: Float[np.ndarray, " n"], chosen: list[int], count: int) -> list[int]:
     """Add the best other candidates without conflicts until there are at least `count`."""
     if len(chosen) >= count:
         return chosen
-    apart = ~conflicts(tree.overlap)
+    apart = ~conflicts(candidates.overlap)
     for k in np.argsort(-score, kind="stable"):
         if len(chosen) < count and int(k) not in chosen and apart[k, chosen].all() and score[k] > -np.inf:
             chosen = sorted([*chosen, int(k)])
     return chosen
 
 
-def _face_part(mesh: Mesh, tree: PartTree, chosen: list[int]) -> tuple[Int[np.ndarray, " F"], list[int]]:
+def _face_part(mesh: Mesh, candidates: PartCandidates, chosen: list[int]) -> tuple[Int[np.ndarray, " F"], list[int]]:
     """Return a part index per face, 0 for the base, and the candidates in part order.
 
     The largest come first, without the faces of parts that they carry. Candidates without faces of their own are left out.
     """
-    owner = np.full(len(tree.contacts.shapes), -1)
-    for k in sorted(chosen, key=lambda k: (-tree.area[k], k)):
-        owner[tree.members[k]] = k
-    of_face = join_floating(owner, tree.contacts)[tree.whole.mesh_patch]
-    area = np.bincount(of_face + 1, mesh.face_areas, len(tree.members) + 1)[1:]
+    owner = np.full(len(candidates.contacts.shapes), -1)
+    for k in sorted(chosen, key=lambda k: (-candidates.area[k], k)):
+        owner[candidates.members[k]] = k
+    of_face = join_floating(owner, candidates.contacts)[candidates.whole.mesh_patch]
+    area = np.bincount(of_face + 1, mesh.face_areas, len(candidates.members) + 1)[1:]
     order = [int(k) for k in np.unique(of_face[of_face >= 0])]
     order.sort(key=lambda k: (-area[k], k))
-    number = np.zeros(len(tree.members) + 1, np.int64)
+    number = np.zeros(len(candidates.members) + 1, np.int64)
     number[np.array(order, np.int64) + 1] = np.arange(1, len(order) + 1)
     return number[of_face + 1], order

@@ -10,7 +10,7 @@ from jaxtyping import Bool, Int
 from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import label_connected
-from anymesh.segmentation.contacts import Contacts, find_contacts, hanging_on
+from anymesh.segmentation.contacts import Contacts, dominated_by, find_contacts
 
 UNSEEN = -1
 StaysFree = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int], bool]
@@ -48,7 +48,7 @@ def _joined(whole: ObjectShape, part: Int[np.ndarray, " P"], config: Config) -> 
         return part
     contacts = find_contacts(whole, config.segmentation)
     reach = config.grounding.join_component * whole.diagonal
-    part = _single_part_components(contacts.component, part)
+    part = _single_part_components(contacts.touching_group, part)
     for together in (False, True):  # first one by one, then connected patches (a drawer's box) as one
         part = np.where(_goes_on(whole, part), 0, _supported_by(contacts, part, together, reach))
     return part
@@ -85,11 +85,11 @@ def _supported_by(contacts: Contacts, part: np.ndarray, together: bool, reach: f
     key = np.where(unseen, count + label_connected(count, inner), part)
     _, unit = np.unique(key, return_inverse=True)
     unit = unit.reshape(-1)
-    hanging = hanging_on(contacts, unit, int(unit[np.flatnonzero(part == 0)[0]]))
+    dominated = dominated_by(contacts, unit, int(unit[np.flatnonzero(part == 0)[0]]))
     assigned_part = part.copy()
     for k in np.unique(part[part > 0]):
         own = np.flatnonzero(part == k)
-        for u in hanging[int(unit[own[0]])]:
+        for u in dominated[int(unit[own[0]])]:
             free = np.flatnonzero((unit == u) & (assigned_part < 0))
             if any(_near(contacts, int(p), own, reach) for p in free):
                 assigned_part[free] = k

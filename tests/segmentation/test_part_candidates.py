@@ -6,20 +6,20 @@ from assets import box, mesh_of
 from anymesh.config import SegmentationConfig
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.part_tree import PartTree, part_tree
+from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
 
 BODY = box((0, 0.05, 0), (1, 0.5, 1))
 LEAF = [box((0.0, 0, 0), (0.1, 0.049, 1)), box((0.9, 0, 0), (1, 0.049, 1)), box((0.1, 0.01, 0), (0.9, 0.04, 1))]  # framed
 HANDLE = box((0.92, -0.05, 0.45), (0.95, 0, 0.55))
 
 
-def candidates(solids: list, most: int = 100, smallest: float = 0.004) -> PartTree:
+def candidates(solids: list, most: int = 100, smallest: float = 0.004) -> PartCandidates:
     mesh = mesh_of(solids)[0]
     whole = object_shape(mesh)
-    return part_tree(mesh, whole, find_contacts(whole, SegmentationConfig()), smallest, most)
+    return part_candidates(mesh, whole, find_contacts(whole, SegmentationConfig()), smallest, most)
 
 
-def sets(tree: PartTree) -> set[frozenset[int]]:
+def sets(tree: PartCandidates) -> set[frozenset[int]]:
     return {frozenset(np.flatnonzero(m).tolist()) for m in tree.members}
 
 
@@ -51,7 +51,7 @@ def test_areas_and_overlaps_are_those_of_the_patches() -> None:
     assert np.isclose(tree.area[handle], 2 * (0.03 * 0.05 + 0.05 * 0.1 + 0.03 * 0.1))
     door = next(k for k, m in enumerate(tree.members) if np.flatnonzero(m).tolist() == [1, 2, 3, 4])
     assert np.isclose(tree.overlap.shared[door, handle], tree.area[handle])
-    assert len(tree.faces(handle)) == 12
+    assert tree.members[handle][tree.whole.patch].sum() == 12
 
 
 def test_parts_that_touch_each_other_and_not_the_base_are_candidates_each() -> None:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Bool, Float
 
 from anymesh.config import SAME_SIZE
 from anymesh.geometry.patches import ObjectShape
@@ -68,8 +68,8 @@ class Overlap:
 
 
 @dataclass(frozen=True, eq=False)
-class PartTree:
-    """Groups of patches, largest first.
+class PartCandidates:
+    """Groups of patches that may be parts, largest first.
 
     members: (n, P) which patches each group has; size: (n,) diagonal relative to the object's.
     """
@@ -95,20 +95,14 @@ class PartTree:
         """Return the overlap of the groups [m^2]."""
         return Overlap(self.size, (self.members * self.contacts.patch_area) @ self.members.T.astype(float))
 
-    def faces(self, group: int) -> Int[np.ndarray, " m"]:
-        """Return the faces of a group, ascending, as indices of `whole`."""
-        return np.flatnonzero(self.members[group][self.whole.patch])
 
-
-def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size: float, max_candidates: int) -> PartTree:
+def part_candidates(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size: float, max_candidates: int) -> PartCandidates:
     """Return the groups of a mesh that may be parts, without duplicates.
 
     min_size: minimum diagonal of a group, as a share of the object's; max_candidates: maximum number of groups, of which the
     largest are kept.
     """
-    count = len(contacts.shapes)
     masks: dict[bytes, Bool[np.ndarray, " P"]] = {}
-    names = [""] * count
 
     def add(mask: Bool[np.ndarray, " P"]) -> None:
         if not mask.all():
@@ -118,16 +112,16 @@ def part_tree(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size: floa
     joined = [rigid_groups(mesh, whole, contacts, base) for base in ranking[:BASES]]
     divided = rigid_groups(mesh, whole, contacts, ranking[0], divided=True)
     names = [divided.names[g] for g in divided.group]
-    for units in (*joined, divided):
-        for u in sorted(units.hanging):
-            if u != units.root:
-                for chosen in ([u], units.hanging[u], with_supported(units, u)):
-                    add(np.isin(units.group, chosen))
-    for units in (joined[0], divided):
-        for merged in _merges(units):
-            add(np.isin(units.group, merged))
+    for groups in (*joined, divided):
+        for u in sorted(groups.dominated):
+            if u != groups.root:
+                for chosen in ([u], groups.dominated[u], with_supported(groups, u)):
+                    add(np.isin(groups.group, chosen))
+    for groups in (joined[0], divided):
+        for merged in _merges(groups):
+            add(np.isin(groups.group, merged))
     members, size = _largest(whole, contacts, list(masks.values()), min_size, max_candidates)
-    return PartTree(whole, contacts, members, size, tuple(names))
+    return PartCandidates(whole, contacts, members, size, tuple(names))
 
 
 def _largest(
