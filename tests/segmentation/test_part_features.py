@@ -25,10 +25,10 @@ def features(mesh: Mesh, solids: set[int]) -> dict[str, float]:
     contacts = find_contacts(whole, config.segmentation)
     tree = part_candidates(mesh, whole, contacts, 0.004, 150)
     group = next(k for k, m in enumerate(tree.members) if set(np.flatnonzero(m).tolist()) == solids)
-    scene = FeatureInputs.of(mesh, tree, config)
-    around = part_context_of(scene, group)
+    inputs = FeatureInputs.of(mesh, tree, config)
+    around = part_context_of(inputs, group)
     assert around is not None
-    return part_features(scene, group, around)
+    return part_features(inputs, group, around)
 
 
 MESH = mesh_of([*WALLS, DOOR, KNOB])[0]

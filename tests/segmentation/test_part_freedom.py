@@ -93,6 +93,12 @@ def test_a_wall_behind_a_half_of_a_plate_leaves_the_other_half_open() -> None:
     assert space_behind(half)["open behind"] == pytest.approx(5 / 9, abs=0.06)  # of a grid of nine columns
 
 
+def test_the_inside_of_a_solid_behind_a_plate_is_no_opening() -> None:
+    """The back of the plate lies 1 cm deep in a block of nearly 1 m."""
+    sunk = around([box((0, 0, 0), (0.6, 0.03, 0.6))], [box((-0.1, 0.02, -0.1), (0.7, 1, 0.7))])
+    assert space_behind(sunk)["open behind"] == 0
+
+
 def test_points_behind_lie_in_a_grid_just_behind_the_back() -> None:
     leaf = framed(0.004, 0.11)  # 0.6 m wide and high, 3 cm thick
     points = points_behind(leaf, 5)

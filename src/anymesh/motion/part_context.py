@@ -36,9 +36,9 @@ class PartContext:
     part: TriangleSet
     parent: TriangleSet
     rest: TriangleSet  # static while the part moves
-    others: TriangleSet | None  # the other movable parts
+    others: TriangleSet | None  # the other movable parts together
     without_part: TriangleSet  # the object without what moves
-    barrel_candidates: tuple[TriangleSet, ...]  # long thin components that may be hinge barrels
+    barrel_candidates: tuple[TriangleSet, ...]  # long thin patches that may be hinge barrels
     diagonal: float
     center: Float[np.ndarray, " 3"]
     config: ArticulationConfig

@@ -1,4 +1,4 @@
-"""Contacts between patches: which touch, which are close with a clearance, and which support which."""
+"""Contacts between patches: which touch, which are close with a clearance, and which are attached only through another."""
 
 from __future__ import annotations
 

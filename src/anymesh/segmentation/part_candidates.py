@@ -1,8 +1,8 @@
 """Part candidates: groups of patches that may move together.
 
-Candidates are each rigid group of patches, the groups that depend on it, and those that it supports, for each of the likeliest
-bases; the same for single patches; and the groups of a tree that merges those with the most contact. Candidates overlap.
-`part_assignment.py` decides for all at once which of them are parts.
+Candidates are each rigid group of patches alone, with all that is attached only through it, and with the rest of its surface,
+for each of the likeliest bases; the same for single patches; and the groups of a tree that merges those with the
+most contact. Candidates overlap. `part_assignment.py` decides for all at once which of them are parts.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from anymesh.segmentation.contacts import Contacts
 from anymesh.segmentation.rigid_groups import RigidGroups, rigid_groups, root_ranking, with_supported
 from anymesh.types import Mesh
 
-BASES = 3  # number of base patches for which dependent groups are computed
+BASES = 3  # number of base patches for which candidates are listed
 MIN_NESTED_SHARE = 0.98  # minimum shared part of the smaller candidate for it to lie within the larger one
 MAX_DISJOINT_SHARE = 1e-3  # maximum shared part of the smaller candidate for two candidates to be disjoint
 SAME_AREA = 0.05  # maximum relative difference of the areas of copies
