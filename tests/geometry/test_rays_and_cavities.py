@@ -7,6 +7,7 @@ import pytest
 from assets import CUBE, CUBE_FACES, box, mesh_of
 from rigid import move, shape_of
 
+from anymesh.geometry.distance_ import winding_number
 from anymesh.geometry.raycast_ import RayScene, SurfaceHits
 from anymesh.geometry.triangle_set import TriangleSet, mesh_surface
 from anymesh.types.triangles import normals_and_areas
@@ -113,6 +114,22 @@ def test_a_solid_inside_out_against_a_side_is_not_a_cavity(ends: tuple[int, int]
     found = mesh_surface(mesh_of([box((0, -1, 0), (1, 2, 1)), (vertices, np.roll(faces, -first, axis=0))])[0])
     assert found.void.tolist() == [False, False]
     assert found.components.flip.tolist() == [False, True]
+
+
+def test_cavities_of_one_solid_are_looked_for_at_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A search per cavity took minutes on CAD meshes with hundreds of them in a dense solid."""
+    asked = []
+
+    def counted(points: np.ndarray, vertices: np.ndarray, faces: np.ndarray) -> np.ndarray:
+        asked.append((len(points), len(vertices)))
+        return winding_number(points, vertices, faces)
+
+    monkeypatch.setattr("anymesh.geometry.triangle_set.winding_number", counted)
+    corners, faces = box((0, 0, 0), (10, 1, 1))
+    outer = corners[faces].reshape(-1, 3), np.arange(3 * len(faces)).reshape(-1, 3)  # as STL stores it, no vertex is shared
+    cavities = [inside_out((k + 0.2, 0.2, 0.2), (k + 0.8, 0.8, 0.8)) for k in range(12)]
+    assert mesh_surface(mesh_of([outer, *cavities])[0]).void.tolist() == [False] + [True] * 10 + [False] * 2
+    assert asked == [(10, 8)]
 
 
 def test_without_solids_or_without_cavities_there_are_none() -> None:

@@ -12,7 +12,7 @@ from anymesh.geometry.boxes import OrientedBox, fit_box
 from anymesh.geometry.distance_ import TriangleTree, winding_number
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.sampling import SurfacePoints, spread_points
-from anymesh.geometry.topology import Components, components
+from anymesh.geometry.topology import Components, components, weld
 from anymesh.types import Mesh
 from anymesh.types.triangles import bounds_of, normals_and_areas
 
@@ -181,13 +181,13 @@ def _voids(mesh: Mesh, parts: Components) -> Bool[np.ndarray, " c"]:
     order = np.argsort(parts.label, kind="stable")
     start = np.searchsorted(parts.label[order], np.arange(parts.count + 1))
     triangles = mesh.triangles[order]
-    low = np.minimum.reduceat(triangles.min(1), start[:-1])[solid]
-    high = np.maximum.reduceat(triangles.max(1), start[:-1])[solid]
+    low = np.minimum.reduceat(triangles.min(1), start[:-1])
+    high = np.maximum.reduceat(triangles.max(1), start[:-1])
     points = triangles[start[inverted]].mean(1)  # one on each inverted component
-    for c, point in zip(inverted, points, strict=True):
-        for s in solid[((point > low) & (point < high)).all(1)]:
-            faces = mesh.faces[order[start[s] : start[s + 1]]]
-            if winding_number(point[None], mesh.vertices, faces)[0] > 0.5:
-                void[c] = True
-                break
+    for s in solid:
+        there = np.flatnonzero(~void[inverted] & ((points > low[s]) & (points < high[s])).all(1))
+        if len(there):
+            corners = triangles[start[s] : start[s + 1]].reshape(-1, 3)
+            _, first, index = np.unique(weld(corners), return_index=True, return_inverse=True)
+            void[inverted[there]] = winding_number(points[there], corners[first], index.reshape(-1, 3)) > 0.5
     return void
