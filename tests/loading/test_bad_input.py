@@ -60,6 +60,7 @@ WITHOUT_TRIANGLES = {
     "none.stl": (b"\0" * 84, "no triangle"),
     "points.off": (("OFF\n8 0 0\n" + rows("", POINTS)).encode(), "8 points"),
     "none.dae": (dae(nodes='<node id="n"/>'), "no triangles"),
+    "zero.dae": (dae() + b"\0<", "found a zero byte"),
     "flat.obj": (b"v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "degenerate"),
     "dot.obj": (b"v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n", "no extent"),
     "far.obj": (b"v 0 0 0\nv 1e20 0 0\nv 0 1 0\nf 1 2 3\n", "1e+20"),

@@ -73,7 +73,7 @@ def _read(name: str, text: str) -> _Lines:
     switches = {"o": 0, "g": 1, "usemtl": 2}
     tables = {"v": lines.v, "vt": lines.vt, "vn": lines.vn}
     least = {"v": 3, "vt": 1, "vn": 3}
-    for number, line in enumerate(text.replace("\\\r\n", " ").replace("\\\n", " ").split("\n"), 1):
+    for number, line in enumerate(text.replace("\r\n", "\n").replace("\r", "\n").replace("\\\n", " ").split("\n"), 1):
         key, _, rest = line.strip().replace("\t", " ").partition(" ")
         try:
             if key in tables:

@@ -28,6 +28,7 @@ def read_stl(data: bytes, folder: Folder) -> Mesh:
     name = folder.path.name
     if not ASCII.match(data):
         return _binary(name, data)
+    data = data.replace(b"\r", b"\n")  # some exporters end lines with a carriage return alone
     starts = [m.start() for m in SOLID.finditer(data)]
     parts = [data[a:b] for a, b in zip(starts, [*starts[1:], len(data)], strict=True)]
     return join([_solid(name, part) for part in parts if b"facet" in part.lower()])

@@ -30,7 +30,9 @@ def read_dae(data: bytes, folder: Folder) -> Mesh:
     _check_positions(name, root)
     textures = {uri: picture_file(folder, uri) for uri in dict.fromkeys(_pictures(root))}
     placed = []
-    for node, geometry, T in _geometries(data, folder, _Readable({k: t.data for k, t in textures.items() if t is not None})):
+    for node, geometry, T in _geometries(
+        data, root, folder, _Readable({k: t.data for k, t in textures.items() if t is not None})
+    ):
         if not np.isfinite(T).all():
             raise InputError(f"{name}: node {node!r} has a transform that is not finite")
         placed.append(_mesh(f"{name}, node {node!r}", node, geometry).transformed(T))
@@ -51,9 +53,8 @@ def parse_dae(name: str, data: bytes) -> ET.Element:
     declared = re.match(rb"""(?:\xef\xbb\xbf)?\s*<\?xml[^>]*?encoding\s*=\s*["']([^"']*)""", data)
     encoding = declared[1].decode("ascii", "replace").lower() if declared else "utf-8"
     if b"\0" in data or encoding not in ENCODINGS:  # other encodings could hide a document type in other bytes
-        raise InputError(
-            f"{name}: found the encoding {encoding[:40] if declared else 'UTF-16'}; valid are {', '.join(ENCODINGS)}"
-        )
+        found = f"a zero byte at {data.index(0)}" if b"\0" in data else f"the encoding {encoding[:40]}"
+        raise InputError(f"{name}: found {found}; valid is text in {', '.join(ENCODINGS)}")
     if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
         raise InputError(f"{name} declares a document type; a COLLADA file needs none, and it is not read")
     try:
@@ -98,20 +99,46 @@ class _Readable:
     __getitem__ = get
 
 
-def _geometries(data: bytes, folder: Folder, textures: _Readable) -> Iterator[tuple[str, dict[str, Any], np.ndarray]]:
+Placed = list[tuple[str, dict[str, Any], np.ndarray]]  # node, geometry and transform of each geometry in the scene
+
+
+def _geometries(data: bytes, root: ET.Element, folder: Folder, textures: _Readable) -> Placed:
+    """Return the geometries of the scene. Of a file that is broken in part, those that can be read, with a warning."""
+    try:
+        return _scene(data, textures, ignore_broken=False)
+    except Exception as error:  # pycollada is strict, often about irrelevant faults
+        cause = f"{type(error).__name__}: {str(error)[:100]}"
+    whole, plain = _scene(data, textures, ignore_broken=True), _scene(_without_looks(root), textures, ignore_broken=True)
+    if _triangles(plain) > _triangles(whole):  # pycollada drops a geometry whose material it cannot read
+        folder.warn(f"some of the file is broken, and its materials are left out ({cause})")
+        return plain
+    folder.warn(f"some of the file is broken and left out ({cause})")
+    return whole
+
+
+def _scene(data: bytes, textures: _Readable, ignore_broken: bool) -> Placed:
     from trimesh.exchange.load import mesh_loaders
 
     read: Any = mesh_loaders["dae"]
     with quiet_decoder():
-        try:
-            scene = read(file_obj=io.BytesIO(data), resolver=textures, ignore_broken=False)
-        except Exception as error:  # pycollada is strict, often about irrelevant faults
-            scene = read(file_obj=io.BytesIO(data), resolver=textures, ignore_broken=True)
-            folder.warn(f"some of the file is broken and left out ({type(error).__name__}: {str(error)[:100]})")
-    for entry in scene["graph"]:
-        geometry = scene["geometry"][entry["geometry"]]
-        if len(geometry["faces"]):
-            yield str(entry["frame_to"]), geometry, np.asarray(entry["matrix"], np.float64)
+        scene = read(file_obj=io.BytesIO(data), resolver=textures, ignore_broken=ignore_broken)
+    named = [
+        (str(e["frame_to"]), scene["geometry"][e["geometry"]], np.asarray(e["matrix"], np.float64)) for e in scene["graph"]
+    ]
+    return [placed for placed in named if len(placed[1]["faces"])]
+
+
+def _triangles(scene: Placed) -> int:
+    return sum(len(geometry["faces"]) for _, geometry, _ in scene)
+
+
+def _without_looks(root: ET.Element) -> bytes:
+    """Return the document without effects, materials and pictures; the root loses them."""
+    looks = ("library_effects", "library_materials", "library_images", "bind_material")
+    for parent in list(root.iter()):
+        for child in [c for c in parent if c.tag.rsplit("}", 1)[-1] in looks]:
+            parent.remove(child)
+    return ET.tostring(root, "utf-8", xml_declaration=True)
 
 
 def _mesh(where: str, node: str, geometry: dict[str, Any]) -> Mesh:
