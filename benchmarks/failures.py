@@ -73,7 +73,7 @@ def states(failure: Failure, sample: EvalSample) -> Int[np.ndarray, " F"]:
     """Return one of the states, the indices of COLORS, per face."""
     rows, mesh = failure.rows, sample.mesh
     config = Config()
-    chosen = failure.number[object_shape(mesh, config.seed, config.pieces).mesh_patch]
+    chosen = failure.number[object_shape(mesh, config.seed, config.patches).mesh_patch]
     count = len(sample.truth.parts)
     both = np.bincount(chosen * count + sample.labels, mesh.face_areas, (chosen.max() + 1) * count).reshape(-1, count)
     iou = both / np.maximum(both.sum(1, keepdims=True) + both.sum(0) - both, 1e-300)

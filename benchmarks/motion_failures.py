@@ -56,7 +56,7 @@ def picture(failure: Failure, sample: EvalSample) -> tuple[UInt8[np.ndarray, "H 
     """Draw the joint with the motion that the held-out classifier chooses, and describe its errors."""
     rows, config = failure.rows, Config()
     segmentation = sample.segmentation()
-    whole = object_shape(sample.mesh, config.seed, config.pieces, sample.labels)
+    whole = object_shape(sample.mesh, config.seed, config.patches, sample.labels)
     motions = [
         (i, over, around, replace(question, scores=failure.scores) if i == rows.number else question)
         for i, over, around, question in motion_questions(whole, segmentation, config)

@@ -69,7 +69,7 @@ class MotionRows:
 def rows_of(sample: EvalSample, source: str, form: str = "") -> list[MotionRows]:
     """Propose, sweep and measure the motions of all parts with a known joint."""
     config, truth = Config(articulation=ArticulationConfig(most_swept=ALL)), sample.truth
-    whole = object_shape(sample.mesh, config.seed, config.pieces, sample.labels)
+    whole = object_shape(sample.mesh, config.seed, config.patches, sample.labels)
     joints = {j.child: sample.joint(j) for j in truth.joints if j.type is not JointType.FIXED}
     found: list[MotionRows] = []
     questions = list(motion_questions(whole, sample.segmentation(), config))

@@ -54,7 +54,7 @@ class Region:
 def regions(failure: Failure, sample: EvalSample, rng: np.random.Generator) -> list[Region]:
     """Return the regions of an object in random order."""
     rows, areas = failure.rows, sample.mesh.face_areas
-    patch = object_shape(sample.mesh, Config().seed, Config().pieces).mesh_patch
+    patch = object_shape(sample.mesh, Config().seed, Config().patches).mesh_patch
     chosen = failure.number[patch]
     in_part = np.isin(sample.labels, rows.moving)
     parts = [sample.labels == k for k in rows.moving]

@@ -85,7 +85,7 @@ def read_rows(folder: Path) -> list[PartRows]:
 def rows_of(sample: EvalSample, source: str, form: str = "") -> PartRows:
     """Find and measure the candidates of an object."""
     mesh, truth, config = sample.mesh, sample.truth, Config()
-    whole = object_shape(mesh, config.seed, config.pieces)
+    whole = object_shape(mesh, config.seed, config.patches)
     contacts = find_contacts(whole, config.segmentation)
     candidates = part_candidates(mesh, whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
     examined, place, rows = examine_candidates(mesh, candidates, config)

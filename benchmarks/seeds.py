@@ -50,7 +50,7 @@ def seen_with(spec: str, seeds: Sequence[int], name: str) -> list[list[Seen]]:
     joints = {j.child: sample.joint(j) for j in truth.joints if j.type is not JointType.FIXED}
     found: dict[str, list[Seen]] = {}
     for seed in seeds:
-        whole = object_shape(sample.mesh, seed, config.pieces, sample.labels)
+        whole = object_shape(sample.mesh, seed, config.patches, sample.labels)
         for i, _, around, question in motion_questions(whole, given, config):
             part = truth.parts[i].name
             if part not in joints:

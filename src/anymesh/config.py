@@ -17,7 +17,7 @@ IN_LINE = 0.02  # of the object's diagonal: maximum offset of the centers of cop
 
 
 @dataclass(frozen=True)
-class PiecesConfig:
+class PatchConfig:
     """Division of the surface into patches. Lengths are relative to the object's diagonal."""
 
     crease: float = 25.0  # [deg] minimum angle of a concave edge that may bound a part on a fused surface
@@ -30,7 +30,7 @@ class PiecesConfig:
     crumb: float = 0.03  # regions smaller than this, left by a cut, join their neighbour
     most_faces: int = 8000  # denser meshes are simplified for questions of shape and motion, never in the output
     least_faces: int = 60  # minimum number of faces kept of a patch
-    most_pieces: int = 1500  # number of patches above which small ones join their nearest larger one
+    most_patches: int = 1500  # number of patches above which small ones join their nearest larger one
     most_pairs: int = 20_000  # number of pairs of patches with meeting boxes above which they do so too
 
 
@@ -170,7 +170,7 @@ class Config:
     parts_list: tuple[str, ...] = ()  # labels of movable parts, given by a user; a model is then not asked for them
     proposer: str = "exact"  # of masks, see `segmentation.propose`
     verify: str = "motion"  # "free": answers are used, except for slides that are blocked; "off": the paper's method unchanged
-    pieces: PiecesConfig = field(default_factory=PiecesConfig)
+    patches: PatchConfig = field(default_factory=PatchConfig)
     segmentation: SegmentationConfig = field(default_factory=SegmentationConfig)
     articulation: ArticulationConfig = field(default_factory=ArticulationConfig)
     views: ViewsConfig = field(default_factory=ViewsConfig)

@@ -134,7 +134,7 @@ def test_a_deep_drawer_needs_no_carving() -> None:
 def test_a_hinge_that_opens_to_no_side_is_compared_with_no_other() -> None:
     mesh, segmentation = built(pair("both"))
     config = Config()
-    whole = object_shape(mesh, config.seed, config.pieces, segmentation.face_part)
+    whole = object_shape(mesh, config.seed, config.patches, segmentation.face_part)
     _, _, around, question = next(iter(estimate.motion_questions(whole, segmentation, config)))
     assert around.other_parts
     rims = [replace(c, outward=0.0) for c in question.candidates if c.role == "edge"]

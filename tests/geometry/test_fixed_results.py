@@ -10,7 +10,7 @@ import pytest
 from assets import CUBE, CUBE_FACES, assert_fixed, box, mesh_of
 from rigid import shape_of
 
-from anymesh.config import PiecesConfig
+from anymesh.config import PatchConfig
 from anymesh.geometry.boxes import box_in_frame
 from anymesh.geometry.circles import outline_about
 from anymesh.geometry.patches import DividedSurface
@@ -48,7 +48,7 @@ MAKERS = {
     "triangles": lambda: shape_of((CUBE, CUBE_FACES)),
     "mesh surface": lambda: mesh_surface(mesh_of([(CUBE, CUBE_FACES)])[0]),
     "divided surface": divided,
-    "object": lambda: divided().simplified(PiecesConfig()),
+    "object": lambda: divided().simplified(PatchConfig()),
     "obstacles": obstacles,
     "passage": passage,
 }

@@ -7,7 +7,7 @@ import pytest
 import trimesh
 from assets import box, mesh_of
 
-from anymesh.config import PiecesConfig
+from anymesh.config import PatchConfig
 from anymesh.geometry.boxes import box_pairs
 from anymesh.geometry.distance_ import TriangleTree, distance_to_mesh
 from anymesh.geometry.simplify_ import FEWEST, simplify
@@ -63,8 +63,8 @@ def test_cavities_are_found_whatever_else_is_inside_out() -> None:
     assert mesh_surface(mesh_of(pieces)[0]).void.tolist() == [False, True, False]
 
 
-def test_above_the_most_pieces_all_copies_join_what_they_are_nearest_to() -> None:
+def test_above_the_most_patches_all_copies_join_what_they_are_nearest_to() -> None:
     beads = [box((x, 0.4, 1.01), (x + 0.01, 0.41, 1.02)) for x in np.linspace(0.05, 0.4, 12)]
     mesh = mesh_of([box((0, 0, 0), (1, 1, 1)), box((3, 0, 0), (4, 1, 1)), *beads])[0]
-    assert int(object_shape(mesh, config=PiecesConfig(most_pieces=5)).patch.max()) + 1 == 2
+    assert int(object_shape(mesh, config=PatchConfig(most_patches=5)).patch.max()) + 1 == 2
     assert int(object_shape(mesh).patch.max()) + 1 == 14

@@ -10,7 +10,7 @@ import trimesh
 from assets import box
 from rigid import shape_of
 
-from anymesh.config import PiecesConfig
+from anymesh.config import PatchConfig
 from anymesh.geometry.creases import convex_regions
 from anymesh.geometry.sampling import spread_directions
 from anymesh.geometry.simplify_ import simplify
@@ -54,7 +54,7 @@ def test_regions_of_a_simplified_surface_are_those_of_its_nearest_faces() -> Non
     whole = trimesh.boolean.union([block, plate])
     fine = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(whole.vertices, whole.faces, 0.05))
     triangles = np.asarray(fine.triangles, float)
-    region = convex_regions(triangles, 1.5, replace(PiecesConfig(), superpoint_faces=1500))
+    region = convex_regions(triangles, 1.5, replace(PatchConfig(), superpoint_faces=1500))
     top = triangles[:, :, 2].min(1) > 0.2
     low = triangles[:, :, 2].max(1) < 0.1
     assert len(set(region[top])) == len(set(region[low])) == 1

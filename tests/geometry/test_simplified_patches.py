@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from assets import CUBE, CUBE_FACES
 
-from anymesh.config import PiecesConfig
+from anymesh.config import PatchConfig
 from anymesh.geometry import simplify_
 from anymesh.geometry.patches import MIN_PATCH_FACES, DividedSurface
 from anymesh.geometry.simplify_ import simplify
@@ -93,7 +93,7 @@ def divided(triangles: np.ndarray, patch: np.ndarray, flipped: np.ndarray | None
 def test_parts_of_a_patch_are_simplified_apart() -> None:
     fine = sheet(20)
     right = (fine.mean(1)[:, 0] > 0.5).astype(np.int64)
-    found = divided(fine, np.zeros(800, np.int64)).simplified(PiecesConfig(most_faces=100), right)
+    found = divided(fine, np.zeros(800, np.int64)).simplified(PatchConfig(most_faces=100), right)
     assert 20 < len(found.patch) <= 130
     part = right[found.source]
     assert found.shape.triangles[part == 0][:, :, 0].max() <= 0.5 + 1e-6
@@ -112,7 +112,7 @@ def test_few_faces_stay_and_dense_patches_are_simplified_in_proportion(turned: b
     order = np.random.default_rng(0).permutation(len(patch))
     triangles, patch = triangles[order], patch[order]
     surface = divided(triangles, patch, patch == 1 if turned else None)
-    found = surface.simplified(PiecesConfig(most_faces=500, least_faces=30))
+    found = surface.simplified(PatchConfig(most_faces=500, least_faces=30))
     count = np.bincount(found.patch)
     assert 300 < count[0] <= 400
     assert 70 < count[1] <= 100
@@ -127,14 +127,14 @@ def test_few_faces_stay_and_dense_patches_are_simplified_in_proportion(turned: b
 
 def test_a_mesh_of_the_maximum_number_of_faces_stays() -> None:
     surface = divided(sheet(5), np.zeros(50, np.int64))
-    assert surface.simplified(PiecesConfig(most_faces=50)).source.tolist() == list(range(50))
-    assert len(surface.simplified(PiecesConfig(most_faces=49, least_faces=20)).source) < 50
+    assert surface.simplified(PatchConfig(most_faces=50)).source.tolist() == list(range(50))
+    assert len(surface.simplified(PatchConfig(most_faces=49, least_faces=20)).source) < 50
 
 
 def test_very_many_patches_keep_few_faces_each() -> None:
     """Of 100 patches of 32 triangles, 3 * 60 / 100 faces each would be left, and the minimum is kept."""
     triangles = np.concatenate([sheet(4, (2 * k, 0, 0)) for k in range(100)])
-    found = divided(triangles, np.repeat(np.arange(100), 32)).simplified(PiecesConfig(most_faces=60, least_faces=32))
+    found = divided(triangles, np.repeat(np.arange(100), 32)).simplified(PatchConfig(most_faces=60, least_faces=32))
     count = np.bincount(found.patch)
     assert len(count) == 100
     assert count.max() <= MIN_PATCH_FACES == 20

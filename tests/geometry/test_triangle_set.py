@@ -6,7 +6,7 @@ import trimesh
 from assets import box, mesh_of
 from rigid import apply, move, shape_of
 
-from anymesh.config import PiecesConfig
+from anymesh.config import PatchConfig
 from anymesh.geometry.triangle_set import TriangleSet, mesh_surface
 from anymesh.segmentation.divide import object_shape
 from anymesh.types.triangles import normals_and_areas
@@ -75,7 +75,7 @@ def test_a_dense_mesh_is_asked_about_in_fewer_faces_of_the_same_pieces():
         [(balls[0].vertices, balls[0].faces), (apply(move(2), balls[1].vertices) + 9, balls[1].faces[:, ::-1])]
     )
     before = mesh.vertices.copy()
-    found = object_shape(mesh, config=PiecesConfig(most_faces=1000))
+    found = object_shape(mesh, config=PatchConfig(most_faces=1000))
     assert 600 < len(found.patch) <= 1000
     assert found.mesh_patch.tolist() == number.tolist()
     np.testing.assert_array_equal(found.mesh_patch[found.source], found.patch)

@@ -24,8 +24,8 @@ class Sees:
 
 
 def test_only_where_pictures_are_answered_seams_closed_in_places_divide_the_surface() -> None:
-    assert Solver(MESH, answerer_factory=lambda _: Sees(1.0)).geometry.config.pieces.seams
-    assert not Solver(MESH).geometry.config.pieces.seams
+    assert Solver(MESH, answerer_factory=lambda _: Sees(1.0)).geometry.config.patches.seams
+    assert not Solver(MESH).geometry.config.patches.seams
 
 
 @pytest.mark.parametrize(

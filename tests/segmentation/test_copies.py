@@ -91,7 +91,7 @@ def test_a_candidate_that_is_held_makes_room_for_the_next(monkeypatch: pytest.Mo
     monkeypatch.setattr(segment, "score_parts", by_size)
     mesh, _ = mesh_of([BODY, nail, top])
     config = Config(segmentation=SegmentationConfig(at_least=1))
-    found = segment.segment_parts(mesh, object_shape(mesh, 0, config.pieces), labels, config)
+    found = segment.segment_parts(mesh, object_shape(mesh, 0, config.patches), labels, config)
     assert asked == [2, 2]
     assert found.faces(1).tolist() == list(range(24, 36))
     assert "stands out most" in found.parts[1].reason
@@ -118,7 +118,7 @@ def test_candidates_that_never_move_leave_the_base_alone(monkeypatch: pytest.Mon
     monkeypatch.setattr(segment, "assign_parts", one)
     mesh, _ = mesh_of([BODY, *tops])
     config = Config()
-    found = segment.segment_parts(mesh, object_shape(mesh, 0, config.pieces), none, config)
+    found = segment.segment_parts(mesh, object_shape(mesh, 0, config.patches), none, config)
     assert asked == [2] * segment.MAX_ASSIGNMENTS
     assert len(found.parts) == 1
     assert not found.face_part.any()

@@ -9,7 +9,7 @@ import pytest
 import trimesh
 from assets import box, mesh_of
 
-from anymesh.config import PiecesConfig
+from anymesh.config import PatchConfig
 from anymesh.geometry.triangle_set import mesh_surface
 from anymesh.segmentation import divide
 from anymesh.segmentation.divide import object_shape
@@ -18,7 +18,7 @@ from anymesh.segmentation.layout import tile
 from anymesh.segmentation.part_candidates import Overlap
 from anymesh.types import Mesh, Node
 
-CONFIG = PiecesConfig()
+CONFIG = PatchConfig()
 X, Y, Z = np.eye(3)
 
 
@@ -43,7 +43,7 @@ def is_cut(*pieces) -> bool:
     return set(patch[(z > 0.01).all(1)]).isdisjoint(patch[(z < -0.99).all(1)])
 
 
-def patches(*pieces, config: PiecesConfig = CONFIG) -> tuple[np.ndarray, Mesh]:
+def patches(*pieces, config: PatchConfig = CONFIG) -> tuple[np.ndarray, Mesh]:
     mesh = mesh_of(pieces)[0]
     return object_shape(mesh, 0, config).mesh_patch, mesh
 
@@ -117,12 +117,12 @@ def cubes(*sides: float) -> list:
 
 @pytest.mark.parametrize(("most", "expected"), [(4, [0, 1, 2, 3]), (3, [0, 1, 2, 2]), (2, [0, 1, 1, 1])])
 def test_the_smallest_of_too_many_patches_join_their_nearest_larger_one(most: int, expected: list[int]) -> None:
-    patch, _ = patches(*cubes(1.0, 0.8, 0.6, 0.4), config=replace(CONFIG, most_pieces=most))
+    patch, _ = patches(*cubes(1.0, 0.8, 0.6, 0.4), config=replace(CONFIG, most_patches=most))
     assert patch[::12].tolist() == expected
 
 
 def test_all_copies_of_one_size_are_kept_or_joined_together() -> None:
-    limited = replace(CONFIG, most_pieces=3)
+    limited = replace(CONFIG, most_patches=3)
     assert len(set(patches(*cubes(1.0, 0.9, 0.5, 0.5, 0.5), config=limited)[0])) == 2
     assert len(set(patches(*cubes(0.5, 0.5, 0.5, 0.5), config=limited)[0])) == 3  # all are copies: the first are kept
 

@@ -78,7 +78,7 @@ def test_what_only_a_part_holds_goes_with_it() -> None:
         box((0.3, 0.05, 0.9), (0.6, 0.1, 0.95)), box((0.4, 0.4, 1), (0.5, 0.5, 1.1)),
     ]  # fmt: skip
     mesh, part = mesh_of(boxes)
-    whole = object_shape(mesh, 0, Config().pieces)
+    whole = object_shape(mesh, 0, Config().patches)
     contacts = find_contacts(whole, SegmentationConfig())
     patch = np.array([whole.mesh_patch[part == k][0] for k in range(5)])
 

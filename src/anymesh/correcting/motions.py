@@ -35,11 +35,11 @@ class Ready:
 def made_ready(asset: Asset, config: Config | None = None) -> Ready:
     """Prepare all current parts for `ranked_motions`, which is the slow step. Dense parts are simplified first."""
     settings = config or Config()
-    mesh, label, pieces = asset.mesh, asset.segmentation.face_part, settings.pieces
+    mesh, label, patches = asset.mesh, asset.segmentation.face_part, settings.patches
     if len(mesh.faces) > DENSE:
         mesh, label = _lighter(mesh, label)
-        pieces = replace(pieces, soft_faces=len(mesh.faces))  # parts are known: soft creases are not searched again
-    whole = object_shape(mesh, settings.seed, pieces, label)
+        patches = replace(patches, soft_faces=len(mesh.faces))  # parts are known: soft creases are not searched again
+    whole = object_shape(mesh, settings.seed, patches, label)
     return Ready(whole, label[whole.source])
 
 

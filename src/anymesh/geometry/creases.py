@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial import KDTree
 
-from anymesh.config import PiecesConfig
+from anymesh.config import PatchConfig
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.superpoints import superpoints
 from anymesh.geometry.topology import edge_pairs
@@ -17,7 +17,7 @@ from anymesh.types.triangles import normals_and_areas
 BOX_MARGIN = 1.01  # of `reach`: faces outside this margin around a border's box are farther away than `reach`
 
 
-def convex_regions(triangles: Float[np.ndarray, "F 3 3"], diagonal: float, config: PiecesConfig) -> Int[np.ndarray, " F"]:
+def convex_regions(triangles: Float[np.ndarray, "F 3 3"], diagonal: float, config: PatchConfig) -> Int[np.ndarray, " F"]:
     """Return a region index per face.
 
     Regions are superpoints joined across their borders, except for concave creases (locally convex patches, Stein et al. 2014).
@@ -46,7 +46,7 @@ def convex_regions(triangles: Float[np.ndarray, "F 3 3"], diagonal: float, confi
 
 def _folds_inwards(
     centers: np.ndarray, normals: np.ndarray, weight: np.ndarray, label: np.ndarray, key: np.ndarray, where: np.ndarray,
-    middle: np.ndarray, diagonal: float, config: PiecesConfig,
+    middle: np.ndarray, diagonal: float, config: PatchConfig,
 ) -> np.ndarray:  # fmt: skip
     """Return which borders (pairs of superpoints, by key) fold inwards by more than `config.crease`.
 

@@ -8,7 +8,7 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Bool, Int
 
-from anymesh.config import PiecesConfig
+from anymesh.config import PatchConfig
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types.triangles import normals_and_areas
@@ -54,7 +54,7 @@ class DividedSurface:
     inferred: Int[np.ndarray, " p"]
     diagonal: float
 
-    def simplified(self, config: PiecesConfig, labels: Int[np.ndarray, " F"] | None = None) -> ObjectShape:
+    def simplified(self, config: PatchConfig, labels: Int[np.ndarray, " F"] | None = None) -> ObjectShape:
         """Simplify each patch.
 
         labels: (F,) parts that are kept apart.
@@ -67,7 +67,7 @@ class DividedSurface:
 
 
 def _simplified(
-    shape: TriangleSet, flipped: Bool[np.ndarray, " F"], group: Int[np.ndarray, " F"], config: PiecesConfig
+    shape: TriangleSet, flipped: Bool[np.ndarray, " F"], group: Int[np.ndarray, " F"], config: PatchConfig
 ) -> tuple[TriangleSet, Int[np.ndarray, " R"]]:
     """Simplify each group in proportion to its faces; small groups are left unchanged."""
     count = len(group)

@@ -53,8 +53,8 @@ def parse_dae(name: str, data: bytes) -> ET.Element:
     declared = re.match(rb"""(?:\xef\xbb\xbf)?\s*<\?xml[^>]*?encoding\s*=\s*["']([^"']*)""", data)
     encoding = declared[1].decode("ascii", "replace").lower() if declared else "utf-8"
     if b"\0" in data or encoding not in ENCODINGS:  # other encodings could hide a document type in other bytes
-        found = f"a zero byte at {data.index(0)}" if b"\0" in data else f"the encoding {encoding[:40]}"
-        raise InputError(f"{name}: found {found}; valid is text in {', '.join(ENCODINGS)}")
+        content = f"a zero byte at {data.index(0)}" if b"\0" in data else f"the encoding {encoding[:40]}"
+        raise InputError(f"{name}: found {content}; valid is text in {', '.join(ENCODINGS)}")
     if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
         raise InputError(f"{name} declares a document type; a COLLADA file needs none, and it is not read")
     try:

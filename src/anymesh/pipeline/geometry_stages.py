@@ -36,11 +36,11 @@ class GeometryStages:
     @cached_property
     def whole(self) -> ObjectShape:
         """Return the object as both stages use it."""
-        return self._divided.simplified(self.config.pieces)
+        return self._divided.simplified(self.config.patches)
 
     @cached_property
     def _divided(self) -> DividedSurface:
-        return divide_surface(self.mesh, self.config.seed, self.config.pieces)
+        return divide_surface(self.mesh, self.config.seed, self.config.patches)
 
     def recognize(self, *, sized: bool = False, metric: bool = False) -> RecognitionResult:
         """Return that nothing was recognized."""
@@ -85,7 +85,7 @@ class GeometryStages:
         label, whole = segmentation.face_part, self.whole
         if (label == label[whole.source][np.unique(whole.patch, return_index=True)[1]][whole.mesh_patch]).all():
             return whole
-        return self._divided.simplified(self.config.pieces, label)
+        return self._divided.simplified(self.config.patches, label)
 
     @cached_property
     def reference_parts(self) -> Reference:

@@ -65,7 +65,7 @@ class Solver:
     ) -> None:
         config = config or Config()
         if answerer_factory is not None:  # the geometry answerer finds no more with finer patches (docs/decisions.md)
-            config = replace(config, pieces=replace(config.pieces, seams=True))
+            config = replace(config, patches=replace(config.patches, seams=True))
         self.mesh, self.geometry = mesh, GeometryStages(mesh, config, deadline or Deadline())
         self.answers: StageAnswerer = (
             self.geometry if answerer_factory is None else PromptedStages(self.geometry, answerer_factory)

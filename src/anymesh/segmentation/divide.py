@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Bool, Int
 from scipy.spatial import KDTree
 
-from anymesh.config import PiecesConfig
+from anymesh.config import PatchConfig
 from anymesh.geometry.creases import convex_regions
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.patches import DividedSurface, ObjectShape
@@ -24,17 +24,17 @@ MAX_SIZE_DIFFERENCE_RATIO = 0.05  # maximum relative difference of the diagonals
 
 
 def object_shape(
-    mesh: Mesh, seed: int = 0, config: PiecesConfig | None = None, labels: Int[np.ndarray, " F"] | None = None
+    mesh: Mesh, seed: int = 0, config: PatchConfig | None = None, labels: Int[np.ndarray, " F"] | None = None
 ) -> ObjectShape:
     """Orient, split and simplify a mesh; the mesh is not modified.
 
     labels: (F,) parts that are kept apart.
     """
-    config = config or PiecesConfig()
+    config = config or PatchConfig()
     return divide_surface(mesh, seed, config).simplified(config, labels)
 
 
-def divide_surface(mesh: Mesh, seed: int, config: PiecesConfig) -> DividedSurface:
+def divide_surface(mesh: Mesh, seed: int, config: PatchConfig) -> DividedSurface:
     """Orient a mesh and divide it into patches; the mesh is not modified."""
     s = mesh_surface(mesh, seed)
     patch, inferred = split_patches(s, config)
@@ -45,7 +45,7 @@ def divide_surface(mesh: Mesh, seed: int, config: PiecesConfig) -> DividedSurfac
     return DividedSurface(s.shape, flipped, patch, shared, from_handles, s.diagonal)
 
 
-def split_patches(whole: MeshSurface, config: PiecesConfig) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
+def split_patches(whole: MeshSurface, config: PatchConfig) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
     """Return a patch index per face, and which faces are on panels inferred from handles alone.
 
     Patches are numbered from 0 in the order of their first faces.
@@ -67,11 +67,11 @@ def split_patches(whole: MeshSurface, config: PiecesConfig) -> tuple[Int[np.ndar
     length = np.linalg.norm(_ends(whole, 0) - _ends(whole, 1), axis=1)
     region = _absorb_crumbs(whole, region, pairs[cut], length[cut], config)
     region = _fill_voids(whole, region)
-    region = _limit_count(whole, region, config.most_pieces)
+    region = _limit_count(whole, region, config.most_patches)
     return _limit_pairs(whole, region, config.most_pairs), inferred
 
 
-def _soft_regions(whole: MeshSurface, component: np.ndarray, large: np.ndarray, config: PiecesConfig) -> np.ndarray:
+def _soft_regions(whole: MeshSurface, component: np.ndarray, large: np.ndarray, config: PatchConfig) -> np.ndarray:
     """Return regions bounded by soft concave creases on large and dense components; other components are one region each."""
     region = component.copy()
     count = np.bincount(component)
@@ -123,7 +123,7 @@ def _concave(whole: MeshSurface, min_angle: float) -> np.ndarray:
 
 
 def _absorb_crumbs(
-    whole: MeshSurface, region: np.ndarray, pairs: np.ndarray, length: np.ndarray, config: PiecesConfig
+    whole: MeshSurface, region: np.ndarray, pairs: np.ndarray, length: np.ndarray, config: PatchConfig
 ) -> np.ndarray:
     """Join regions that are too small to the neighbour with the longest common border; three rounds resolve chains."""
     for _ in range(3):

@@ -63,7 +63,7 @@ def _cuttable(mesh: Mesh, whole: ObjectShape, config: Config) -> Bool[np.ndarray
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     np.minimum.at(low, whole.mesh_patch, mesh.triangles.min(1))
     np.maximum.at(high, whole.mesh_patch, mesh.triangles.max(1))
-    large = np.linalg.norm(high - low, axis=1) > config.pieces.fused_size * whole.diagonal
+    large = np.linalg.norm(high - low, axis=1) > config.patches.fused_size * whole.diagonal
     large[whole.shared.reshape(-1)] = True
     return large
 
