@@ -7,6 +7,7 @@ from assets import box, mesh_of
 from rigid import apply, move, shape_of
 
 from anymesh.config import PatchConfig
+from anymesh.geometry.distance_ import TriangleTree, distance_to_triangles
 from anymesh.geometry.triangle_set import TriangleSet, mesh_surface
 from anymesh.segmentation.divide import object_shape
 from anymesh.types.triangles import normals_and_areas
@@ -100,3 +101,29 @@ def test_shapes_taken_from_a_prepared_one_are_as_if_made_alone() -> None:
         one, other = (s.scene.first_hit(origins, directions) for s in (alone, taken))
         np.testing.assert_array_equal(other.face, one.face)
         np.testing.assert_array_equal(other.distance, one.distance)
+
+
+def sphere() -> TriangleSet:
+    ball = trimesh.creation.icosphere(subdivisions=4)
+    return shape_of((ball.vertices, ball.faces))
+
+
+@pytest.mark.parametrize(("middle", "size"), [((0, 0, 0.98), 0.05), ((0, 0, 0), 0.2), ((0, 4, 0), 0.5), ((0.6, 0.6, 0), 1.0)])
+def test_the_nearest_triangles_are_those_of_a_tree_of_all(middle: tuple[float, ...], size: float) -> None:
+    ball = sphere()
+    points = np.array(middle) + size * np.random.default_rng(5).normal(size=(400, 3))
+    distance, face = ball.nearest(points)
+    np.testing.assert_array_equal(distance, ball.tree.distance(points))
+    off = distance_to_triangles(points[:1], ball.triangles[face[:1]])
+    np.testing.assert_allclose(off, distance[:1], rtol=1e-9)
+    assert ball.nearest(np.zeros((0, 3)))[0].shape == (0,)
+
+
+def test_far_triangles_are_left_out_of_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
+    sizes = []
+    monkeypatch.setattr(
+        "anymesh.geometry.triangle_set.TriangleTree", lambda some: (sizes.append(len(some)), TriangleTree(some))[1]
+    )
+    ball = sphere()
+    ball.nearest(np.array([[0.0, 0.0, 1.01], [0.02, 0.0, 1.0]]))
+    assert 0 < sizes[0] < 0.02 * len(ball.triangles)

@@ -87,6 +87,21 @@ class TriangleSet:
         """Return the tree for exact distances to these triangles."""
         return TriangleTree(self.triangles)
 
+    def nearest(self, points: Float[np.ndarray, "n 3"]) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
+        """Return the distance of each point to these triangles [m], and the index of the nearest triangle.
+
+        Triangles that are further from the bounds of the points than any of them is from one corner are left out before a tree
+        is built, which takes longer than the search.
+        """
+        if not len(points):
+            return np.zeros(0), np.zeros(0, np.int64)
+        low, high = points.min(0), points.max(0)
+        corner = self.corners[((self.corners - (low + high) / 2) ** 2).sum(1).argmin()]
+        reach = float(np.linalg.norm(points - corner, axis=1).max())
+        near = np.flatnonzero(((self.highest >= low - reach) & (self.lowest <= high + reach)).all(1))
+        distance, face, _ = TriangleTree(self.triangles[near]).nearest(points)
+        return distance, near[face]
+
     @cached_property
     def scene(self) -> RayScene:
         """Return the ray caster of these triangles."""

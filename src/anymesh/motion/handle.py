@@ -11,7 +11,6 @@ from scipy.spatial import KDTree
 from anymesh.config import FACING_COSINE
 from anymesh.geometry.body_obb import MAX_PROTRUSION_RATIO
 from anymesh.geometry.boxes import OrientedBox
-from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.levels import points_above, shares_above
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import TriangleSet
@@ -41,7 +40,7 @@ def outward_axis(box: OrientedBox, opening_direction: Float[np.ndarray, " 3"]) -
 
 
 def find_handle(
-    part: TriangleSet, core: OrientedBox, parent: TriangleTree, scale: float, opening_direction: Float[np.ndarray, " 3"]
+    part: TriangleSet, core: OrientedBox, parent: TriangleSet, scale: float, opening_direction: Float[np.ndarray, " 3"]
 ) -> Handle | None:
     """Find the handle of a part, None if it has none.
 
@@ -74,7 +73,7 @@ def _heights(part: TriangleSet, core: OrientedBox, axis: int, sign: float) -> Fl
 
 
 def _beyond(
-    part: TriangleSet, core: OrientedBox, parent: TriangleTree, axis: int, sign: float, level: float
+    part: TriangleSet, core: OrientedBox, parent: TriangleSet, axis: int, sign: float, level: float
 ) -> _Protrusion | None:
     """Return what extends further than `level` beyond a side of the box, None for nothing.
 
@@ -93,11 +92,11 @@ def _beyond(
     share = float(some.areas @ shares_above(heights[faces], level)) / max(part.area, 1e-300)
     corners = core.local(points_above(some.triangles, heights[faces], level))
     spacing = float(np.sqrt(some.area / len(local)))
-    return _Protrusion(local[out], corners, share, parent.distance(some.samples.points[few]), spacing)
+    return _Protrusion(local[out], corners, share, parent.nearest(some.samples.points[few])[0], spacing)
 
 
 def _tab(
-    part: TriangleSet, core: OrientedBox, parent: TriangleTree, scale: float, opening_direction: np.ndarray
+    part: TriangleSet, core: OrientedBox, parent: TriangleSet, scale: float, opening_direction: np.ndarray
 ) -> Handle | None:
     face, least = face_axes(core, opening_direction), MIN_HANDLE_HEIGHT_RATIO * core.diagonal
     tabs = []
@@ -118,7 +117,7 @@ def _tab(
 
 
 def _face_handle(
-    part: TriangleSet, core: OrientedBox, parent: TriangleTree, scale: float, opening_direction: np.ndarray
+    part: TriangleSet, core: OrientedBox, parent: TriangleSet, scale: float, opening_direction: np.ndarray
 ) -> Handle | None:
     k, face = outward_axis(core, opening_direction), face_axes(core, opening_direction)
     sign = float(np.sign(core.axes[k] @ opening_direction))

@@ -146,8 +146,7 @@ class PartContext:
     @cached_property
     def nearest(self) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
         """Return the distance of each sample of the part to the parent [m], and the nearest face of the parent."""
-        distance, face, _ = self.parent.tree.nearest(self.part.samples.points)
-        return distance, face
+        return self.parent.nearest(self.part.samples.points)
 
     @property
     def gap(self) -> Float[np.ndarray, " n"]:
@@ -238,7 +237,7 @@ class PartContext:
     @cached_property
     def handle(self) -> Handle | None:
         """Return the handle of the part, None if it has none."""
-        return find_handle(self.part, self.body_obb, self.parent.tree, self.tolerance_length, self.opening_direction)
+        return find_handle(self.part, self.body_obb, self.parent, self.tolerance_length, self.opening_direction)
 
     @cached_property
     def face_axes(self) -> list[int]:

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Bool, Int
 from scipy.spatial import KDTree
 
-from anymesh.config import PatchConfig
+from anymesh.config import SAME_SIZE, PatchConfig
 from anymesh.geometry.creases import convex_regions
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.patches import DividedSurface, ObjectShape
@@ -20,7 +20,6 @@ from anymesh.types import Mesh
 
 SEAM_POINTS = 40_000  # samples of the dense components for their seams
 MIN_SEAM_POINTS = 500  # of these, below which a region is not divided
-MAX_SIZE_DIFFERENCE_RATIO = 0.05  # maximum relative difference of the diagonals of copies
 
 
 def object_shape(
@@ -168,7 +167,7 @@ def _limit_count(whole: MeshSurface, region: np.ndarray, max_count: int) -> np.n
         return region
     size = region_sizes(whole, region)
     order = np.argsort(-size, kind="stable")
-    larger = order[size[order] > (1 + MAX_SIZE_DIFFERENCE_RATIO) * size[order[max_count]]]
+    larger = order[size[order] > (1 + SAME_SIZE) * size[order[max_count]]]
     return _keep(whole, region, larger if len(larger) > 1 else order[:max_count])
 
 

@@ -23,7 +23,6 @@ from anymesh.types import Mesh
 BASES = 3  # number of base patches for which candidates are listed
 MIN_NESTED_SHARE = 0.98  # minimum shared part of the smaller candidate for it to lie within the larger one
 MAX_DISJOINT_SHARE = 1e-3  # maximum shared part of the smaller candidate for two candidates to be disjoint
-SAME_AREA = 0.05  # maximum relative difference of the areas of copies
 MIN_AREA_RATIO = 1e-12  # share of the surface used as the area of patches without area
 
 
@@ -63,7 +62,7 @@ class Overlap:
     def copies(self) -> Bool[np.ndarray, "n n"]:
         """Return which pairs of candidates do not overlap and have the same area and size."""
         area = np.maximum(self.area, 1e-300)
-        same = ~self.meet & ~np.eye(len(area), dtype=bool) & (np.abs(np.log(area[:, None] / area[None])) < SAME_AREA)
+        same = ~self.meet & ~np.eye(len(area), dtype=bool) & (np.abs(np.log(area[:, None] / area[None])) < 2 * SAME_SIZE)
         return same & (np.abs(self.size[:, None] - self.size[None]) < SAME_SIZE * self.size[:, None])
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.config import SAME_SIZE, Config
+from anymesh.config import Config
 from anymesh.motion.part_context import PartContext
 from anymesh.segmentation.part_candidates import PartCandidates
 from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, on_axis, touching, two_pivots
@@ -173,17 +173,15 @@ def _neighbours(inputs: FeatureInputs, group: int) -> dict[str, float]:
 
 
 def _copies(inputs: FeatureInputs, group: int, around: PartContext) -> dict[str, float]:
-    """Return features of other groups of the same size that share no patch with this one."""
+    """Return features of the copies of a candidate: how many there are, and whether one lies on its axis."""
     candidates = inputs.candidates
-    alike = np.abs(candidates.size - candidates.size[group]) < SAME_SIZE * candidates.size[group]
-    alike &= np.abs(candidates.area / max(candidates.area[group], 1e-300) - 1) < 2 * SAME_SIZE
-    alike &= candidates.overlap.shared[group] == 0
-    middles = candidates.bounds[alike].mean(1)
+    copies = candidates.overlap.copies[group]
+    middles = candidates.bounds[copies].mean(1)
     outline = around.outline
     arm = middles - outline.center
     across = np.linalg.norm(arm - (arm @ outline.axis)[:, None] * outline.axis, axis=1)
     return {
-        "log copies": float(np.log1p(alike.sum())),
+        "log copies": float(np.log1p(copies.sum())),
         "copy on the axis": float((across < 0.3 * outline.radius).any()),
     }
 
