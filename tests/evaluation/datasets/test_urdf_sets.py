@@ -77,10 +77,11 @@ def test_joints_move_parts_where_yourdfpy_moves_links(desk: Path, tmp_path: Path
     assert np.allclose(displaced(true, points, position), expected, atol=1e-6)
 
 
-def test_a_mesh_is_mirrored_and_scaled(tmp_path: Path) -> None:
+@pytest.mark.parametrize("package", ["package://thing", "package:///thing"])  # a slash too many, as Talos's description has
+def test_a_mesh_is_mirrored_and_scaled(tmp_path: Path, package: str) -> None:
     write_obj(tmp_path / "meshes" / "a.obj", (1, 2, 3), (2, 4, 6))
     path = tmp_path / "a.urdf"
-    mesh = '<mesh filename="package://thing/meshes/a.obj" scale="-1 1 0.5"/>'
+    mesh = f'<mesh filename="{package}/meshes/a.obj" scale="-1 1 0.5"/>'
     path.write_text(f'<robot name="a"><link name="a"><visual><geometry>{mesh}</geometry></visual></link></robot>')
     truth = flatten_urdf(path, tmp_path / "a.glb")
     assert np.allclose(part_box(truth, "a"), [[-2, 1.5, -4], [-1, 3, -2]])  # x mirrored, z halved and up, y backwards

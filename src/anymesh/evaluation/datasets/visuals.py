@@ -23,9 +23,10 @@ def find_mesh(reference: str, folder: Path) -> Path:
     missing.
     """
     plain = re.sub(r"^(package|model|file)://", "", reference.strip().replace("\\", "/"))
-    rest = plain.split("/", 1)[-1]
     above = [folder, *folder.resolve().parents]
     named = "package://" in reference or "model://" in reference
+    plain = plain.lstrip("/") if named else plain
+    rest = plain.split("/", 1)[-1]
     candidates = [place / plain for place in (above if named else above[:1])]
     candidates += [place / rest for place in above[:2]] if named else []
     for candidate in candidates:
