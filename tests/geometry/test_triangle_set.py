@@ -119,6 +119,18 @@ def test_the_nearest_triangles_are_those_of_a_tree_of_all(middle: tuple[float, .
     assert ball.nearest(np.zeros((0, 3)))[0].shape == (0,)
 
 
+def test_the_corner_that_limits_the_search_is_not_lost_to_rounding() -> None:
+    rng = np.random.default_rng(7)
+    for p, c in rng.uniform(-1e3, 1e3, (300, 2)):  # the nearest corner is straight above or below
+        one = shape_of((np.array([[0, 0, c], [1, 0, c + np.sign(c - p)], [0, 1, c + np.sign(c - p)]]), np.array([[0, 1, 2]])))
+        np.testing.assert_allclose(one.nearest(np.array([[0.0, 0.0, p]]))[0], abs(p - c))
+
+
+def test_a_tree_of_no_triangles_is_an_error_not_a_crash() -> None:
+    with pytest.raises(ValueError, match="no triangles"):
+        TriangleTree(np.zeros((0, 3, 3)))
+
+
 def test_far_triangles_are_left_out_of_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
     sizes = []
     monkeypatch.setattr(

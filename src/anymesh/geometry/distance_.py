@@ -25,11 +25,14 @@ def distance_to_mesh(
 class TriangleTree:
     """A bounding box tree over triangles, built once for many queries.
 
-    The results equal those of `distance_to_mesh`.
+    The results equal those of `distance_to_mesh`. Raise ValueError for no triangles, of which libigl's search would crash.
     """
 
     def __init__(self, triangles: Float[np.ndarray, "F 3 3"]) -> None:
         import igl
+
+        if not len(triangles):
+            raise ValueError("found no triangles to measure distances to; at least one is needed")
 
         self._vertices = np.ascontiguousarray(triangles.reshape(-1, 3), np.float64)
         self._faces = np.arange(3 * len(triangles)).reshape(-1, 3)

@@ -97,7 +97,7 @@ class TriangleSet:
             return np.zeros(0), np.zeros(0, np.int64)
         low, high = points.min(0), points.max(0)
         corner = self.corners[((self.corners - (low + high) / 2) ** 2).sum(1).argmin()]
-        reach = float(np.linalg.norm(points - corner, axis=1).max())
+        reach = 1.001 * float(np.linalg.norm(points - corner, axis=1).max())  # rounding must not leave out the corner itself
         near = np.flatnonzero(((self.highest >= low - reach) & (self.lowest <= high + reach)).all(1))
         distance, face, _ = TriangleTree(self.triangles[near]).nearest(points)
         return distance, near[face]

@@ -6,6 +6,7 @@ import io
 import re
 import xml.etree.ElementTree as ET
 from collections.abc import Iterator
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -30,9 +31,8 @@ def read_dae(data: bytes, folder: Folder) -> Mesh:
     _check_positions(name, root)
     textures = {uri: picture_file(folder, uri) for uri in dict.fromkeys(_pictures(root))}
     placed = []
-    for node, geometry, T in _geometries(
-        data, root, folder, _Readable({k: t.data for k, t in textures.items() if t is not None})
-    ):
+    readable = _Readable({k: t.data for k, t in textures.items() if t is not None})
+    for node, geometry, T in _geometries(data, root, folder, readable):
         if not np.isfinite(T).all():
             raise InputError(f"{name}: node {node!r} has a transform that is not finite")
         placed.append(_mesh(f"{name}, node {node!r}", node, geometry).transformed(T))
@@ -108,7 +108,9 @@ def _geometries(data: bytes, root: ET.Element, folder: Folder, textures: _Readab
         return _scene(data, textures, ignore_broken=False)
     except Exception as error:  # pycollada is strict, often about irrelevant faults
         cause = f"{type(error).__name__}: {str(error)[:100]}"
-    whole, plain = _scene(data, textures, ignore_broken=True), _scene(_without_looks(root), textures, ignore_broken=True)
+    whole, plain = _scene(data, textures, ignore_broken=True), []
+    with suppress(Exception):  # what can be read with materials need not be readable without
+        plain = _scene(_without_looks(root), textures, ignore_broken=True)
     if _triangles(plain) > _triangles(whole):  # pycollada drops a geometry whose material it cannot read
         folder.warn(f"some of the file is broken, and its materials are left out ({cause})")
         return plain
@@ -122,10 +124,9 @@ def _scene(data: bytes, textures: _Readable, ignore_broken: bool) -> Placed:
     read: Any = mesh_loaders["dae"]
     with quiet_decoder():
         scene = read(file_obj=io.BytesIO(data), resolver=textures, ignore_broken=ignore_broken)
-    named = [
-        (str(e["frame_to"]), scene["geometry"][e["geometry"]], np.asarray(e["matrix"], np.float64)) for e in scene["graph"]
-    ]
-    return [placed for placed in named if len(placed[1]["faces"])]
+    shapes, graph = scene["geometry"], scene["graph"]
+    placed = [(str(e["frame_to"]), shapes[e["geometry"]], np.asarray(e["matrix"], np.float64)) for e in graph]
+    return [shape for shape in placed if len(shape[1]["faces"])]
 
 
 def _triangles(scene: Placed) -> int:
