@@ -126,9 +126,11 @@ def test_the_corner_that_limits_the_search_is_not_lost_to_rounding() -> None:
         np.testing.assert_allclose(one.nearest(np.array([[0.0, 0.0, p]]))[0], abs(p - c))
 
 
-def test_a_tree_of_no_triangles_is_an_error_not_a_crash() -> None:
+def test_no_triangles_to_search_are_an_error_not_a_crash() -> None:
     with pytest.raises(ValueError, match="no triangles"):
         TriangleTree(np.zeros((0, 3, 3)))
+    with pytest.raises(ValueError, match="no triangles"):
+        distance_to_triangles(np.zeros((2, 3)), np.zeros((0, 3, 3)))
 
 
 def test_far_triangles_are_left_out_of_the_search(monkeypatch: pytest.MonkeyPatch) -> None:

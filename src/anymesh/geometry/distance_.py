@@ -9,11 +9,15 @@ from jaxtyping import Float, Int
 def distance_to_mesh(
     points: Float[np.ndarray, "n 3"], vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
 ) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
-    """Return the distance to the closest triangle [units of the input], its index, and the closest point on it."""
+    """Return the distance to the closest triangle [units of the input], its index, and the closest point on it.
+
+    Raise ValueError for no triangles.
+    """
     import igl
 
     if len(points) == 0:
         return np.zeros(0), np.zeros(0, np.int64), np.zeros((0, 3))
+    _check_triangles(len(faces))
     squared, face, closest = igl.point_mesh_squared_distance(
         np.ascontiguousarray(points, np.float64),
         np.ascontiguousarray(vertices, np.float64),
@@ -22,17 +26,21 @@ def distance_to_mesh(
     return np.sqrt(np.maximum(np.atleast_1d(squared), 0)), np.atleast_1d(face).astype(np.int64), np.atleast_2d(closest)
 
 
+def _check_triangles(count: int) -> None:
+    if not count:  # libigl's search would end the process
+        raise ValueError("found no triangles to measure distances to; at least one is needed")
+
+
 class TriangleTree:
     """A bounding box tree over triangles, built once for many queries.
 
-    The results equal those of `distance_to_mesh`. Raise ValueError for no triangles, of which libigl's search would crash.
+    The results equal those of `distance_to_mesh`. Raise ValueError for no triangles.
     """
 
     def __init__(self, triangles: Float[np.ndarray, "F 3 3"]) -> None:
         import igl
 
-        if not len(triangles):
-            raise ValueError("found no triangles to measure distances to; at least one is needed")
+        _check_triangles(len(triangles))
 
         self._vertices = np.ascontiguousarray(triangles.reshape(-1, 3), np.float64)
         self._faces = np.arange(3 * len(triangles)).reshape(-1, 3)
