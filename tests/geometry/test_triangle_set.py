@@ -114,8 +114,8 @@ def test_the_nearest_triangles_are_those_of_a_tree_of_all(middle: tuple[float, .
     points = np.array(middle) + size * np.random.default_rng(5).normal(size=(400, 3))
     distance, face = ball.nearest(points)
     np.testing.assert_array_equal(distance, ball.tree.distance(points))
-    off = distance_to_triangles(points[:1], ball.triangles[face[:1]])
-    np.testing.assert_allclose(off, distance[:1], rtol=1e-9)
+    off = [distance_to_triangles(points[k : k + 1], ball.triangles[face[k : k + 1]])[0] for k in range(len(points))]
+    np.testing.assert_allclose(off, distance, rtol=1e-9)
     assert ball.nearest(np.zeros((0, 3)))[0].shape == (0,)
 
 

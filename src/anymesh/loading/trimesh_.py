@@ -99,10 +99,10 @@ class _Readable:
     __getitem__ = get
 
 
-Placed = list[tuple[str, dict[str, Any], np.ndarray]]  # node, geometry and transform of each geometry in the scene
+Geometries = list[tuple[str, dict[str, Any], np.ndarray]]  # node, geometry and transform of each geometry in the scene
 
 
-def _geometries(data: bytes, root: ET.Element, folder: Folder, textures: _Readable) -> Placed:
+def _geometries(data: bytes, root: ET.Element, folder: Folder, textures: _Readable) -> Geometries:
     """Return the geometries of the scene. Of a file that is broken in part, those that can be read, with a warning."""
     try:
         return _scene(data, textures, ignore_broken=False)
@@ -110,7 +110,7 @@ def _geometries(data: bytes, root: ET.Element, folder: Folder, textures: _Readab
         cause = f"{type(error).__name__}: {str(error)[:100]}"
     whole, plain = _scene(data, textures, ignore_broken=True), []
     with suppress(Exception):  # what can be read with materials need not be readable without
-        plain = _scene(_without_looks(root), textures, ignore_broken=True)
+        plain = _scene(_without_materials(root), textures, ignore_broken=True)
     if _triangles(plain) > _triangles(whole):  # pycollada drops a geometry whose material it cannot read
         folder.warn(f"some of the file is broken, and its materials are left out ({cause})")
         return plain
@@ -118,7 +118,7 @@ def _geometries(data: bytes, root: ET.Element, folder: Folder, textures: _Readab
     return whole
 
 
-def _scene(data: bytes, textures: _Readable, ignore_broken: bool) -> Placed:
+def _scene(data: bytes, textures: _Readable, ignore_broken: bool) -> Geometries:
     from trimesh.exchange.load import mesh_loaders
 
     read: Any = mesh_loaders["dae"]
@@ -129,15 +129,15 @@ def _scene(data: bytes, textures: _Readable, ignore_broken: bool) -> Placed:
     return [shape for shape in placed if len(shape[1]["faces"])]
 
 
-def _triangles(scene: Placed) -> int:
+def _triangles(scene: Geometries) -> int:
     return sum(len(geometry["faces"]) for _, geometry, _ in scene)
 
 
-def _without_looks(root: ET.Element) -> bytes:
+def _without_materials(root: ET.Element) -> bytes:
     """Return the document without effects, materials and pictures; the root loses them."""
-    looks = ("library_effects", "library_materials", "library_images", "bind_material")
+    materials = ("library_effects", "library_materials", "library_images", "bind_material")
     for parent in list(root.iter()):
-        for child in [c for c in parent if c.tag.rsplit("}", 1)[-1] in looks]:
+        for child in [c for c in parent if c.tag.rsplit("}", 1)[-1] in materials]:
             parent.remove(child)
     return ET.tostring(root, "utf-8", xml_declaration=True)
 
