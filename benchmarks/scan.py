@@ -1,8 +1,9 @@
 """Scans of the examples, recorded by a simulated depth camera, against the truth, and articulated end to end (docs/scan.md).
 
-    python benchmarks/scan.py OUT [NAME ...] [--answers geometry,recorded] [--views 60] [--noise 0.0015] [--seed 0]
+    python benchmarks/scan.py OUT [NAME ...] [--answers geometry,recorded] [--views 60] [--noise 0.0015] [--seed 0] [--pictures]
 
 --answers: by geometry, and with the recorded answers of a general model to the pictures of the scans (scan_answers/).
+--pictures: scan the pictures without their depth (needs CUDA and the extra scan-gpu); no answers are recorded for these scans.
 A folder an object: its recording, scan.glb, the assets, and the results; what is there is not made again. Prints the tables.
 """
 
@@ -10,6 +11,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import shutil
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -39,13 +41,14 @@ POINTS = 50_000  # on each surface
 SEEN = 0.002  # [m] a ray may end before the point that it is cast at
 
 
-def measured(name: str, out: Path, views: int, noise: float, seed: int) -> dict[str, Any]:
-    """Record and scan one object, and compare the scan with its surface."""
+def measured(name: str, out: Path, views: int, noise: float, seed: int, pictures: bool) -> dict[str, Any]:
+    """Record and scan one object, and compare the scan with its surface. pictures: scan without the recorded depth."""
     placed = place_mesh(load_mesh(true_example(name).mesh))
     if not (out / "frames").exists():
         render_frames(placed.mesh, out / "frames", views=views, noise=noise, seed=seed)
     began, spent = time.perf_counter(), time.process_time()
-    report = scan(out / "frames", out / "scan.glb", force=True)
+    recording = without_depth(out / "frames", out / "pictures") if pictures else out / "frames"
+    report = scan(recording, out / "scan.glb", force=True)
     seconds, spent = time.perf_counter() - began, time.process_time() - spent
     T_world_mesh = np.array(json.loads((out / "frames" / "truth.json").read_text())["T_world_mesh"])
     T_scan_mesh = np.array(report.T_scan_world) @ T_world_mesh
@@ -55,6 +58,15 @@ def measured(name: str, out: Path, views: int, noise: float, seed: int) -> dict[
     T_glb_scan[:3, :3] = TO_GLTF
     found["T_glb_loaded"] = (T_glb_scan @ T_scan_mesh @ placed.T_asset_source).tolist()
     return found | distances(placed.mesh, out, T_world_mesh, T_scan_mesh)
+
+
+def without_depth(recording: Path, out: Path) -> Path:
+    """Copy a recording without its depth; return the new folder."""
+    shutil.copytree(recording / "color", out / "color", dirs_exist_ok=True)
+    frames = json.loads((recording / "frames.json").read_text())
+    frames["frames"] = [{k: v for k, v in frame.items() if k != "depth"} for frame in frames["frames"]]
+    (out / "frames.json").write_text(json.dumps({k: v for k, v in frames.items() if k != "depth_scale"}))
+    return out
 
 
 def articulated(name: str, out: Path, answers: str, T_glb_loaded: np.ndarray) -> dict[str, Any]:
@@ -166,11 +178,10 @@ def main() -> None:
     parser.add_argument("--noise", type=float, default=0.0015)
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--answers", default="geometry,recorded")
+    parser.add_argument("--pictures", action="store_true")
     options = parser.parse_args()
-    scans = [
-        kept(options.out / n / "scan.json", partial(measured, n, options.out / n, options.views, options.noise, options.seed))
-        for n in options.names
-    ]
+    how = {"views": options.views, "noise": options.noise, "seed": options.seed, "pictures": options.pictures}
+    scans = [kept(options.out / n / "scan.json", partial(measured, n, options.out / n, **how)) for n in options.names]
     print(scan_table(scans))
     for answers in options.answers.split(","):
         rows = []
