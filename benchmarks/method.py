@@ -13,7 +13,6 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.articulation.estimate import motion_questions
-from anymesh.articulation.limits import opening_motion
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.offers import MAX_SHOWN_ANGLE_RAD, MAX_SHOWN_TRAVEL_RATIO
 from anymesh.articulation.rank_motions import motion_scores
@@ -67,7 +66,7 @@ def motions(
         for _, c in shown
     ]
     title = f"log-odds of 1 and 2: {shown[0][0]:.1f}, {shown[1][0]:.1f}"
-    return studio.strip(moving, title, [opening_motion(c) for _, c in shown], amounts)
+    return studio.strip(moving, title, [c.opening_motion for _, c in shown], amounts)
 
 
 def main() -> None:

@@ -29,7 +29,7 @@ from motion_rows import MotionRows, read_rows
 from anymesh.articulation.estimate import MAX_COPIES
 from anymesh.articulation.motion_classifier import highest
 from anymesh.articulation.motion_features import SWEPT_FEATURES
-from anymesh.articulation.rank_motions import BLOCKED, share_of_best
+from anymesh.articulation.rank_motions import BLOCKED_SCORE, share_of_best
 from anymesh.articulation.repeated_parts import ScoredMotions, mean_over_copies
 from anymesh.config import ArticulationConfig
 
@@ -116,7 +116,7 @@ def right_of(rows: Sequence[MotionRows], scores: Scores) -> dict[str, float]:
 
 def confidences(rows: Sequence[MotionRows], scores: Scores) -> Scored:
     """Return the share of the best motion of each part before calibration, and whether the motion and its side are right."""
-    ranked = [s + np.where(r.free, 0.0, BLOCKED) for r, s in zip(rows, scores, strict=True)]
+    ranked = [s + np.where(r.free, 0.0, BLOCKED_SCORE) for r, s in zip(rows, scores, strict=True)]
     best = [int(s.argmax()) for s in ranked]
     shares = [share_of_best(s, r.same[k]) for r, s, k in zip(rows, ranked, best, strict=True)]
     right = np.array([right_side(r)[k] for r, k in zip(rows, best, strict=True)])

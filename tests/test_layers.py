@@ -31,7 +31,7 @@ TOOLS = {"simulation", "checking", "evaluation", "correcting", "viewer", "applic
 # What tools may import of the packages that work behind `pipeline`; every other module of these is internal.
 SURFACE = {
     "segmentation": {"segmentation", "segmentation.cloud", "segmentation.divide"},
-    "articulation": {"articulation", "articulation.estimate", "articulation.rank_motions"},
+    "articulation": {"articulation", "articulation.estimate", "articulation.part_contexts", "articulation.rank_motions"},
     "completion": {"completion.outside"},
     "scoring": set(),
     "motion": set(),

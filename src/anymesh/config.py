@@ -1,4 +1,4 @@
-"""Settings of the pipeline that users may change, with their units and sources."""
+"""Settings of the pipeline that users may change, with their units and sources, and constants that both stages share."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from dataclasses import asdict, dataclass, field
 
 from anymesh.errors import OptionError
 
-# directions as both stages compare them, sizes and rows as stage A does
+# directions as both stages compare them, sizes as stage A does; not settings
 ALONG_COSINE = 0.7  # about 45 degrees: minimum cosine between two directions that are along each other, not across
 FACING_COSINE = 0.5  # 60 degrees: minimum cosine between a normal or a motion and the side that it faces
+LEVEL_COSINE = 0.8  # 37 degrees: minimum cosine between the vertical and the normal of a level face
 ACROSS_COSINE = 0.3  # 73 degrees: maximum cosine between two directions that are across each other
 SAME_AXIS_COSINE = 0.97  # 14 degrees: minimum cosine between axes that a user sees as one
 SAME_SIZE = 0.02  # maximum relative difference of the diagonals of copies
-IN_LINE = 0.02  # of the object's diagonal: maximum offset of the centers of copies in one row
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from made import EDGE, PULL, X, Y, Z, slide, turn
 from scenes import door, prism
 
 from anymesh.articulation.answer_evidence import answered_confidence
-from anymesh.articulation.candidates import axis_points, cluster_points, followed, with_more
+from anymesh.articulation.candidate_points import axis_points, cluster_points, followed, with_more
 from anymesh.articulation.cases import PartCase, make_cases
 from anymesh.articulation.decode import hinge, plane_normal
 from anymesh.articulation.estimate import motion_questions

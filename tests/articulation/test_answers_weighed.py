@@ -14,7 +14,6 @@ from scenes import door
 
 from anymesh.articulation.cases import PartCase
 from anymesh.articulation.contradictions import contradictions
-from anymesh.articulation.limits import opening_motion
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.offers import MotionOffers, _crowding, _pages, fits, moves_as
 from anymesh.articulation.verify import MotionQuestioner, choose_motions
@@ -119,7 +118,7 @@ class Picks:
     @property
     def shown(self) -> list[tuple[int, ...]]:
         """Return the motions of each call, as indices of the offers."""
-        motions = [(opening_motion(c).axis.tolist(), c.motion.source) for c in self.offers.motions]
+        motions = [(c.opening_motion.axis.tolist(), c.motion.source) for c in self.offers.motions]
         return [tuple(motions.index((m.axis.tolist(), m.source)) for m in q.tables[0].motions) for q in self.asked]
 
 

@@ -11,7 +11,7 @@ from scenes import Scene, door, drawer
 
 from anymesh.articulation.closed_pose import ends_near
 from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.limits import answered_range, limits, opening_as_answered, opening_motion
+from anymesh.articulation.limits import answered_range, limits, opening_as_answered
 from anymesh.articulation.motion_question import Candidate
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
@@ -60,7 +60,7 @@ def answered(scene: Callable[[], Scene], motion: Motion, kind: JointType, told: 
     c = opening_as_answered(c, told)
     found = limits(around, c, kind, told)
     assert found is not None
-    return np.array(found), opening_motion(c).axis
+    return np.array(found), c.opening_motion.axis
 
 
 def test_both_answered_limits_of_a_hinge_are_read() -> None:
@@ -99,7 +99,7 @@ def test_an_answered_stroke_of_a_button_goes_in_and_not_out() -> None:
 def test_an_answered_stroke_goes_in_also_about_an_axis_that_points_in() -> None:
     around, c = swept(button, OUT)
     inwards = c.reversed()
-    assert opening_motion(inwards).axis == pytest.approx(Y)
+    assert inwards.opening_motion.axis == pytest.approx(Y)
     assert limits(around, inwards, JointType.PRISMATIC, (-0.005, 0.0)) == pytest.approx((0.0, 0.005))
     assert limits(around, inwards, JointType.PRISMATIC, (0.0, 0.005)) == pytest.approx((0.0, 0.005))
 

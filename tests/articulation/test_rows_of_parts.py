@@ -11,13 +11,13 @@ from geometry.rigid import shape_of
 from made import EDGE, PULL, X, Y, Z, candidate, context, slide, turn
 from scenes import case, drawer, prism
 
-from anymesh.articulation.estimate import part_context
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import limits
 from anymesh.articulation.motion_features import MISSING, motion_features
-from anymesh.articulation.motion_question import Proposal
+from anymesh.articulation.motion_question import ProposedMotion
 from anymesh.articulation.moved_points import MovedPoints
+from anymesh.articulation.part_contexts import part_context
 from anymesh.articulation.repeated_parts import ScoredMotions, in_one_manner, share_opening_directions
 from anymesh.articulation.tree import descendants
 from anymesh.config import ArticulationConfig
@@ -113,7 +113,7 @@ def test_copies_hinged_at_one_level_move_alike(above: float, alike: bool) -> Non
 
 
 def test_motions_in_the_opposite_direction_or_of_another_kind_are_no_repetition() -> None:
-    pairs: list[Proposal] = [
+    pairs: list[ProposedMotion] = [
         ("edge", turn(Z)), ("center", turn(-Z)), ("slide", slide(Z)), ("contact_slide", slide(-Z)), ("pin", turn(Z, X))
     ]  # fmt: skip
     assert [role for role, _ in distinct(pairs, 1.0)] == ["edge", "slide", "pin"]
@@ -188,7 +188,7 @@ def test_the_context_of_a_part_has_what_it_carries_and_what_is_static() -> None:
     def faces(shape) -> int:
         return 0 if shape is None else len(shape.triangles)
 
-    counts = {k: [faces(s) for s in (a.part, a.parent, a.rest, a.others, a.without_part)] for k, a in found.items()}
+    counts = {k: [faces(s) for s in (a.part, a.parent, a.rest, a.other_surface, a.without_part)] for k, a in found.items()}
     assert counts == {1: [24, 12, 12, 12, 24], 2: [12, 12, 24, 12, 36], 3: [12, 12, 12, 24, 36]}
     assert {k: len(a.other_parts) for k, a in found.items()} == {1: 1, 2: 1, 3: 2}
     assert found[2].parent.bounds == pytest.approx(np.array([[0, -0.1, 0], [1, -0.001, 1]]))

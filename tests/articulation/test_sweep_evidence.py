@@ -11,7 +11,7 @@ from made import EDGE, PULL, X, Y, Z, candidate, context, slide, turn
 from scenes import case
 
 from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.limits import answered_range, limits, opening_as_answered, opening_motion, pressed
+from anymesh.articulation.limits import answered_range, limits, opening_as_answered, pressed
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.part_labels import label_of
 from anymesh.motion.part_context import PartContext
@@ -41,7 +41,7 @@ def test_a_reversed_candidate_opens_the_other_way() -> None:
     one = replace(EDGE, opening=2.0, closing=0.5, outward=0.9)
     other = one.reversed()
     assert (other.opening_sign, other.opening, other.closing, other.outward) == (-1, 0.5, 2.0, -0.9)
-    assert opening_motion(other).axis == pytest.approx(-opening_motion(one).axis)
+    assert other.opening_motion.axis == pytest.approx(-one.opening_motion.axis)
     ahead, back = sweep_candidates(context(LEAF, BLOCK), [("edge", turn(Z, (-0.3, -0.012, 0)))])
     assert (ahead.opening_sign, back.opening_sign) == (1, -1)
     assert (ahead.opening, ahead.outward) == (back.closing, -back.outward)

@@ -10,7 +10,6 @@ from known import KNOWN, scored_once, the_case
 from scenes import Scene, door, prism
 
 from anymesh.articulation.cases import PartCase
-from anymesh.articulation.limits import opening_motion
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.offers import (
     BLOCKED_SHOWN_RATIO,
@@ -60,7 +59,7 @@ def shown(name: str, asked: Motion | None, kind: JointAppearance, most: int = MO
 
 
 def moved(c: Candidate, case: PartCase, amount: float) -> np.ndarray:
-    T = opening_motion(c).transform(amount)
+    T = c.opening_motion.transform(amount)
     points = case.around.part.samples.points[::20]
     return points @ T[:3, :3].T + T[:3, 3] - points
 
@@ -184,7 +183,7 @@ def test_a_motion_that_may_go_either_way_is_offered_both_ways() -> None:
 
 def test_a_slide_that_is_blocked_one_way_opens_the_other_way() -> None:
     assert (first := candidates_of("blocked", TO_THE_RIGHT)[0]).is_free
-    assert opening_motion(first).axis == pytest.approx(-X)
+    assert first.opening_motion.axis == pytest.approx(-X)
 
 
 def test_a_hinge_on_the_side_of_the_handle_ranks_below_the_other_side() -> None:

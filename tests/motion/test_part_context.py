@@ -12,7 +12,7 @@ from anymesh.articulation.barrels import find_barrel_candidates
 from anymesh.config import ArticulationConfig
 from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.sampling import sample_surface
-from anymesh.motion.part_context import CONTACT_REACHES, MAX_CONTACT_POINTS, PartContext
+from anymesh.motion.part_context import CONTACT_REACHES, MAX_SURFACE_POINTS, PartContext
 from anymesh.segmentation.divide import object_shape
 
 BASE, DOOR, DRAWER = CABINET["base"], CABINET["door"], CABINET["drawer"]
@@ -65,7 +65,7 @@ def test_the_way_out_of_a_case_is_its_front(part, seed, scale):
     found = part_context(part, BASE, T)
     np.testing.assert_allclose(found.opening_direction, -T[:3, 1] / scale, atol=1e-6)
     assert found.visibility > 0.95
-    assert found.sees_outside(-found.opening_direction).mean() < 0.1
+    assert found.sees(found.part.samples.points, -found.opening_direction[None]).mean() < 0.1
 
 
 @pytest.mark.parametrize(("seed", "scale"), T_SCALES)
@@ -110,7 +110,7 @@ def test_the_surfaces_in_contact_are_those_of_the_link_and_not_of_what_hangs_on_
         near, far = around.contact_surfaces
         assert least < near.points[:, 0].max() < most
         assert near.points[:, 2].max() <= 1 + CONTACT_REACHES[0] * 4
-        assert 12 < len(near) <= MAX_CONTACT_POINTS >= len(far) > 12
+        assert 12 < len(near) <= MAX_SURFACE_POINTS >= len(far) > 12
         assert {-1.0, 1.0} <= set(near.normals[:, 2])  # the foot of the part, and the top of the block
 
 

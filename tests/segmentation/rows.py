@@ -36,5 +36,5 @@ def counts_of(top: Sequence[Sequence[int]], labels: Sequence[str], instances: Se
         masks.append([10 * mine.min(), 0, 10 * mine.max() + 9, 9] if len(mine) else [0.0, 0, 0, 0])
     return Counts(
         table.sum(1), table[:, :-1], table, box, np.array(masks, float).reshape(-1, 4), tuple(labels),
-        tuple(instances or range(1, len(labels) + 1)), np.zeros(0, np.int64),
+        tuple(instances or range(1, len(labels) + 1)),
     )  # fmt: skip

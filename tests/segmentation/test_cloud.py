@@ -10,7 +10,7 @@ from assets import box, mesh_of
 from anymesh.config import GroundingConfig
 from anymesh.geometry.sampling import SurfacePoints
 from anymesh.rendering.render import render
-from anymesh.segmentation.cloud import Cloud, _nearest_alike, sample_cloud, sight, visible
+from anymesh.segmentation.cloud import Cloud, _nearest_alike, sample_cloud, seen_points, sight
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Material, Mesh, Texture
 from anymesh.types.camera import Camera
@@ -104,7 +104,7 @@ def test_same_input_same_cloud() -> None:
 def test_a_front_view_sees_the_front_and_nothing_behind_it() -> None:
     cloud = cloud_of(MESH)
     view = render(MESH, camera((0.5, -1.5, 0.5)))
-    seen = visible(cloud, view)
+    seen = seen_points(cloud, [view])
     front = (cloud.normals[:, 1] < -0.9) & (PIECE[cloud.faces] == 1)
     covered = (np.abs(cloud.points[:, [0, 2]] - 0.5) < 0.06).all(1)
     assert seen[front & ~covered].mean() > 0.97
@@ -127,7 +127,7 @@ def test_visibility_agrees_with_a_ray_to_every_point() -> None:
 
     cloud = cloud_of(MESH)
     eye = np.array([1.6, -1.2, 1.4])
-    seen = visible(cloud, render(MESH, camera(eye, 400)))
+    seen = seen_points(cloud, [render(MESH, camera(eye, 400))])
     rays = (cloud.points - eye) * (1 - 1e-4)
     free = RayScene(MESH.vertices, MESH.faces).first_hit(np.repeat(eye[None], len(rays), 0), rays, 1.0).face < 0
     assert (seen == free).mean() > 0.985
@@ -145,7 +145,7 @@ def test_visibility_costs_little_more_than_the_projection() -> None:
             times.append(time.perf_counter() - start)
         return min(times)
 
-    assert seconds(lambda: visible(cloud, view)) < 30 * seconds(lambda: view.camera.project(cloud.points))
+    assert seconds(lambda: seen_points(cloud, [view])) < 30 * seconds(lambda: view.camera.project(cloud.points))
 
 
 def test_colours_between_vertices_are_interpolated_wherever_the_object_stands() -> None:

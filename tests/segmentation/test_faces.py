@@ -12,12 +12,12 @@ from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.matching import match_parts, part_ious
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.rendering.render import View, render
-from anymesh.segmentation.cloud import Cloud, sample_cloud
+from anymesh.segmentation.cloud import Cloud, sample_cloud, seen_points
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.em import refine_instances
 from anymesh.segmentation.faces import face_parts, mark_parts, point_parts
 from anymesh.segmentation.fuse import Instances, Mask, count_points, fuse_masks
-from anymesh.segmentation.hidden import seen_points, unseen_patches
+from anymesh.segmentation.hidden import unseen_patches
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.regions import Marks, face_regions, number_regions
 from anymesh.types.camera import Camera

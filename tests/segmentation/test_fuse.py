@@ -7,7 +7,7 @@ from rows import counts_of, row_cloud
 
 from anymesh.config import GroundingConfig
 from anymesh.rendering.render import render
-from anymesh.segmentation.cloud import sample_cloud
+from anymesh.segmentation.cloud import sample_cloud, sight
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.fuse import Instances, Mask, count_points, fuse_masks, label_superpoints, marked_masks
 from anymesh.segmentation.propose import Proposal
@@ -33,7 +33,7 @@ def test_counts_add_up() -> None:
     c = count_points(CLOUD, VIEWS[0], masks_of(VIEWS[0]), FEW)
     assert (c.top.sum(1) == c.seen).all()
     assert (c.inside == c.top[:, :-1]).all()  # these masks do not overlap
-    assert c.seen.sum() == len(c.points)
+    assert c.seen.sum() == len(sight(CLOUD, VIEWS[0]).points)
 
 
 def test_a_smaller_mask_owns_the_pixels_of_both() -> None:

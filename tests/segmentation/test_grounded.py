@@ -69,7 +69,7 @@ def test_ideal_masks_lose_no_part_and_divide_none(name: str, monkeypatch: pytest
     """The masks cover every part in every view, and their numbers differ between views."""
     truth = TRUTHS[name]
     mesh = place_mesh(load_mesh(truth.mesh)).mesh
-    shown, proposed = {}, ground_masks.propose
+    shown, proposed = {}, ground_masks.propose_in_views
 
     def propose(region, diagonal, seen, *more):
         shown.update({v.color.tobytes(): v for v in seen})
@@ -89,7 +89,7 @@ def test_ideal_masks_lose_no_part_and_divide_none(name: str, monkeypatch: pytest
 
     monkeypatch.setattr(prompted_stages, "load_sam", lambda spec: Masker())
     monkeypatch.setattr(ground_masks, "automatic_masks", masks)
-    monkeypatch.setattr(ground_masks, "propose", propose)
+    monkeypatch.setattr(ground_masks, "propose_in_views", propose)
     truth, mesh, found = found_in(name, "sam:some", MORE)
     got = ious(truth, mesh, found.segmentation)
     assert set(got) == {p.name for p in truth.parts[1:]}

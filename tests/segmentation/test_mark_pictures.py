@@ -77,7 +77,7 @@ class Points:
 
 
 def test_many_pictures_are_asked_about_in_several_calls_and_no_mark_twice(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ask_marks, "MAX_PICTURES", 1)
+    monkeypatch.setattr(ask_marks, "MAX_MARK_PICTURES", 1)
     (prompts, piece), who = keyboard(), Points()
     asked = MarkQuestioner(who, prompts, ("key",), "keyboard", Config(views=VIEWS))
     found = ask_exact(asked, Marks(piece + 1), prompts.views, prompts.names(11), lambda marks, some: marks)
@@ -146,7 +146,7 @@ def test_regions_too_small_for_a_mark_are_none_in_a_question() -> None:
 
 def test_more_pictures_of_masks_than_fit_are_asked_about_in_several_calls(monkeypatch: pytest.MonkeyPatch) -> None:
     """No view is left out, and what different calls number alike may be different parts."""
-    monkeypatch.setattr(ask_marks, "MAX_PICTURES", 4)
+    monkeypatch.setattr(ask_marks, "MAX_MARK_PICTURES", 4)
     mesh, piece = mesh_of([BODY, box((0.4, -0.1, 0.4), (0.6, 0, 0.6))])
     prompts = prompts_of(mesh)
 

@@ -8,7 +8,7 @@ from anymesh.config import Config
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_candidates import part_candidates
-from anymesh.segmentation.part_features import FeatureInputs, part_context_of, part_features
+from anymesh.segmentation.part_features import FeatureInputs, candidate_context, part_features
 from anymesh.types import Mesh
 
 WALLS = [
@@ -26,7 +26,7 @@ def features(mesh: Mesh, solids: set[int]) -> dict[str, float]:
     tree = part_candidates(mesh, whole, contacts, 0.004, 150)
     group = next(k for k, m in enumerate(tree.members) if set(np.flatnonzero(m).tolist()) == solids)
     inputs = FeatureInputs.of(mesh, tree, config)
-    around = part_context_of(inputs, group)
+    around = candidate_context(inputs, group)
     assert around is not None
     return part_features(inputs, group, around)
 

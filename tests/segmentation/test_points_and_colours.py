@@ -14,7 +14,7 @@ from rows import counts_of, row_cloud
 from anymesh.config import Config, GroundingConfig
 from anymesh.models.sam import ProposedMask
 from anymesh.segmentation import ground_masks
-from anymesh.segmentation.cloud import Cloud, sample_cloud, sight, visible
+from anymesh.segmentation.cloud import Cloud, sample_cloud, seen_points, sight
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.em import maximise, near_superpoints, refine_instances
 from anymesh.segmentation.fuse import Instances, Mask, count_points
@@ -50,7 +50,7 @@ def test_a_point_is_in_the_pixel_that_it_projects_to() -> None:
 def test_a_point_outside_the_picture_or_behind_the_camera_is_not_seen() -> None:
     view = drawn_view(np.zeros((SIZE, SIZE), int))
     outside = [at(-0.1, 5), at(64.1, 5), at(5, -0.1), at(5, 64.1), at(32, 32, -0.5)]
-    assert not visible(cloud_at(outside, [0] * 5), view).any()
+    assert not seen_points(cloud_at(outside, [0] * 5), [view]).any()
 
 
 @pytest.mark.parametrize(
@@ -67,8 +67,8 @@ def test_a_point_outside_the_picture_or_behind_the_camera_is_not_seen() -> None:
 )
 def test_a_point_of_another_face_is_seen_at_the_depth_of_its_pixel(depth: float, normal: np.ndarray, seen: bool) -> None:
     view = drawn_view(np.zeros((SIZE, SIZE), int))
-    assert visible(cloud_at([at(30, 30, depth)], [7], normal), view).tolist() == [seen]
-    assert visible(cloud_at([at(30, 30, depth)], [0], normal), view).tolist() == [True]
+    assert seen_points(cloud_at([at(30, 30, depth)], [7], normal), [view]).tolist() == [seen]
+    assert seen_points(cloud_at([at(30, 30, depth)], [0], normal), [view]).tolist() == [True]
 
 
 def test_masks_and_superpoints_have_their_pixels_as_boxes() -> None:
@@ -79,7 +79,7 @@ def test_masks_and_superpoints_have_their_pixels_as_boxes() -> None:
     assert found.box.tolist() == [[10, 20, 30, 40]]
     assert found.mask_box.tolist() == [[8, 18, 17, 57]]
     assert (found.seen.tolist(), found.inside.tolist(), found.top.tolist()) == ([3], [[2]], [[2, 1]])
-    assert (found.labels, found.instances, found.points.tolist()) == (("door",), (3,), [0, 1, 2])
+    assert (found.labels, found.instances) == (("door",), (3,))
 
 
 @pytest.mark.parametrize(("columns", "kept"), [(60, True), (61, False)])
@@ -198,6 +198,6 @@ def test_masks_of_both_pictures_of_a_view_are_proposed_and_exact_regions_on_requ
     few = replace(GroundingConfig(), least_mask=1600)
     for proposer, count in (("sam:x", 1), ("exact+sam:x", 3)):
         config = Config(proposer=proposer, grounding=few)
-        (found,) = ground_masks.propose(np.array([0, 1]), 1.0, [view], Model(), config)
+        (found,) = ground_masks.propose_in_views(np.array([0, 1]), 1.0, [view], Model(), config)
         assert len(found.numbers) == count
     assert len(images) == 4

@@ -16,7 +16,8 @@ from anymesh.segmentation.close_ups import MAX_CLOSE_UPS, close_ups
 from anymesh.segmentation.cloud import Cloud, sample_cloud
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.faces import face_parts, mark_parts
-from anymesh.segmentation.hidden import add_hidden_parts, inner_faces, patch_sizes, unseen_patches
+from anymesh.segmentation.hidden import add_hidden_parts, inner_faces, unseen_patches
+from anymesh.segmentation.surface_regions import patch_sizes
 from anymesh.segmentation.unseen import join_unseen
 from anymesh.types import Mesh, Part, Segmentation
 from anymesh.types.camera import Camera
@@ -146,7 +147,7 @@ def test_the_inside_is_what_is_mostly_hidden_and_large_enough(side: float, share
     assert found.tolist() == [False] * 12 + [inner] * 12
     assert not inner_faces(mesh, whole, cloud, shown, min_size=0.1).any()
     sizes = np.linalg.norm([3, 3, 0.2]), np.sqrt(3) * side
-    assert patch_sizes(mesh, whole) == pytest.approx(np.array(sizes) / mesh.diagonal)
+    assert patch_sizes(mesh, whole) == pytest.approx(sizes)
 
 
 def test_a_hidden_part_of_another_segmentation_is_added_with_a_warning() -> None:

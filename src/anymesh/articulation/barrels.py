@@ -6,12 +6,13 @@ import numpy as np
 
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.motion.part_context import MAX_PART_DIAGONALS
 
 
 def find_barrel_candidates(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) -> tuple[TriangleSet, ...]:
     """Find patches near both part and parent that are long, thin and small: possible hinge barrels."""
     diagonal = part.box.diagonal
-    reach = 0.015 * min(whole.diagonal, 5 * diagonal)
+    reach = 0.015 * min(whole.diagonal, MAX_PART_DIAGONALS * diagonal)
     label = whole.patch
     barrels = []
     for own, other in ((part, parent), (parent, part)):

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from anymesh.articulation.decode import plane_normal
-from anymesh.articulation.estimate import part_context
 from anymesh.articulation.own_axes import round_patches
+from anymesh.articulation.part_contexts import part_context
 from anymesh.articulation.repeated_parts import same_size, share_opening_directions
 from anymesh.articulation.tree import descendants, parents
 from anymesh.config import Config
@@ -21,7 +21,7 @@ from anymesh.vlm.asking import Answer, Question, VisualAnswerer
 from anymesh.vlm.pictures import DrawnPictures
 from anymesh.vlm.prompting import JointAppearance, KindAnswer, PartShown
 
-MAX_PICTURES = 8  # pictures per call
+MAX_PART_PICTURES = 8  # pictures per call
 
 
 @dataclass(frozen=True, eq=False)
@@ -111,13 +111,13 @@ def ask_each(
     picture: Callable[[PartCase, str], Picture],
     question: Callable[[DrawnPictures, Sequence[PartCase]], Question[tuple[Answer, ...]]],
 ) -> dict[int, Answer]:
-    """Ask about all cases, MAX_PICTURES per call, and return the answers by part number.
+    """Ask about all cases, MAX_PART_PICTURES per call, and return the answers by part number.
 
     Each case has one picture, titled with its position in the call.
     """
     answers_by_number: dict[int, Answer] = {}
-    for begin in range(0, len(cases), MAX_PICTURES):
-        some = cases[begin : begin + MAX_PICTURES]
+    for begin in range(0, len(cases), MAX_PART_PICTURES):
+        some = cases[begin : begin + MAX_PART_PICTURES]
         answers = answerer.ask(question(_numbered(some, picture), some))
         answers_by_number |= {case.number: answer for case, answer in zip(some, answers, strict=True)}
     return answers_by_number

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.articulation.motion_question import Candidate
+from anymesh.articulation.motion_question import BOX_RIM_ROLES, Candidate
 from anymesh.config import ALONG_COSINE
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
 
-RIM_ROLES = ("edge", "edge_mid", "barrel", "asked")  # hinges that may be at a rim
+CLOSABLE_ROLES = (*BOX_RIM_ROLES, "barrel", "asked")  # hinges that may be at a rim
 MAX_CLOSED_GAP_RATIO = 0.02  # of the tolerance length: a closed part is this near its parent
 END_FRACTION, MIN_NEAR_SHARE = 0.8, 0.2  # position where an end of a part begins, and the least share of it near the parent
 MIN_CLOSED_ENDS = 3  # of the four ends of its face, of a closed part
@@ -44,7 +44,7 @@ def closing_angle(around: PartContext, c: Candidate) -> float | None:
 
     0 for a part that is closed or at a stop, None if no closed pose is known, or if the part would be closed at both stops.
     """
-    if c.motion.kind is JointType.PRISMATIC or c.role not in RIM_ROLES:
+    if c.motion.kind is JointType.PRISMATIC or c.role not in CLOSABLE_ROLES:
         return None
     if is_closed(around, around.gap):
         return 0.0
@@ -57,15 +57,11 @@ def closing_angle(around: PartContext, c: Candidate) -> float | None:
 
 def _closes(around: PartContext, c: Candidate) -> bool:
     """Return whether a part that is open is closed at the stop behind it."""
-    if _clear_behind(c) or c.closing < MIN_CLOSING_ANGLE_RAD:
+    if c.opening_sweep.clear_backward or c.closing < MIN_CLOSING_ANGLE_RAD:
         return False
     T = c.motion.transform(-c.opening_sign * c.closing)
     moved = around.part.samples.points @ T[:3, :3].T + T[:3, 3]
     return is_closed(around, around.parent.tree.distance(moved))
-
-
-def _clear_behind(c: Candidate) -> bool:
-    return c.sweep.clear_backward if c.opening_sign > 0 else c.sweep.clear_forward
 
 
 def _far_gap(around: PartContext, c: Candidate) -> float:
@@ -99,4 +95,4 @@ def away_from_closed(around: PartContext, c: Candidate) -> Candidate:
 
 
 def _at_stop(c: Candidate) -> bool:
-    return not _clear_behind(c) and bool(c.closing < MIN_CLOSING_ANGLE_RAD)
+    return not c.opening_sweep.clear_backward and bool(c.closing < MIN_CLOSING_ANGLE_RAD)

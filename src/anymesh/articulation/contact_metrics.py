@@ -9,16 +9,17 @@ from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 
 LINE_POINTS = 21  # sample points along a hinge line
-MAX_CONTACT_POINTS = 120  # sample points of the contact
+MAX_RETENTION_POINTS = 120  # sample points of the contact that are followed during a motion
 WATCHED_ANGLE_RAD = np.deg2rad(30)  # [rad] opening of a hinge at which contact is measured
 WATCHED_TRAVEL_RATIO = 0.5  # travel of a slide at which contact is measured, relative to the part's extent along it
-CONTACT_TOLERANCE_FACTOR = 1.5  # contact is retained within this factor of its distance at rest
+MIN_GAP_FACTOR = 1.5  # a part that touches nothing is in contact within this multiple of its smallest gap
+RETAINED_FACTOR = 1.5  # contact is retained within this multiple of the distance that counts as contact at rest
 CONTACT_RATIO = 0.008  # of the tolerance length: points closer to the parent are in contact
 
 
 def contact_tolerance(around: PartContext) -> float:
     """Return the distance to the parent within which a point is in contact [m]; it grows with the gap of a part with none."""
-    return max(CONTACT_RATIO * around.tolerance_length, CONTACT_TOLERANCE_FACTOR * float(around.gap.min()))
+    return max(CONTACT_RATIO * around.tolerance_length, MIN_GAP_FACTOR * float(around.gap.min()))
 
 
 def contact_points(around: PartContext) -> Float[np.ndarray, "n 3"]:
@@ -34,7 +35,7 @@ def contact_retention(around: PartContext, motions: list[Motion], signs: list[in
     contact = contact_points(around)
     if len(contact) < 3 or not motions:
         return np.zeros(len(motions))
-    contact = contact[:: max(1, len(contact) // MAX_CONTACT_POINTS)]
+    contact = contact[:: max(1, len(contact) // MAX_RETENTION_POINTS)]
     moved = []
     for motion, sign in zip(motions, signs, strict=True):
         extent = float(np.ptp(around.part.corners @ motion.axis))
@@ -42,7 +43,7 @@ def contact_retention(around: PartContext, motions: list[Motion], signs: list[in
         T = motion.transform(sign * amount)
         moved.append(contact @ T[:3, :3].T + T[:3, 3])
     off = around.parent.tree.distance(np.concatenate(moved))
-    return (off.reshape(len(motions), -1) < CONTACT_TOLERANCE_FACTOR * contact_tolerance(around)).mean(1)
+    return (off.reshape(len(motions), -1) < RETAINED_FACTOR * contact_tolerance(around)).mean(1)
 
 
 def hinge_support(around: PartContext, motions: list[Motion]) -> np.ndarray:
@@ -64,7 +65,7 @@ def hinge_support(around: PartContext, motions: list[Motion]) -> np.ndarray:
     reach = around.config.support * around.tolerance_length
     parent = (around.parent.tree.distance(probe) < reach).reshape(len(motions), 2, LINE_POINTS).mean(2)
     other = np.zeros(len(motions))
-    if around.others is not None:
-        near = around.others.tree.distance(probe) < reach
+    if around.other_surface is not None:
+        near = around.other_surface.tree.distance(probe) < reach
         other = near.reshape(len(motions), 2, LINE_POINTS).mean(2)[:, 0]
     return np.stack([parent[:, 0], other, parent[:, 1]], 1)

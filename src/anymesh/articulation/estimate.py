@@ -5,36 +5,44 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
-from anymesh.articulation.barrels import find_barrel_candidates
 from anymesh.articulation.closed_pose import away_from_closed
 from anymesh.articulation.evidence import sweep_candidates, swept, unswept
 from anymesh.articulation.hypotheses import propose
-from anymesh.articulation.limits import limits, opening_as_answered, opening_motion
+from anymesh.articulation.limits import limits, opening_as_answered
 from anymesh.articulation.motion_classifier import PartMotionScores, likeliest
 from anymesh.articulation.motion_features import swept_features, unswept_features
-from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion
+from anymesh.articulation.motion_question import BOX_RIM_ROLES, Candidate, MotionAnswer, MotionQuestion
+from anymesh.articulation.part_contexts import part_context
 from anymesh.articulation.rank_motions import rank_motions
 from anymesh.articulation.repeated_parts import in_a_row, same_size, share_opening_directions
-from anymesh.articulation.tree import descendants, parents
+from anymesh.articulation.tree import parents
 from anymesh.config import ArticulationConfig, Config
 from anymesh.deadline import JOINTS, Deadline
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.sweep import free_amount
-from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.part_context import PartContext
 from anymesh.types import Joint, JointType, Motion, Segmentation
 
 MIN_RIM_THICKNESS_RATIO = 0.01  # of the tolerance length: minimum thickness of a rim
 MAX_RIM_THICKNESSES = 1.5  # hinge lines within this multiple of the rim's thickness are at one rim
-MIN_PARALLEL_COSINE = 0.999  # minimum cosine between the axes of such lines
+MIN_RIM_COSINE = 0.999  # minimum cosine between the axes of such lines
 SUFFICIENT_OPENING_RAD = np.deg2rad(110)  # [rad] larger openings are not compared
 TIGHT_PENETRATION_SCALE = 0.2  # penetration scale for the clearance to neighbours, which is a few millimetres
 MAX_COPIES = 8  # maximum number of copies whose motions are compared with those of a part
-PartMotions = tuple[int, int, PartContext, MotionQuestion]  # part index, parent index, context, motions
 MIN_OPENING_GAIN_RAD = np.deg2rad(5)  # [rad] minimum gain in opening angle
+
+
+class PartMotions(NamedTuple):
+    """The motions among which the joint of a part is chosen. part, parent: their indices."""
+
+    part: int
+    parent: int
+    context: PartContext
+    question: MotionQuestion
 
 
 def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions]) -> tuple[Joint, ...]:
@@ -43,14 +51,14 @@ def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions]) 
     motions: as from `motion_questions`.
     """
     parts = segmentation.parts
-    joints = {i: estimate_joint(around, parts[i].name, parts[over].name, question) for i, over, around, question in motions}
+    joints = {m.part: estimate_joint(m.context, parts[m.part].name, parts[m.parent].name, m.question) for m in motions}
     return tuple(joints[i] for i in sorted(joints))
 
 
 def motion_questions(
     whole: ObjectShape, segmentation: Segmentation, config: Config, deadline: Deadline | None = None
 ) -> Iterator[PartMotions]:
-    """Yield the part index, parent index, context and motion question of each part but the root, copies together.
+    """Yield the motions of each part but the root, copies together.
 
     Only the likeliest motions are swept and offered.
     """
@@ -67,44 +75,17 @@ def motion_questions(
         ]
         for i, around, motions in zip(numbers, arounds, scored, strict=True):
             row = (m for m, a in zip(scored, arounds, strict=True) if a is not around and in_a_row(around, a))
-            yield i, parent[i], around, motions.question(tuple(itertools.islice(row, MAX_COPIES)))
+            yield PartMotions(i, parent[i], around, motions.question(tuple(itertools.islice(row, MAX_COPIES))))
 
 
-def relabelled(swept: Iterable[PartMotions], segmentation: Segmentation) -> list[PartMotions]:
-    """Return the questions about parts with the same faces, with the labels of this segmentation."""
-    parts = segmentation.parts
+def with_labels_of(segmentation: Segmentation, motions: Iterable[PartMotions]) -> list[PartMotions]:
+    """Return the motions of parts with the same faces, with the labels of this segmentation."""
 
-    def named(question: MotionQuestion, i: int) -> MotionQuestion:
-        return replace(question, part=replace(question.part, label=parts[i].label))
+    def named(m: PartMotions) -> PartMotions:
+        part = replace(m.question.part, label=segmentation.parts[m.part].label)
+        return m._replace(question=replace(m.question, part=part))
 
-    return [(i, over, around, named(question, i)) for i, over, around, question in swept]
-
-
-def part_context(
-    whole: ObjectShape, label: np.ndarray, shapes: list[TriangleSet], parent: list[int], i: int, config: ArticulationConfig
-) -> PartContext:
-    """Build the context of part i with its descendants; the root and its ancestors are static."""
-    carried = [i, *descendants(parent, i)]
-    ancestors, at = [0], parent[i]
-    while at > 0:
-        ancestors.append(at)
-        at = parent[at]
-    static = np.isin(label, ancestors)
-    moving = np.isin(label, carried)
-    others = ~static & ~moving
-    return PartContext(
-        part=whole.of(np.flatnonzero(moving)),
-        parent=shapes[parent[i]],
-        rest=whole.of(np.flatnonzero(static)),
-        others=whole.of(np.flatnonzero(others)) if others.any() else None,
-        without_part=whole.of(np.flatnonzero(~moving)),
-        barrel_candidates=find_barrel_candidates(whole, shapes[i], shapes[parent[i]]),
-        diagonal=whole.diagonal,
-        center=whole.shape.bounds.mean(0),
-        config=config,
-        other_parts=tuple(shapes[k] for k in range(1, len(shapes)) if k not in carried and k not in ancestors),
-        link=shapes[i] if len(carried) > 1 else None,
-    )
+    return [named(m) for m in motions]
 
 
 def choose_motion(around: PartContext, question: MotionQuestion) -> tuple[MotionAnswer, Candidate]:
@@ -137,16 +118,15 @@ def _most_swept(config: ArticulationConfig, deadline: Deadline | None) -> int:
 
 def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:
     """Among hinge lines at one rim, choose the one with the largest opening when the other parts are at rest."""
-    rims = ("edge", "edge_mid")
-    if best.role not in rims or not around.other_parts:
+    if best.role not in BOX_RIM_ROLES or not around.other_parts:
         return best
-    near = replace(around.obstacles_at_rest, tolerance=TIGHT_PENETRATION_SCALE * around.penetration)
+    near = replace(around.obstacles_with_others, tolerance=TIGHT_PENETRATION_SCALE * around.penetration)
     thickness = max(2 * float(around.body_obb.half[2]), MIN_RIM_THICKNESS_RATIO * around.tolerance_length)
 
     def opens(c: Candidate) -> float:
-        return free_amount(near, opening_motion(c), 1, min(c.opening, SUFFICIENT_OPENING_RAD), around.config.sweep_steps)[0]
+        return free_amount(near, c.opening_motion, 1, min(c.opening, SUFFICIENT_OPENING_RAD), around.config.sweep_steps)[0]
 
-    alike = [c for c in candidates if c is best or (c.role in rims and c.outward * best.outward > 0)]
+    alike = [c for c in candidates if c is best or (c.role in BOX_RIM_ROLES and c.outward * best.outward > 0)]
     alternatives = [c for c in alike if _at_one_rim(best, c, thickness)]
     free = {id(c): opens(c) for c in alternatives}
     most = max(free.values())
@@ -154,7 +134,7 @@ def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Can
 
 
 def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
-    if abs(float(a.motion.axis @ b.motion.axis)) < MIN_PARALLEL_COSINE:
+    if abs(float(a.motion.axis @ b.motion.axis)) < MIN_RIM_COSINE:
         return False
     return bool(a.motion.distance(b.motion.origin[None])[0] < MAX_RIM_THICKNESSES * thickness)
 
@@ -185,7 +165,7 @@ def joint_of(
     Positive values open. The limits come from the sweep, within the answered range if there is one.
     """
     best = away_from_closed(around, best) if answered is None else opening_as_answered(best, answered)
-    motion = opening_motion(best)
+    motion = best.opening_motion
     return Joint(
         name=f"{name}_joint",
         type=kind,

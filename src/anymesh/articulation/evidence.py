@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from anymesh.articulation.adjacent_panels import overlap_gain
 from anymesh.articulation.contact_metrics import contact_retention, hinge_support
-from anymesh.articulation.motion_question import Candidate, Proposal, Role
+from anymesh.articulation.motion_question import Candidate, ProposedMotion, Role
 from anymesh.config import ACROSS_COSINE
 from anymesh.geometry.sweep import free_amounts, sweep_all
 from anymesh.motion.part_context import PartContext
@@ -24,12 +24,12 @@ GUIDE_STEP_RATIO = 0.02  # of the tolerance length: a slide is guided if a sidew
 UNSWEPT = Sweep(0.0, 0.0, clear_forward=False, clear_backward=False)
 
 
-def sweep_candidates(around: PartContext, proposed: Sequence[Proposal]) -> tuple[Candidate, ...]:
+def sweep_candidates(around: PartContext, proposed: Sequence[ProposedMotion]) -> tuple[Candidate, ...]:
     """Measure and sweep all motions: return two candidates per motion, opening along its axis and against it."""
     return swept(around, unswept(around, proposed))
 
 
-def unswept(around: PartContext, proposed: Sequence[Proposal]) -> tuple[Candidate, ...]:
+def unswept(around: PartContext, proposed: Sequence[ProposedMotion]) -> tuple[Candidate, ...]:
     """Measure all motions without moving the part: return one candidate per motion, opening along its axis."""
     hinges = [m for _, m in proposed if m.kind is JointType.REVOLUTE]
     supported = iter(hinge_support(around, hinges))
@@ -102,7 +102,7 @@ def _guided_share(around: PartContext, prismatic: list[Motion]) -> list[float]:
     sideways = [Motion(JointType.PRISMATIC, d, m.origin, "sideways") for m in prismatic for d in sides(around, m)]
     step = [GUIDE_STEP_RATIO * around.tolerance_length] * (2 * len(sideways))
     signs = [1] * len(sideways) + [-1] * len(sideways)
-    free = free_amounts(around.obstacles_at_rest, sideways + sideways, signs, step, 3) if prismatic else []
+    free = free_amounts(around.obstacles_with_others, sideways + sideways, signs, step, 3) if prismatic else []
     stopped = np.array([not clear for _, clear in free], bool).reshape(2, len(prismatic), 2)
     return [float(share) for share in stopped.mean((0, 2))]
 

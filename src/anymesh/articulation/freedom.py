@@ -5,19 +5,18 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.articulation.estimate import part_context, question_of_all_motions
+from anymesh.articulation.estimate import question_of_all_motions
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_question import Candidate
+from anymesh.articulation.part_contexts import context_by_gaps
 from anymesh.articulation.rank_motions import rank_motions
-from anymesh.articulation.tree import parents
 from anymesh.config import ArticulationConfig
 from anymesh.geometry.patches import ObjectShape
-from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
 
 MOTIONS_PER_TYPE = 4  # likeliest motions of each kind, one of which must stay free with the gained patches
 MIN_FREE_RATIO = 0.8  # minimum opening of a part with gained patches, relative to its opening without them
-SUFFICIENT_OPENING = float(np.deg2rad(60))  # [rad, or share of the diagonal] larger openings are not compared
+SUFFICIENT_OPENING = float(np.deg2rad(60))  # [rad, or share of the tolerance length] larger openings are not compared
 
 
 def stays_free(
@@ -33,7 +32,7 @@ def stays_free(
     without, joined: part index of each face of `whole`, without and with these patches; moves: the recognized motion of the
     part, if known.
     """
-    alone, gained = _context(whole, config, without, part), _context(whole, config, joined, part)
+    alone, gained = context_by_gaps(whole, without, part, config), context_by_gaps(whole, joined, part, config)
     question = question_of_all_motions(alone, "part")
     best: dict[int, Candidate] = {}  # the better one of the two directions along each axis
     for k in rank_motions(question).ranking:
@@ -45,10 +44,3 @@ def stays_free(
     after = sweep_candidates(gained, [(c.role, c.motion) for c in likely])[::2]
     far = [(max(c.opening, c.closing), max(a.opening, a.closing)) for c, a in zip(likely, after, strict=True)]
     return any(now >= MIN_FREE_RATIO * min(before, SUFFICIENT_OPENING) for before, now in far)
-
-
-def _context(whole: ObjectShape, config: ArticulationConfig, label: Int[np.ndarray, " F"], part: int) -> PartContext:
-    shapes = [whole.of(np.flatnonzero(label == k)) for k in np.unique(label)]
-    rank = np.searchsorted(np.unique(label), label)
-    number = int(np.searchsorted(np.unique(label), part))
-    return part_context(whole, rank, shapes, parents(shapes, whole.diagonal), number, config)

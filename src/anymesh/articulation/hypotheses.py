@@ -2,7 +2,7 @@
 
 From the paper (3.3): the line along the connecting area, the normal of its fitted plane, directions in that plane.
 Added here: edges, center lines and directions of the part's body OBB, the axis of a round outline, the line through two
-far contacts, the axes of round surfaces in contact.
+far contacts, the axes of hinge barrels and of round surfaces in contact.
 """
 
 from __future__ import annotations
@@ -12,22 +12,22 @@ from collections.abc import Iterable
 import numpy as np
 
 from anymesh.articulation.contact_metrics import contact_points
-from anymesh.articulation.motion_question import Proposal
+from anymesh.articulation.motion_question import ProposedMotion
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import outline_about
 from anymesh.geometry.revolution import fit_revolution
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 
-SAME_DIRECTION = np.cos(np.deg2rad(1.0))
-SAME_LINE = 0.004  # of the tolerance length
+# near-duplicates of a motion: minimum cosine between the axes, maximum distance of the lines over the tolerance length
+DUPLICATE_COSINE, DUPLICATE_LINE_RATIO = np.cos(np.deg2rad(1.0)), 0.004
+DUPLICATE_FITTED_COSINE, DUPLICATE_FITTED_LINE_RATIO = np.cos(np.deg2rad(2.0)), 0.008  # the same of axes fitted to a contact
 MIN_PIVOTS_APART_RATIO = 0.36  # of the part's diagonal: minimum distance of two pivots
 MAX_PIVOT_WIDTH_RATIO = 0.35  # of their distance: maximum width of the contact at a pivot
 MIN_REVOLUTION = 0.25  # of the surfaces in contact: least share that turns in place about their axis
-SAME_CONTACT_DIRECTION, SAME_CONTACT_LINE = np.cos(np.deg2rad(2.0)), 0.008  # coarser, since these axes are fitted
 
 
-def _edges(box: OrientedBox) -> list[Proposal]:
+def _edges(box: OrientedBox) -> list[ProposedMotion]:
     edges = []
     for k in range(3):
         i, j = (a for a in range(3) if a != k)
@@ -40,7 +40,7 @@ def _edges(box: OrientedBox) -> list[Proposal]:
     return edges
 
 
-def _edge_middles(box: OrientedBox) -> list[Proposal]:
+def _edge_middles(box: OrientedBox) -> list[ProposedMotion]:
     """Return the lines at half the thickness of a plate, along its four rims."""
     lines = []
     for k in range(2):
@@ -53,15 +53,15 @@ def _edge_middles(box: OrientedBox) -> list[Proposal]:
     return lines
 
 
-def _through(box: OrientedBox) -> list[Proposal]:
+def _through(box: OrientedBox) -> list[ProposedMotion]:
     return [("center", Motion(JointType.REVOLUTE, a, box.center, "middle line of the part")) for a in box.axes]
 
 
-def _box_directions(box: OrientedBox) -> list[Proposal]:
+def _box_directions(box: OrientedBox) -> list[ProposedMotion]:
     return [("slide", Motion(JointType.PRISMATIC, a, box.center, "direction of the part")) for a in box.axes]
 
 
-def _from_contact(around: PartContext) -> list[Proposal]:
+def _from_contact(around: PartContext) -> list[ProposedMotion]:
     """Return the paper's candidates: the line along the connecting area, its plane's normal, directions in the plane."""
     contact = around.contact
     if len(contact) < 4:
@@ -112,7 +112,7 @@ def _two_groups(points: np.ndarray, centers: np.ndarray) -> np.ndarray:
     return side
 
 
-def barrels(around: PartContext) -> list[Proposal]:
+def barrels(around: PartContext) -> list[ProposedMotion]:
     """Return the axes of small cylinders near part and parent: hinge barrels and pins."""
     axes = []
     for component in around.barrel_candidates:
@@ -122,21 +122,21 @@ def barrels(around: PartContext) -> list[Proposal]:
     return axes
 
 
-def contact_axes(around: PartContext) -> list[Proposal]:
+def contact_axes(around: PartContext) -> list[ProposedMotion]:
     """Return the axes about which the surfaces in contact turn in place: of pins, bushings and ball joints."""
     fitted = [fit_revolution(surface, MIN_REVOLUTION) for surface in around.contact_surfaces]
     what = "axis of the round surfaces in contact"
     return [("surface", Motion(JointType.REVOLUTE, _unit(f.axis), f.origin, what)) for f in fitted if f is not None]
 
 
-def propose(around: PartContext) -> list[Proposal]:
+def propose(around: PartContext) -> list[ProposedMotion]:
     """Propose all candidate motions of a part with their roles, without near-duplicates, in a fixed order."""
     core = around.body_obb
-    proposals: list[Proposal] = []
+    proposals: list[ProposedMotion] = []
     if (line := two_pivot_line(around)) is not None:
         proposals.append(("two_pivot", line))
     outline = around.outline
-    if outline.roundness > 0.5:
+    if around.is_round:
         axis = Motion(JointType.REVOLUTE, _unit(outline.axis), outline.center, "axis of its round outline")
         proposals.append(("round", axis))
     proposals += barrels(around) + _edges(core) + _edge_middles(core) + _through(core) + _box_directions(core)
@@ -144,15 +144,17 @@ def propose(around: PartContext) -> list[Proposal]:
     return distinct(proposals, around.tolerance_length)
 
 
-def distinct(candidates: Iterable[Proposal], tolerance_length: float) -> list[Proposal]:
+def distinct(candidates: Iterable[ProposedMotion], tolerance_length: float) -> list[ProposedMotion]:
     """Return the motions without near-duplicates of earlier ones.
 
     tolerance_length: reference length of the tolerances [m], as in `PartContext`.
     """
-    kept: list[Proposal] = []
+    kept: list[ProposedMotion] = []
     for role, motion in candidates:
-        same = (SAME_CONTACT_DIRECTION, SAME_CONTACT_LINE) if role == "surface" else (SAME_DIRECTION, SAME_LINE)
-        if not any(_same(motion, other, same[0], same[1] * tolerance_length) for _, other in kept):
+        fitted = role == "surface"
+        cosine = DUPLICATE_FITTED_COSINE if fitted else DUPLICATE_COSINE
+        distance = (DUPLICATE_FITTED_LINE_RATIO if fitted else DUPLICATE_LINE_RATIO) * tolerance_length
+        if not any(_same(motion, other, cosine, distance) for _, other in kept):
             kept.append((role, motion))
     return kept
 

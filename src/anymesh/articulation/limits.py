@@ -9,7 +9,7 @@ from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, MIN_FREE_TR
 from anymesh.config import ALONG_COSINE
 from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
-from anymesh.types import JointType, Motion
+from anymesh.types import JointType
 from anymesh.types.recognition import RecognizedLabel
 
 MIN_DRAWER_DEPTH_RATIO = 0.35  # of the parent's depth: a slide that is less deep is only a panel
@@ -29,6 +29,8 @@ Range = tuple[float, float]  # lower, upper [rad or m], lower <= 0 <= upper
 def limits(around: PartContext, c: Candidate, kind: JointType, answered: Range | None = None) -> Range | None:
     """Compute (lower, upper) about the opening axis [rad or m]; None for continuous and fixed joints.
 
+    A part that geometry finds to move into its parent has its axis inwards, and limits from 0 to its stroke.
+
     answered: the answered range about the opening axis; the sweep only shortens it.
     """
     match kind:
@@ -44,11 +46,6 @@ def limits(around: PartContext, c: Candidate, kind: JointType, answered: Range |
             return _prismatic(around, c)
 
 
-def opening_motion(c: Candidate) -> Motion:
-    """Return the motion of a candidate with its axis signed so that positive opens."""
-    return Motion(c.motion.kind, c.motion.axis * c.opening_sign, c.motion.origin, c.motion.source)
-
-
 def answered_range(recognized: RecognizedLabel | None, kind: JointType) -> Range | None:
     """Return the answered range [rad or m] for a joint of this type, None if there is none or it is unusable."""
     if recognized is None or recognized.limits is None:
@@ -59,6 +56,11 @@ def answered_range(recognized: RecognizedLabel | None, kind: JointType) -> Range
     if kind is JointType.PRISMATIC and recognized.moves is JointType.PRISMATIC:
         return recognized.limits if upper > lower else None
     return None
+
+
+def pressed(c: Candidate, answered: Range | None) -> bool:
+    """Return whether a slide goes into its parent by its answered range, as buttons do."""
+    return c.slide_direction is SlideDirection.OUTWARDS and answered is not None and -answered[0] > answered[1]
 
 
 def opening_as_answered(c: Candidate, answered: Range | None) -> Candidate:
@@ -95,7 +97,7 @@ def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> R
     """
     if c.slide_direction is SlideDirection.INWARDS and -answered[0] > answered[1]:
         answered = (0.0 - answered[1], -answered[0])
-    motion, (lower, upper) = opening_motion(c), (-answered[0], answered[1])
+    motion, (lower, upper) = c.opening_motion, (-answered[0], answered[1])
     extent = float(np.ptp(around.part.corners @ motion.axis))
     depth = around.depth_in_parent(motion.axis)
     if c.slide_direction is SlideDirection.OUTWARDS and depth > MIN_DEPTH_IN_PARENT_RATIO * upper:
@@ -110,7 +112,7 @@ def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> R
 
 def _free_within(around: PartContext, c: Candidate, lower: float, upper: float, steps: int) -> tuple[float, float]:
     """Return the free motion ahead, up to `upper`, and back, up to `lower` [rad or m]."""
-    motion = opening_motion(c)
+    motion = c.opening_motion
     obstacles = around.obstacles_of(motion)
     ahead = free_amount(obstacles, motion, 1, upper, steps)[0] if upper > 0 else 0.0
     back = free_amount(obstacles, motion, -1, lower, steps)[0] if lower > 0 else 0.0
@@ -118,41 +120,36 @@ def _free_within(around: PartContext, c: Candidate, lower: float, upper: float, 
 
 
 def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
-    config, motion = around.config, opening_motion(c)
+    config, motion = around.config, c.opening_motion
     most = np.deg2rad(config.door_most if c.vertical > ALONG_COSINE else config.flap_most)
     steps = config.fine_steps * 3
     closing, obstacles = closing_angle(around, c), around.obstacles_of(motion)
     upper, clear = free_amount(obstacles, motion, 1, max(most - (closing or 0.0), 0.0), steps)
     if not clear:
-        upper = _floor(upper, ANGLE_STEP_RAD)
+        upper = _whole_degrees(upper)
     lower = 0.0
     if closing != 0:
         lower, _ = free_amount(obstacles, motion, -1, closing or most, steps)
-        lower = _floor(lower, ANGLE_STEP_RAD) if lower >= MIN_CLOSING_ANGLE_RAD else 0.0
+        lower = _whole_degrees(lower) if lower >= MIN_CLOSING_ANGLE_RAD else 0.0
     if upper < MIN_HINGE_RANGE_RAD:
         upper = most if lower == 0 else 0.0
     return (0.0 - lower, upper)
 
 
-def pressed(c: Candidate, answered: Range | None) -> bool:
-    """Return whether a slide goes into its parent by its answered range, as buttons do."""
-    return c.slide_direction is SlideDirection.OUTWARDS and answered is not None and -answered[0] > answered[1]
-
-
-def _floor(value: float, step: float) -> float:
-    return float(np.floor(value / step + 1e-9) * step)
+def _whole_degrees(angle: float) -> float:
+    """Return an angle rounded down to ANGLE_STEP_RAD, the resolution of the sweep [rad]."""
+    return float(np.floor(angle / ANGLE_STEP_RAD + 1e-9) * ANGLE_STEP_RAD)
 
 
 def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
-    motion = opening_motion(c)
-    leaves = c.sweep.clear_forward if c.opening_sign > 0 else c.sweep.clear_backward
-    if c.slide_direction is SlideDirection.INWARDS and not leaves:
+    motion = c.opening_motion
+    if c.slide_direction is SlideDirection.INWARDS and not c.opening_sweep.clear_forward:
         return (0.0, _stroke(around, c))
-    outward = c.slide_direction is not SlideDirection.ALONG_SURFACE
+    outward, least = c.slide_direction is not SlideDirection.ALONG_SURFACE, MIN_FREE_TRAVEL_RATIO * around.tolerance_length
     closing = closing_travel(around, c) if outward else 0.0
     depth = around.depth_in_parent(motion.axis) + closing
     extent = float(np.ptp(around.part.corners @ motion.axis))
-    most = max((1 - around.config.slide_keep) * (depth if outward else extent), MIN_FREE_TRAVEL_RATIO * around.tolerance_length)
+    most = max((1 - around.config.slide_keep) * (depth if outward else extent), least)
     if c.captured:
         most = 2 * around.part.box.diagonal
     behind = float(np.ptp(around.parent.samples.points @ motion.axis))
@@ -165,16 +162,16 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
     lower = 0.0
     if closing or not outward:
         lower, clear = free_amount(obstacles, motion, -1, closing or most, steps)
-        if (clear and not outward) or lower < MIN_FREE_TRAVEL_RATIO * around.tolerance_length:
+        if (clear and not outward) or lower < least:
             lower = 0.0
-    if upper < MIN_FREE_TRAVEL_RATIO * around.tolerance_length:
+    if upper < least:
         upper = most if lower == 0 else 0.0
     return (0.0 - lower, upper)
 
 
 def _stroke(around: PartContext, c: Candidate) -> float:
     """Return the stroke of a part into its parent [m]: up to its own height, half of it if its mesh fills the hole."""
-    motion = opening_motion(c)
+    motion = c.opening_motion
     extent = float(np.ptp(around.part.corners @ motion.axis))
     free, _ = free_amount(around.obstacles, motion, 1, extent, 2 * around.config.fine_steps)
     return free if free > MIN_STROKE_RATIO * extent else STROKE_RATIO * extent

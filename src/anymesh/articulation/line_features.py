@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.articulation.adjacent_panels import outer_side, pair_side
-from anymesh.articulation.part_values import MAX_RATIO
+from anymesh.articulation.part_values import MAX_LENGTH_RATIO
 from anymesh.config import ALONG_COSINE
 from anymesh.geometry.revolution import share_in_place
 from anymesh.motion.part_context import PartContext
@@ -29,7 +29,7 @@ def line_features(
     """
     core, points, axis = around.body_obb, around.part.samples.points, motion.axis
     local = np.abs(core.local(motion.origin[None])[0] / np.maximum(core.half, 1e-9))
-    local = np.minimum(local, MAX_RATIO) * (np.abs(core.axes @ axis) < ALONG_COSINE)
+    local = np.minimum(local, MAX_LENGTH_RATIO) * (np.abs(core.axes @ axis) < ALONG_COSINE)
     off = motion.distance(points)
     reach, length = max(float(off.max()), 1e-9), max(float(np.ptp(points @ axis)), 1e-9)
     balance = float(motion.distance(around.part.centroid[None])[0] / reach)
@@ -45,7 +45,7 @@ def line_features(
         "balance": balance,
         "round about the axis": outline.roundness,
         "circle off the axis": min(
-            float(motion.distance(outline.center[None])[0] / max(outline.radius, 1e-9)), MAX_RATIO
+            float(motion.distance(outline.center[None])[0] / max(outline.radius, 1e-9)), MAX_LENGTH_RATIO
         ),
         "rotational misfit": _misfit(around, motion, reach) if balance < MAX_CENTRAL_RATIO else MISSING,
         "contact along the line": float(np.clip(np.ptp(contact @ axis) / length, 0, 1)),
@@ -112,7 +112,7 @@ def _handle_place(around: PartContext, motion: Motion, reach: float) -> dict[str
         off = max(off, abs(where)) if abs(core.axes[axis] @ motion.axis) > ALONG_COSINE else off
     if handle.along is not None:
         bar = abs(float(core.axes[around.face_axes[handle.along]] @ motion.axis))
-    distance = min(float(motion.distance(at[None])[0] / reach), MAX_RATIO)
+    distance = min(float(motion.distance(at[None])[0] / reach), MAX_LENGTH_RATIO)
     return {"handle distance": distance, "handle off the hinge's middle": off, "bar handle along": bar}
 
 

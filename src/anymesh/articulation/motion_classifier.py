@@ -19,7 +19,7 @@ from anymesh.scoring.classifier import Classifier
 
 
 class PartMotionScores:
-    """Motions of one part with the scores of the part by itself. features: as from `motion_features`, which computes them."""
+    """Motions of one part with the scores of the part by itself. features: as from `motion_features`; None computes them."""
 
     def __init__(
         self, around: PartContext, label: str, candidates: Sequence[Candidate], features: Sequence[Features] | None = None

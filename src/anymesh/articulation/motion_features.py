@@ -16,7 +16,7 @@ from anymesh.articulation.contact_metrics import contact_points
 from anymesh.articulation.evidence import initial_direction, sides
 from anymesh.articulation.line_features import NO_LINE, line_features
 from anymesh.articulation.motion_question import Candidate
-from anymesh.articulation.part_values import MAX_RATIO, part_values
+from anymesh.articulation.part_values import MAX_LENGTH_RATIO, part_values
 from anymesh.motion.part_context import PartContext
 from anymesh.scoring.classifier import MISSING
 from anymesh.types import JointType
@@ -65,18 +65,11 @@ def _visible_both_ways(
     """Return the visible shares of the part ahead and behind; their mean for a motion without a direction."""
     length = np.linalg.norm(ways, axis=1)
     unit = np.where(length[:, None] > 0, ways / np.maximum(length, 1e-300)[:, None], [0.0, 0.0, 1.0])
-    ahead, behind = _visible(around, unit), _visible(around, -unit)
+    points = around.part.samples.points
+    some = points[:: max(1, len(points) // VIEW_POINTS)]
+    ahead, behind = around.sees(some, unit).mean(1), around.sees(some, -unit).mean(1)
     mean, half = (ahead + behind) / 2, length * (ahead - behind) / 2
     return mean + half, mean - half
-
-
-def _visible(around: PartContext, ways: Float[np.ndarray, "h 3"]) -> Float[np.ndarray, " h"]:
-    """Return the share of the part's surface with a free view past the rest along each direction."""
-    samples = around.part.samples
-    points = samples.points[:: max(1, len(samples.points) // VIEW_POINTS)]
-    start = (points[None] + 1e-4 * around.diagonal * ways[:, None]).reshape(-1, 3)
-    rays = np.repeat(4 * around.diagonal * ways, len(points), 0)
-    return (around.rest.scene.first_hit(start, rays, 1.0).face < 0).reshape(len(ways), -1).mean(1)
 
 
 def _unswept(
@@ -105,7 +98,7 @@ def _unswept(
 def _inserted(around: PartContext, c: Candidate) -> float:
     """Return the depth of the part inside its parent along a slide, over its smallest side across."""
     across = min(float(np.ptp(around.part.corners @ d)) for d in sides(around, c.motion))
-    return min(around.depth_in_parent(c.motion.axis) / max(across, 1e-9), MAX_RATIO)
+    return min(around.depth_in_parent(c.motion.axis) / max(across, 1e-9), MAX_LENGTH_RATIO)
 
 
 def _swept(around: PartContext, c: Candidate, way: Float[np.ndarray, " 3"]) -> Features:
@@ -120,8 +113,8 @@ def _swept(around: PartContext, c: Candidate, way: Float[np.ndarray, " 3"]) -> F
         "upwards": float(c.opening_sign * axis[2]),
     }
     return {
-        "opening": min(c.opening / unit, MAX_RATIO),
-        "closing": min(c.closing / unit, MAX_RATIO),
+        "opening": min(c.opening / unit, MAX_LENGTH_RATIO),
+        "closing": min(c.closing / unit, MAX_LENGTH_RATIO),
         "free both ways": min(c.opening, c.closing) / unit,
         "outward": c.outward,
         "contact retention": c.contact_retention,

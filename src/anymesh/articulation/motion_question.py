@@ -19,7 +19,7 @@ from anymesh.types import JointType, Motion, Sweep
 
 MIN_FREE_ANGLE_RAD = float(np.deg2rad(12))  # [rad] a hinge that opens less is blocked
 MIN_FREE_TRAVEL_RATIO = 0.008  # of the tolerance length: a slide with less free travel is blocked
-ENDLESS_ANGLE = 3.0  # [rad] minimum free angle in each direction of an endless rotation; the sweep ends at half a turn
+ENDLESS_ANGLE_RAD = 3.0  # [rad] minimum free angle in each direction of an endless rotation; the sweep ends at half a turn
 
 # Relation of a motion to its part: of a hinge's axis ("center" also names the normal of the connecting area, "pin" its width);
 # of a slide ("slide", "contact_slide"); or an answered one ("asked").
@@ -27,7 +27,8 @@ Role = Literal[
     "edge", "edge_mid", "center", "round", "pin", "circle", "pivot", "hub", "two_pivot", "barrel", "surface", "contact",
     "slide", "contact_slide", "asked",
 ]  # fmt: skip
-Proposal = tuple[Role, Motion]
+BOX_RIM_ROLES: tuple[Role, ...] = ("edge", "edge_mid")  # hinges along the rims of the part's box
+ProposedMotion = tuple[Role, Motion]
 
 
 class SlideDirection(StrEnum):
@@ -84,6 +85,16 @@ class Candidate:
         """Return the cosine between the axis and the vertical, 0..1."""
         return abs(float(self.motion.axis[2]))
 
+    @property
+    def opening_motion(self) -> Motion:
+        """Return the motion with its axis signed so that positive opens."""
+        return Motion(self.motion.kind, self.motion.axis * self.opening_sign, self.motion.origin, self.motion.source)
+
+    @property
+    def opening_sweep(self) -> Sweep:
+        """Return the sweep of `opening_motion`: forward opens, backward closes."""
+        return self.sweep if self.opening_sign > 0 else self.sweep.reversed()
+
     def reversed(self) -> Candidate:
         """Return the candidate that opens the other way."""
         return replace(self, opening_sign=-self.opening_sign, opening=self.closing, closing=self.opening, outward=-self.outward)
@@ -110,7 +121,7 @@ class Candidate:
     @property
     def is_endless(self) -> bool:
         """Return whether a rotation is free in both directions."""
-        return self.motion.kind is JointType.REVOLUTE and min(self.opening, self.closing) > ENDLESS_ANGLE
+        return self.motion.kind is JointType.REVOLUTE and min(self.opening, self.closing) > ENDLESS_ANGLE_RAD
 
 
 @dataclass(frozen=True, eq=False)

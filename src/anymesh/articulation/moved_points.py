@@ -7,7 +7,6 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.articulation.limits import opening_motion
 from anymesh.articulation.motion_question import Candidate
 from anymesh.motion.part_context import PartContext
 
@@ -20,7 +19,7 @@ class MovedPoints:
     def __init__(self, around: PartContext, candidates: Sequence[Candidate]) -> None:
         samples = around.part.samples.points
         self._points = samples[:: max(1, len(samples) // ENOUGH_POINTS)]
-        self._motions = [opening_motion(c) for c in candidates]
+        self._motions = [c.opening_motion for c in candidates]
         self._ends: dict[tuple[int, float], Float[np.ndarray, "n 3"]] = {}
 
     def apart(self, a: int, b: int, amount: float) -> tuple[float, float]:

@@ -12,9 +12,16 @@ import numpy as np
 from anymesh.articulation.cases import PartCase
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import distinct, propose
-from anymesh.articulation.limits import answered_range, opening_motion, pressed
+from anymesh.articulation.limits import STROKE_RATIO, answered_range, pressed
 from anymesh.articulation.motion_classifier import PartMotionScores
-from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts, Proposal, SlideDirection
+from anymesh.articulation.motion_question import (
+    BOX_RIM_ROLES,
+    Candidate,
+    MotionQuestion,
+    PartFacts,
+    ProposedMotion,
+    SlideDirection,
+)
 from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.own_axes import CENTRAL, pivots
 from anymesh.articulation.rank_motions import motion_scores
@@ -64,7 +71,7 @@ class MotionOffers:
         some = [self.motions[k] for k in shown]
         return MotionTable(
             self.case.shown,
-            tuple(opening_motion(c) for c in some),
+            tuple(c.opening_motion for c in some),
             tuple(self.amounts[k] for k in shown),
             tuple(not c.is_free for c in some),
         )
@@ -103,9 +110,9 @@ def scored_motions(case: PartCase) -> MotionQuestion:
     """
     around = case.around
     proposed = propose(around)
-    circles: list[Proposal] = [("circle", motion) for motion in case.circles]
+    circles: list[ProposedMotion] = [("circle", motion) for motion in case.circles]
     proposed = distinct([*proposed, *circles, *pivots(around, case.shown.normal)], around.tolerance_length)
-    first: list[Proposal] = [("asked", case.asked)] if case.asked is not None else []
+    first: list[ProposedMotion] = [("asked", case.asked)] if case.asked is not None else []
     question = PartMotionScores(around, case.label, sweep_candidates(around, first + proposed)).question()
     scores, chosen = motion_scores(question), []
     for k in range(0, len(scores), 2):
@@ -144,7 +151,7 @@ def shown_amount(c: Candidate, case: PartCase) -> float:
         return float(min(c.opening, MAX_SHOWN_ANGLE_RAD) if c.is_free else BLOCKED_SHOWN_RATIO * MAX_SHOWN_ANGLE_RAD)
     size = MAX_SHOWN_TRAVEL_RATIO * around.part.box.diagonal
     if pressed(c, answered_range(case.recognized, JointType.PRISMATIC)):
-        return -0.5 * min(float(np.ptp(around.part.corners @ c.motion.axis)), size)
+        return -STROKE_RATIO * min(float(np.ptp(around.part.corners @ c.motion.axis)), size)
     return float(min(c.opening * around.tolerance_length, size) if c.is_free else BLOCKED_SHOWN_RATIO * size)
 
 
@@ -209,7 +216,7 @@ def _crowding(first: list[int], values: list[float]) -> list[bool]:
 
 def _off_part(case: PartCase, c: Candidate) -> bool:
     """Return whether a hinge line is away from the part, like an edge of a box that is enlarged by a handle."""
-    if c.motion.kind is not JointType.REVOLUTE or c.role not in ("edge", "edge_mid"):
+    if c.motion.kind is not JointType.REVOLUTE or c.role not in BOX_RIM_ROLES:
         return False
     off = c.motion.distance(case.around.part.samples.points)
     return bool(off.min() > OFF_PART * case.around.tolerance_length)

@@ -8,19 +8,19 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.articulation.motion_question import Proposal, Role
+from anymesh.articulation.motion_question import ProposedMotion, Role
 from anymesh.geometry.circles import outline_about
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 
-MIN_ROUNDNESS = 0.8  # minimum roundness of a circle that gives an axis
+MIN_CIRCLE_ROUNDNESS = 0.8  # minimum roundness of a circle that gives an axis
 MAX_CIRCLES = 4  # round patches per part, the largest first
 MAX_PATCHES = 40  # patches examined, the largest first
 # roles of axes that the shape of a part gives
 CENTRAL: tuple[Role, ...] = ("round", "center", "hub", "circle", "pivot", "pin", "two_pivot", "barrel")
-SAME_DIRECTION = 0.98  # minimum cosine between axes with the same direction
+MAX_DISTINCT_COSINE = 0.98  # maximum cosine between two axes through the contact
 MIN_POINTS = 24  # minimum number of points of a contact ring
 
 
@@ -42,13 +42,13 @@ def round_patches(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) ->
                 points = np.concatenate([corners, patch.samples.points])
                 outlines = [outline_about(points, axis) for axis in patch.box.axes]
                 best = max(outlines, key=lambda o: o.roundness)
-                if best.roundness > MIN_ROUNDNESS:
+                if best.roundness > MIN_CIRCLE_ROUNDNESS:
                     circles.append((best.radius, _revolute(best.axis, best.center, "axis of a round patch")))
     circles.sort(key=lambda item: -item[0])
     return tuple(motion for _, motion in circles[:MAX_CIRCLES])
 
 
-def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[Proposal]:
+def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[ProposedMotion]:
     """Return lines through the center of the contact, and the axis of its ring.
 
     normal: unit normal of the contact's plane.
@@ -57,13 +57,13 @@ def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[Proposa
     middle = (contact.min(0) + contact.max(0)) / 2
     directions: list[np.ndarray] = []
     for d in (normal, around.opening_direction, *around.body_obb.axes):
-        if all(abs(float(d @ other)) < SAME_DIRECTION for other in directions):
+        if all(abs(float(d @ other)) < MAX_DISTINCT_COSINE for other in directions):
             directions.append(d)
-    lines: list[Proposal] = []
+    lines: list[ProposedMotion] = []
     if len(contact) >= MIN_POINTS:
         rings = [outline_about(contact, d) for d in directions]
         best = max(rings, key=lambda o: o.roundness)
-        if best.roundness > MIN_ROUNDNESS:
+        if best.roundness > MIN_CIRCLE_ROUNDNESS:
             lines.append(("hub", _revolute(best.axis, best.center, "axis of the ring where it is held")))
     lines += [("pivot", _revolute(d, middle, "line through the middle of the contact")) for d in directions]
     lines.append(("pivot", _revolute(normal, around.body_obb.center, "middle line along the contact's normal")))

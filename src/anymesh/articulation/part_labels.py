@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from anymesh.articulation.motion_question import Candidate, SlideDirection
-from anymesh.config import FACING_COSINE
+from anymesh.config import FACING_COSINE, LEVEL_COSINE
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
 
 MIN_LARGE_RATIO = 0.15  # of the object's diagonal: a smaller part that slides in is a button, one that spins is a knob
 MIN_DRAWER_TRAVEL_RATIO = 0.1  # of its size: a slide with less travel is not labelled as a drawer
-MIN_LID_COSINE = 0.8  # minimum cosine between the vertical and the opening direction of a hinged lid
 # of its height: a part with a level hinge that rises higher than this above its parent is a lid modelled open
 MIN_OPEN_LID_RISE_RATIO = 0.5
 
@@ -32,4 +31,4 @@ def label_of(around: PartContext, best: Candidate) -> str:
         return "handle" if around.part.slender else "lid"  # a plate on two pivots is the lid of a laptop
     low, high = around.part.bounds[:, 2]
     raised = best.vertical < FACING_COSINE and high - around.parent.bounds[1, 2] > MIN_OPEN_LID_RISE_RATIO * (high - low)
-    return "lid" if around.opening_direction[2] > MIN_LID_COSINE or raised else "door"
+    return "lid" if around.opening_direction[2] > LEVEL_COSINE or raised else "door"

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.config import ALONG_COSINE
+from anymesh.articulation.contact_metrics import MIN_GAP_FACTOR
+from anymesh.config import ALONG_COSINE, LEVEL_COSINE
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 
 # [deg] rotations about its axis; a body of revolution looks the same after all of them
 ASYMMETRY_ANGLES_DEG = (37, 90, 141, 200, 285)
-MAX_RATIO = 4.0  # upper limit of ratios of lengths
-MIN_ROUNDNESS = 0.5  # minimum roundness of the outline of a round part
-MAX_FLATNESS = 8.0  # upper limit of height over radius
-MIN_LEVEL_COSINE = 0.8  # minimum cosine between the vertical and the normal of a level face, which has no height over width
+MAX_LENGTH_RATIO = 4.0  # upper limit of ratios of lengths, of a part and of its motions
+MAX_HEIGHT_OVER_RADIUS = 8.0
+ROUND_RIM_RATIO = 0.85  # of the radius: samples farther from the axis belong to the rim of a round part
 
 
 def part_values(around: PartContext, contact: Float[np.ndarray, "n 3"]) -> dict[str, float]:
@@ -24,7 +24,6 @@ def part_values(around: PartContext, contact: Float[np.ndarray, "n 3"]) -> dict[
     low, high = around.bounds
     extent, middle = np.maximum(high - low, 1e-12), around.part.bounds.mean(0)
     spread = np.sort(contact.std(0))[::-1] if len(contact) > 1 else np.zeros(3)
-    is_round = outline.roundness > MIN_ROUNDNESS
     box_area = 8 * float(length * width + width * thickness + length * thickness)
     return {
         "size": around.part.box.diagonal / around.diagonal,
@@ -32,16 +31,16 @@ def part_values(around: PartContext, contact: Float[np.ndarray, "n 3"]) -> dict[
         "width over length": float(width / max(length, 1e-12)),
         "thickness": float(2 * thickness / around.diagonal),
         "roundness": outline.roundness,
-        "height over radius": min(outline.height / max(outline.radius, 1e-12), MAX_FLATNESS),
+        "height over radius": min(outline.height / max(outline.radius, 1e-12), MAX_HEIGHT_OVER_RADIUS),
         "opening direction up": float(around.opening_direction[2]),
         "visibility": around.visibility,
-        "insertion depth": min(around.insertion_depth, MAX_RATIO),
+        "insertion depth": min(around.insertion_depth, MAX_LENGTH_RATIO),
         "log2 height over width": _face_aspect(around),
         "height": float((middle[2] - low[2]) / extent[2]),
         "back contact": _back_contact(around),
-        "free rim": _free_rim(around) if is_round else 0.0,
-        "covers an opening": _covers_opening(around) if is_round else 0.0,
-        "rotational asymmetry": min(_rotational_asymmetry(around), MAX_RATIO) if is_round else 1.0,
+        "free rim": _free_rim(around) if around.is_round else 0.0,
+        "covers an opening": _covers_opening(around) if around.is_round else 0.0,
+        "rotational asymmetry": min(_rotational_asymmetry(around), MAX_LENGTH_RATIO) if around.is_round else 1.0,
         "handle": float(handle is not None),
         "handle size": handle.size if handle else 0.0,
         "handle off the middle": max(abs(a) for a in handle.across) if handle else 0.0,
@@ -51,16 +50,16 @@ def part_values(around: PartContext, contact: Float[np.ndarray, "n 3"]) -> dict[
         "contact width": float(spread[1] / max(around.part.box.diagonal, 1e-12)),
         "log10 gap": float(np.log10(max(float(around.gap.min()) / around.diagonal, 1e-4))),
         "parts": float(np.log1p(len(around.other_parts))),
-        "object height": float(np.clip(extent[2] / extent[:2].max(), 0, MAX_RATIO)),
+        "object height": float(np.clip(extent[2] / extent[:2].max(), 0, MAX_LENGTH_RATIO)),
         "solid": float(around.part.solid @ around.part.areas / max(around.part.area, 1e-300)),
         "horizontal offset": float(np.linalg.norm(((middle - low) / extent * 2 - 1)[:2])),
-        "area over box": float(np.clip(around.part.area / max(box_area, 1e-300), 0, MAX_RATIO)),
+        "area over box": float(np.clip(around.part.area / max(box_area, 1e-300), 0, MAX_LENGTH_RATIO)),
     }
 
 
 def _face_aspect(around: PartContext) -> float:
     """Return the binary logarithm of the height over the width of the part's face, 0 for a level face."""
-    if abs(around.opening_direction[2]) > MIN_LEVEL_COSINE:
+    if abs(around.opening_direction[2]) > LEVEL_COSINE:
         return 0.0
     across = np.cross(around.opening_direction, (0.0, 0.0, 1.0))
     width = float(np.ptp(around.part.corners @ (across / np.linalg.norm(across))))
@@ -70,7 +69,7 @@ def _face_aspect(around: PartContext) -> float:
 def _back_contact(around: PartContext) -> float:
     """Return the share of the back that is in contact with the parent, or inside it."""
     back = around.part.samples.normals @ around.opening_direction < -ALONG_COSINE
-    near = around.gap < max(2 * around.config.connecting * around.tolerance_length, 1.5 * float(around.gap.min()))
+    near = around.gap < max(2 * around.config.connecting * around.tolerance_length, MIN_GAP_FACTOR * float(around.gap.min()))
     return float(near[back].mean()) if back.sum() > 3 else 0.0
 
 
@@ -80,7 +79,7 @@ def _free_rim(around: PartContext) -> float:
     arm = points - outline.center
     arm -= (arm @ outline.axis)[:, None] * outline.axis
     radius = np.linalg.norm(arm, axis=1)
-    rim = np.flatnonzero(radius > 0.85 * outline.radius)[:300]
+    rim = np.flatnonzero(radius > ROUND_RIM_RATIO * outline.radius)[:300]
     if len(rim) < 3:
         return 0.0
     away = arm[rim] / radius[rim, None]
@@ -104,7 +103,7 @@ def _covers_opening(around: PartContext) -> float:
     outline, points = around.outline, around.part.samples.points
     arm = points - outline.center
     radius = np.linalg.norm(arm - (arm @ outline.axis)[:, None] * outline.axis, axis=1)
-    rim, back = radius > 0.85 * outline.radius, radius < 0.6 * outline.radius
+    rim, back = radius > ROUND_RIM_RATIO * outline.radius, radius < 0.6 * outline.radius
     if rim.sum() < 3 or back.sum() < 3:
         return 0.0
     supported = float((around.gap[rim] < 0.1 * outline.radius).mean())

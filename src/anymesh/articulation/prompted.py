@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from anymesh.articulation.candidates import axis_points, cluster_points, followed, superpoint_centres, with_more
+from anymesh.articulation.candidate_points import axis_points, cluster_points, followed, superpoint_centres, with_more
 from anymesh.articulation.cases import PartCase, ask_each, make_cases
 from anymesh.articulation.contradictions import contradictions
 from anymesh.articulation.decode import hinge, prismatic, surface_directions
@@ -186,8 +186,8 @@ def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape
     axes = np.zeros((0, 3))
     if shaped:
         motions = [m for _, m in pivots(case.around, case.shown.normal)]
-        outline = case.around.outline
-        if outline.roundness > 0.5:
+        if case.around.is_round:
+            outline = case.around.outline
             motions.insert(0, Motion(JointType.REVOLUTE, outline.axis, outline.center, "axis of its round outline"))
         first, axes = axis_points(case.around, [*case.circles, *motions], project, prompts)
         axes = axes[shot.is_inside(first)]

@@ -16,8 +16,8 @@ from anymesh.vocabulary import typical_motion
 NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint without a plausible motion
 # calibration of the log-odds of a confidence, fitted to kinds left out of training (benchmarks/train_motions.py)
 CALIBRATION_SLOPE, CALIBRATION_OFFSET = 0.61, -0.01
-SAME_LINE = 0.1  # of the part's size: maximum distance between lines that a user sees as one
-BLOCKED = -4.0  # [log-odds] penalty of a motion that the sweep finds blocked
+SAME_LINE_RATIO = 0.1  # of the part's size: maximum distance between lines that a user sees as one
+BLOCKED_SCORE = -4.0  # [log-odds] penalty of a motion that the sweep finds blocked
 LABEL_PRIOR = {  # [log-odds] added by a label to a hinge, to a rotation about the axis of a round outline, to a slide
     JointType.REVOLUTE: (1.5, -2.5, -2.0),
     JointType.PRISMATIC: (-2.0, -2.5, 2.0),
@@ -47,7 +47,7 @@ def rank_motions(question: MotionQuestion) -> MotionAnswer:
 
 def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
     """Return the log-odds of each candidate, with a penalty for blocked motions and a prior from the label."""
-    scores = question.scores + np.array([0.0 if c.is_free else BLOCKED for c in question.candidates])
+    scores = question.scores + np.array([0.0 if c.is_free else BLOCKED_SCORE for c in question.candidates])
     prior = LABEL_PRIOR.get(typical) if (typical := typical_motion(question.part.label)) else None
     if prior is None:
         return scores
@@ -72,7 +72,7 @@ def same_lines(part: PartFacts, candidates: Sequence[Candidate], best: int) -> B
     same = np.array([m.kind is motion.kind for m in motions])
     same &= np.abs(np.array([m.axis for m in motions]) @ motion.axis) >= SAME_AXIS_COSINE
     if motion.kind is JointType.REVOLUTE:
-        same &= motion.distance(np.array([m.origin for m in motions])) <= SAME_LINE * part.size
+        same &= motion.distance(np.array([m.origin for m in motions])) <= SAME_LINE_RATIO * part.size
     return same
 
 
@@ -93,7 +93,7 @@ def reason(part: PartFacts, c: Candidate) -> str:
     """Describe a motion in words."""
     if c.motion.kind is JointType.PRISMATIC:
         guided = f"guided on {round(4 * c.guided)} of 4 sides"
-        travel = c.sweep.forward if c.opening_sign > 0 else c.sweep.backward
+        travel = c.opening_sweep.forward
         return f"slides {c.slide_direction}, {guided}, free for {100 * travel:.1f} cm ({c.motion.source})"
     free = f"free {-round(np.degrees(c.closing))}..{round(np.degrees(c.opening))} deg"
     if c.role == "round":

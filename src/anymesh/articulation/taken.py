@@ -10,6 +10,7 @@ from anymesh.articulation.motion_classifier import PartMotionScores
 from anymesh.articulation.motion_question import SlideDirection
 from anymesh.articulation.offers import moves_as
 from anymesh.articulation.verify import Choice, words
+from anymesh.config import FACING_COSINE
 from anymesh.types import JointType, Motion
 from anymesh.vlm.prompting import JointAppearance
 
@@ -30,7 +31,7 @@ def opening_slide(case: PartCase) -> Motion:
     """
     around = case.around
     outward = around.opening_direction
-    directions = [s * a for a in around.body_obb.axes for s in (1.0, -1.0) if s * a @ outward > 0.5] + [outward]
+    directions = [s * a for a in around.body_obb.axes for s in (1.0, -1.0) if s * a @ outward > FACING_COSINE] + [outward]
     ways = [normal_outwards(case)] + [prismatic(d, around, "free way out") for d in directions]
     candidates = sweep_candidates(around, [("asked", way) for way in ways])[::2]
     normal = candidates[0]

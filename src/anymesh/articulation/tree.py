@@ -9,9 +9,9 @@ from jaxtyping import Float
 from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
 
 from anymesh.geometry.triangle_set import TriangleSet
-from anymesh.motion.part_context import MIN_SCALE_RATIO
+from anymesh.motion.part_context import MAX_PART_DIAGONALS, MIN_SCALE_RATIO
 
-TOUCHING_RATIO, MAX_PART_SIZES = 0.01, 5  # a part touches another within 1 % of the diagonal, at most of five times its size
+TOUCHING_RATIO = 0.01  # of the diagonal, or of MAX_PART_DIAGONALS of the part: a part touches another within this distance
 MAX_EXACT_GAP = 5.0  # of these distances: the gap of parts that are farther apart is that of their boxes
 MIN_CONTACT_SHARE = 0.03  # of the area of the smaller part: smaller contacts hardly differ from none
 ROOT_GAIN = 5.0  # contact with the root counts as much as a contact with another part that is this many times larger
@@ -24,7 +24,7 @@ def parents(shapes: list[TriangleSet], diagonal: float, answered: Sequence[set[i
     answered: the indices of possible parents of each part, which may be empty; the nearest touching one is used.
     """
     size = np.array([np.linalg.norm(np.ptp(s.bounds, axis=0)) for s in shapes])
-    reach = TOUCHING_RATIO * np.maximum(np.minimum(diagonal, MAX_PART_SIZES * size), MIN_SCALE_RATIO * diagonal)
+    reach = TOUCHING_RATIO * np.maximum(np.minimum(diagonal, MAX_PART_DIAGONALS * size), MIN_SCALE_RATIO * diagonal)
     named = _answered_parents(shapes, answered, reach) if answered else {}
     _, over = breadth_first_order(minimum_spanning_tree(_separations(shapes, reach)), 0, directed=False)
     parent = [-1, *(named.get(i, int(over[i])) for i in range(1, len(shapes)))]

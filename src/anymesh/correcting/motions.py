@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.articulation.estimate import joint_of, part_context, question_of_all_motions
+from anymesh.articulation.estimate import joint_of, question_of_all_motions
+from anymesh.articulation.part_contexts import part_context
 from anymesh.articulation.rank_motions import joint_type, motion_scores, reason
 from anymesh.config import Config
 from anymesh.correcting.corrections import ChooseMotion, vector

@@ -10,7 +10,7 @@ from jaxtyping import Bool, Float, Int
 from anymesh.types.triangles import bounds_of
 
 MAX_SIDE_DIFFERENCE_RATIO = 0.03  # maximum difference of the sides of copies, over the diagonal
-MIN_PARALLEL_COSINE = 0.99  # minimum cosine between the axes of copies
+MIN_COPY_COSINE = 0.99  # minimum cosine between the axes of copies
 
 
 @dataclass(frozen=True, eq=False)
@@ -40,7 +40,7 @@ class OrientedBox:
 def same_box(a: OrientedBox, b: OrientedBox) -> bool:
     """Return whether two boxes have equal sides along equal directions, as those of (mirrored) copies."""
     cosines = np.abs(a.axes @ b.axes.T)
-    if cosines.max(1).min() < MIN_PARALLEL_COSINE:
+    if cosines.max(1).min() < MIN_COPY_COSINE:
         return False
     return bool(np.abs(b.half[cosines.argmax(1)] - a.half).max() < MAX_SIDE_DIFFERENCE_RATIO * a.diagonal / 2)
 

@@ -19,7 +19,7 @@ from anymesh.types import Handle
 MIN_TAB_GAP_RATIO = 0.01  # of the tolerance length: a tab that is closer to the parent is a hinge barrel
 MAX_HANDLE_GROUPS = 2  # maximum number of separate protrusions of one handle
 # of the handle's height: maximum height of the face around a handle; around the top of a bulge it is higher
-MAX_BULGE_RATIO = 0.25
+MAX_RISE_RATIO = 0.25
 MIN_HANDLE_GAP_RATIO = 0.002  # of the tolerance length: a protrusion closer to the parent supports the part and is no handle
 MIN_HANDLE_ASPECT = 0.2  # minimum height of a handle over its smaller width
 MIN_HANDLE_HEIGHT_RATIO = 0.012  # minimum height of a handle over the part's diagonal
@@ -153,4 +153,4 @@ def _bulges(
     around = ((local[:, face] > low - margin) & (local[:, face] < high + margin)).all(1)
     around &= ~((local[:, face] >= low) & (local[:, face] <= high)).all(1)
     around &= part.samples.normals @ opening_direction > FACING_COSINE
-    return bool(around.any() and (above[around] > MAX_BULGE_RATIO * height).mean() > 0.5)
+    return bool(around.any() and (above[around] > MAX_RISE_RATIO * height).mean() > 0.5)

@@ -22,7 +22,9 @@ from anymesh.types import Handle, JointType, Motion
 
 DOWNWARD_PENALTY = 0.4  # subtracted from the score of a downward direction, since most objects stand on something
 CONTACT_REACHES = (0.08, 0.2)  # of the link's diagonal: its contact with the parent is within this distance
-MAX_CONTACT_POINTS = 400  # sample points of the surfaces in contact
+MAX_SURFACE_POINTS = 400  # sample points of the surfaces in contact
+MIN_ROUNDNESS = 0.5  # minimum roundness of the outline of a round part
+MAX_PART_DIAGONALS = 5  # lengths are compared with the object's diagonal, but with at most this many diagonals of the part
 MIN_SCALE_RATIO = 1e-9  # of the diagonal: keeps tolerances positive for a part that is a point
 
 
@@ -36,7 +38,7 @@ class PartContext:
     part: TriangleSet
     parent: TriangleSet
     rest: TriangleSet  # static while the part moves
-    others: TriangleSet | None  # the other movable parts together
+    other_surface: TriangleSet | None  # the other movable parts together
     without_part: TriangleSet  # the object without what moves
     barrel_candidates: tuple[TriangleSet, ...]  # long thin patches that may be hinge barrels
     diagonal: float
@@ -71,8 +73,8 @@ class PartContext:
 
     @cached_property
     def tolerance_length(self) -> float:
-        """Return the reference length of tolerances [m]: the object's diagonal, limited to five diagonals of the part."""
-        return max(min(self.diagonal, 5 * self.part.box.diagonal), MIN_SCALE_RATIO * self.diagonal)
+        """Return the reference length of tolerances [m]: the object's diagonal, limited to MAX_PART_DIAGONALS of the part."""
+        return max(min(self.diagonal, MAX_PART_DIAGONALS * self.part.box.diagonal), MIN_SCALE_RATIO * self.diagonal)
 
     @cached_property
     def insertion_depth(self) -> float:
@@ -114,7 +116,7 @@ class PartContext:
         if motion.kind is not JointType.PRISMATIC:
             return self.obstacles_of_hinges
         along_surface = abs(float(motion.axis @ self.opening_direction)) <= ALONG_COSINE
-        return self.obstacles_at_rest if along_surface else self.obstacles
+        return self.obstacles_with_others if along_surface else self.obstacles
 
     @cached_property
     def penetration(self) -> float:
@@ -122,7 +124,7 @@ class PartContext:
         return self.config.penetration * self.tolerance_length
 
     @cached_property
-    def obstacles_at_rest(self) -> Obstacles:
+    def obstacles_with_others(self) -> Obstacles:
         """Return the obstacles with the other movable parts at rest, which guide a part sideways."""
         return Obstacles(self.part, self.without_part, self.penetration)
 
@@ -131,6 +133,11 @@ class PartContext:
         """Return the roundest outline of the part among those along its box axes."""
         points = np.concatenate([self.part.corners, self.part.samples.points])
         return roundest(points, self.part.box.axes[::-1])
+
+    @property
+    def is_round(self) -> bool:
+        """Return whether the outline of the part is about a circle."""
+        return self.outline.roundness > MIN_ROUNDNESS
 
     def outline_about(self, axis: Float[np.ndarray, " 3"]) -> Outline:
         """Return the outline of the part's samples about an axis, computed once for parallel lines."""
@@ -176,28 +183,25 @@ class PartContext:
         theirs = theirs.take(np.flatnonzero(((theirs.points > low) & (theirs.points < high)).all(1)))
         off = self.parent.tree.distance(link.samples.points), link.tree.distance(theirs.points)
         surfaces = [link.samples.take(off[0] < r).joined(theirs.take(off[1] < r)) for r in reach]
-        return tuple(s.take(np.arange(0, len(s), -(-len(s) // MAX_CONTACT_POINTS) or 1)) for s in surfaces)
+        return tuple(s.take(np.arange(0, len(s), -(-len(s) // MAX_SURFACE_POINTS) or 1)) for s in surfaces)
 
     def facing(self, direction: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " n"]:
         """Return how far each sample of the part faces along a unit direction, -1..1; open sheets face both ways."""
         along = self.part.samples.normals @ direction
         return np.where(self.part.solid[self.part.samples.faces], along, np.abs(along))
 
-    def sees_outside(self, direction: Float[np.ndarray, " 3"]) -> Bool[np.ndarray, " n"]:
-        """Return which samples of the part have a free line of sight along `direction`."""
-        return self._sees(self.part.samples.points[::6], direction)
-
-    def _sees(self, points: np.ndarray, direction: np.ndarray) -> np.ndarray:
-        start = points + 1e-4 * self.diagonal * direction
-        rays = np.repeat(direction[None] * 4 * self.diagonal, len(start), 0)
-        return self.rest.scene.first_hit(start, rays, 1.0).face < 0
+    def sees(self, points: Float[np.ndarray, "n 3"], directions: Float[np.ndarray, "h 3"]) -> Bool[np.ndarray, "h n"]:
+        """Return which points [m] have a free line of sight past the static geometry along each unit direction."""
+        start = (points[None] + 1e-4 * self.diagonal * directions[:, None]).reshape(-1, 3)
+        rays = np.repeat(4 * self.diagonal * directions, len(points), 0)
+        return (self.rest.scene.first_hit(start, rays, 1.0).face < 0).reshape(len(directions), len(points))
 
     def _open_face(self, direction: np.ndarray) -> float:
         """Return the visible share of the surface facing `direction`, or of the whole surface if hardly any faces it."""
         points = self.part.samples.points
         faces = np.flatnonzero(self.facing(direction) > FACING_COSINE)
         points = points[faces] if len(faces) > 0.02 * len(points) else points
-        return float(self._sees(points[:: max(1, len(points) // 500)], direction).mean())
+        return float(self.sees(points[:: max(1, len(points) // 500)], direction[None]).mean())
 
     @cached_property
     def opening_directions(self) -> tuple[Float[np.ndarray, "6 3"], Float[np.ndarray, " 6"]]:
@@ -232,7 +236,7 @@ class PartContext:
     @cached_property
     def visibility(self) -> float:
         """Return the share of the part that is visible along the opening direction."""
-        return float(self.sees_outside(self.opening_direction).mean())
+        return float(self.sees(self.part.samples.points[::6], self.opening_direction[None]).mean())
 
     @cached_property
     def handle(self) -> Handle | None:

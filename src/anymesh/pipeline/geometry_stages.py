@@ -7,7 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
-from anymesh.articulation.estimate import PartMotions, choose_motion, estimate_joints, motion_questions, relabelled
+from anymesh.articulation.estimate import PartMotions, choose_motion, estimate_joints, motion_questions, with_labels_of
 from anymesh.articulation.part_labels import label_of
 from anymesh.config import Config
 from anymesh.deadline import Deadline
@@ -78,7 +78,7 @@ class GeometryStages:
             motions = motion_questions(self.shape_for(segmentation), segmentation, self.config, self.deadline)
             self._swept = faces, list(_with_progress(motions, segmentation, progress))
             return self._swept[1]
-        return list(_with_progress(relabelled(self._swept[1], segmentation), segmentation, progress))
+        return list(_with_progress(with_labels_of(segmentation, self._swept[1]), segmentation, progress))
 
     def shape_for(self, segmentation: Segmentation) -> ObjectShape:
         """Return the object's shape, simplified so that no face lies in two of these parts."""
@@ -101,5 +101,5 @@ class GeometryStages:
 def _with_progress(swept: Iterable[PartMotions], segmentation: Segmentation, progress: Progress) -> Iterator[PartMotions]:
     """Report progress for each part."""
     for done, motions in enumerate(swept):
-        progress("joints", segmentation.parts[motions[0]].name, done, len(segmentation.parts) - 1)
+        progress("joints", segmentation.parts[motions.part].name, done, len(segmentation.parts) - 1)
         yield motions

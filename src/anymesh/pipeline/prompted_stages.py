@@ -13,11 +13,12 @@ from anymesh.pipeline.results import JointResult, RecognitionResult, Segmentatio
 from anymesh.progress import Progress, silent
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.ask_marks import MarkQuestioner
+from anymesh.segmentation.cloud import seen_points
 from anymesh.segmentation.ground_exact import ground_exactly
 from anymesh.segmentation.ground_masks import ground_by_masks
 from anymesh.segmentation.grounded import ground_parts
 from anymesh.segmentation.grounded_parts import EXACT, Ground, SampledObject, sample_object
-from anymesh.segmentation.hidden import MIN_RECOGNITION_PATCH_RATIO, inner_faces, seen_points
+from anymesh.segmentation.hidden import MIN_RECOGNITION_PATCH_RATIO, inner_faces
 from anymesh.segmentation.regrounding import ground_again
 from anymesh.types import Picture, Segmentation
 from anymesh.types.recognition import Recognition

@@ -23,7 +23,7 @@ from anymesh.vlm.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichView
 from anymesh.vlm.pictures import DrawnPictures
 
 INSIDE = "inside"  # prefix of the names of pictures of the inside
-MAX_PICTURES = 16  # pictures per call
+MAX_MARK_PICTURES = 16  # pictures per call
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,10 +97,10 @@ def _in_calls(
     splittable: bool,
     again: tuple[str, ...],
 ) -> MarksAnswer:
-    """Ask about all pictures, MAX_PICTURES per call, without repeating marks that earlier calls asked about."""
+    """Ask about all pictures, MAX_MARK_PICTURES per call, without repeating marks that earlier calls asked about."""
     parts, unsure, split, done = earlier_parts, set[int](), set[int](), set[int]()
-    for begin in range(0, len(shown), MAX_PICTURES):
-        some = [p for p in (p.without(done) for p in shown[begin : begin + MAX_PICTURES]) if p.drawn]
+    for begin in range(0, len(shown), MAX_MARK_PICTURES):
+        some = [p for p in (p.without(done) for p in shown[begin : begin + MAX_MARK_PICTURES]) if p.drawn]
         if not some:
             continue
         answer = questioner.answerer.ask(
@@ -138,16 +138,16 @@ def ask_masks(
 ) -> tuple[MarkedPart, ...]:
     """Ask about masks that are numbered separately in each view.
 
-    The first question asks which labels each view shows, the others which marks belong to which part, for MAX_PICTURES views
-    each. Parts of different calls have different instance numbers, since no call shows the pictures of another.
+    The first question asks which labels each view shows, the others which marks belong to which part, for MAX_MARK_PICTURES
+    views each. Parts of different calls have different instance numbers, since no call shows the pictures of another.
     """
     plain = DrawnPictures(lambda: questioner.visual_prompts.pictures([v.color for v in seen], names))
     seen_in = questioner.answerer.ask(WhichViews(plain, questioner.labels, tuple(v.face for v in seen), questioner.category))
     chosen = sorted({k for view_indices in seen_in.values() for k in view_indices})
     labels = tuple(label for label, view_indices in seen_in.items() if view_indices)
     parts: list[MarkedPart] = []
-    for begin in range(0, len(chosen), MAX_PICTURES):
-        some, last = chosen[begin : begin + MAX_PICTURES], max((p.instance for p in parts), default=0)
+    for begin in range(0, len(chosen), MAX_MARK_PICTURES):
+        some, last = chosen[begin : begin + MAX_MARK_PICTURES], max((p.instance for p in parts), default=0)
         marked = _in_views(questioner, labels, [proposals[k] for k in some], [seen[k] for k in some], [names[k] for k in some])
         parts += [replace(p, view=some[p.view], instance=last + p.instance) for p in marked if p.view is not None]
     return tuple(parts)

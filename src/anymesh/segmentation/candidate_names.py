@@ -33,9 +33,9 @@ def name_class(name: str) -> NameClass:
     return NameClass.HANDLE if word.label == "handle" else NameClass.MOVABLE
 
 
-def shared_name(candidates: PartCandidates, group: int) -> str:
+def shared_name(candidates: PartCandidates, candidate: int) -> str:
     """Return the recognized name shared by all patches of a candidate, or the words that all their names begin with."""
-    names = {candidates.names[p] for p in np.flatnonzero(candidates.members[group])}
+    names = {candidates.names[p] for p in np.flatnonzero(candidates.members[candidate])}
     if len(names) == 1:
         return names.pop()
     # the common prefix of the first and last name in order is common to all

@@ -9,14 +9,14 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.config import ViewsConfig
 from anymesh.rendering.render import View
-from anymesh.segmentation.cloud import Cloud, sight
+from anymesh.segmentation.cloud import Cloud, seen_points
 from anymesh.types.camera import Camera
 
 MAX_CLOSE_UPS = 8  # close-ups per object; each adds a picture to a question
 MIN_AREA_PX, MIN_WIDTH_PX = 250.0, 4.0  # [px, px across] in a 640 px view: regions below either are too small to judge
 LEGIBLE_AREA_PX, LEGIBLE_WIDTH_PX = 1500.0, 12.0  # [px, px across] size that a close-up should give such regions
 MIN_ZOOM = 2.0  # minimum magnification of a close-up
-MIN_VISIBLE_SHARE = 0.1  # share of a region's surface that views must see; less is a glimpse through a gap
+MIN_CLOSE_UP_SHARE = 0.1  # share of a region's surface that views must see; less is a glimpse through a gap
 WINDOW = 0.8  # share of the close-up's side that holds the centers of its regions
 
 
@@ -25,13 +25,12 @@ def close_ups(
     cloud: Cloud,
     views: Sequence[View],
     pictures: ViewsConfig | None = None,
-    small: float = MIN_AREA_PX,
 ) -> tuple[Camera, ...]:
     """Return at most MAX_CLOSE_UPS cameras for regions that are too small in every view.
 
     The smallest regions come first. Each camera stands where one of the views does and covers as many small regions as fit.
 
-    region: index of each face, -1 for none; small: size below which a region is small [px in a 640 px view].
+    region: index of each face, -1 for none.
     """
     pictures = pictures or ViewsConfig()
     size, across, middle = _shown(region, views)
@@ -39,7 +38,7 @@ def close_ups(
     zoom = np.sqrt(LEGIBLE_AREA_PX * scale**2 / np.maximum(size, 1))
     zoom = np.maximum(zoom, np.where(across < MIN_WIDTH_PX * scale, LEGIBLE_WIDTH_PX * scale / np.maximum(across, 0.1), 0))
     zoom = np.clip(zoom, MIN_ZOOM, pictures.zoom_size / pictures.size)
-    little = (size < small * scale**2).all(0) | (across < MIN_WIDTH_PX * scale).all(0)
+    little = (size < MIN_AREA_PX * scale**2).all(0) | (across < MIN_WIDTH_PX * scale).all(0)
     open_to = little & (size > 0).any(0) & _open(region, cloud, views)
     cameras: list[Camera] = []
     while open_to.any() and len(cameras) < MAX_CLOSE_UPS:
@@ -80,13 +79,11 @@ def _shown(
 
 
 def _open(region: np.ndarray, cloud: Cloud, views: Sequence[View]) -> Bool[np.ndarray, " R"]:
-    """Return the regions of which the views see at least MIN_VISIBLE_SHARE of the surface."""
-    seen = np.zeros(len(cloud), bool)
-    for view in views:
-        seen[sight(cloud, view).points] = True
+    """Return the regions of which the views see at least MIN_CLOSE_UP_SHARE of the surface."""
+    seen = seen_points(cloud, views)
     own = region[cloud.faces]
     count = int(region.max()) + 1
-    return np.bincount(own[seen & (own >= 0)], minlength=count) >= MIN_VISIBLE_SHARE * np.maximum(
+    return np.bincount(own[seen & (own >= 0)], minlength=count) >= MIN_CLOSE_UP_SHARE * np.maximum(
         np.bincount(own[own >= 0], minlength=count), 1
     )
 

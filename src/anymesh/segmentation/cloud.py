@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -167,10 +168,11 @@ def _absorb_small(label: np.ndarray, weight: np.ndarray, edges: np.ndarray, min_
         label = label_connected(count, np.stack([key[best] // count, key[best] % count], 1))[label]
 
 
-def visible(cloud: Cloud, view: View) -> Bool[np.ndarray, " n"]:
-    """Return which points the view shows: those whose pixel shows their face or their depth."""
+def seen_points(cloud: Cloud, views: Sequence[View]) -> Bool[np.ndarray, " n"]:
+    """Return which points of the cloud some view shows."""
     shown = np.zeros(len(cloud), bool)
-    shown[sight(cloud, view).points] = True
+    for view in views:
+        shown[sight(cloud, view).points] = True
     return shown
 
 

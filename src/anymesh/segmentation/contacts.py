@@ -17,7 +17,7 @@ from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.segmentation.dominators import NONE, immediate_dominators
 from anymesh.segmentation.patch_gaps import area_in_contact, crosses, gap_within
 
-MIN_FLATNESS = 0.6  # minimum length of the mean unit normal of a flat sheet with its handle; 1 is plane
+MIN_SHEET_FLATNESS = 0.6  # minimum length of the mean unit normal of a flat sheet with its handle; 1 is plane
 MIN_PLATE_ASPECT = 0.3  # minimum width over length of a plate; planks are narrower
 MIN_ALIGNED_COSINE = 0.95  # minimum cosine between the normals of sheets that face the same way
 MAX_CLEARANCE_FACTOR = 2.0  # neighbours of a set of touching patches lie within this many times its smallest clearance
@@ -146,7 +146,7 @@ def _in_one_sheet(a: TriangleSet, b: TriangleSet) -> bool:
     """Return whether both are sheets that face the same way."""
     mean = [s.areas @ s.normals / max(s.area, 1e-300) for s in (a, b)]
     length = [float(np.linalg.norm(m)) for m in mean]
-    return min(length) > MIN_FLATNESS and bool(mean[0] @ mean[1] > MIN_ALIGNED_COSINE * length[0] * length[1])
+    return min(length) > MIN_SHEET_FLATNESS and bool(mean[0] @ mean[1] > MIN_ALIGNED_COSINE * length[0] * length[1])
 
 
 def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[tuple[int, int]]:

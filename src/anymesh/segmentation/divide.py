@@ -14,8 +14,8 @@ from anymesh.geometry.sampling import spread_points
 from anymesh.geometry.seams import divide_at_seams
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import MeshSurface, mesh_surface
-from anymesh.segmentation.handles import region_sizes
 from anymesh.segmentation.panels import split_panels
+from anymesh.segmentation.surface_regions import region_sizes
 from anymesh.types import Mesh
 
 SEAM_POINTS = 40_000  # samples of the dense components for their seams

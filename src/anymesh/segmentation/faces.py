@@ -12,6 +12,7 @@ from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.segmentation.cloud import Cloud
 from anymesh.segmentation.fuse import Instances
+from anymesh.segmentation.surface_regions import patch_sizes
 from anymesh.segmentation.unseen import UNSEEN, StaysFree, join_unseen
 from anymesh.types import Mesh
 
@@ -59,11 +60,7 @@ def face_parts(
 
 def _cuttable(mesh: Mesh, whole: ObjectShape, config: Config) -> Bool[np.ndarray, " P"]:
     """Return the patches that may hold several parts: those of a fused surface, and large ones."""
-    count = int(whole.mesh_patch.max()) + 1
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, whole.mesh_patch, mesh.triangles.min(1))
-    np.maximum.at(high, whole.mesh_patch, mesh.triangles.max(1))
-    large = np.linalg.norm(high - low, axis=1) > config.patches.fused_size * whole.diagonal
+    large = patch_sizes(mesh, whole) > config.patches.fused_size * whole.diagonal
     large[whole.shared.reshape(-1)] = True
     return large
 

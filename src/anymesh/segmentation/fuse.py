@@ -32,9 +32,9 @@ class Counts:
     """Point counts of one view.
 
     seen: visible points of each superpoint; inside: how many of these lie in each mask; top: the same with each pixel counted
-    for its smallest mask, where the last column counts points in no mask; points: indices of the visible points; box: least and
-    largest column and row of each superpoint's visible points [px], infinite if there are none; mask_box: the same of each
-    mask; labels, instances: of the masks.
+    for its smallest mask, where the last column counts points in no mask; box: least and largest column and row of each
+    superpoint's visible points [px], infinite if there are none; mask_box: the same of each mask; labels, instances: of the
+    masks.
     """
 
     seen: Int[np.ndarray, " S"]
@@ -44,7 +44,6 @@ class Counts:
     mask_box: Float[np.ndarray, "M 4"]
     labels: tuple[str, ...]
     instances: tuple[int, ...]
-    points: Int[np.ndarray, " k"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +99,7 @@ def count_points(cloud: Cloud, view: View, masks: Sequence[Mask], config: Ground
     return Counts(
         np.bincount(label, minlength=cloud.count), inside, top.reshape(cloud.count, columns), box,
         np.array([_pixel_box(m.pixels) for m in kept]).reshape(-1, 4),
-        tuple(m.label for m in kept), tuple(m.instance for m in kept), visible.points,
+        tuple(m.label for m in kept), tuple(m.instance for m in kept),
     )  # fmt: skip
 
 

@@ -8,9 +8,10 @@ import numpy as np
 
 from anymesh.progress import Progress
 from anymesh.segmentation.ask_marks import MarkAnswers, MarkQuestioner, ask_exact
+from anymesh.segmentation.cloud import seen_points
 from anymesh.segmentation.faces import mark_parts
 from anymesh.segmentation.grounded_parts import SURE, UNSURE, GroundedParts, SampledObject, shown_views
-from anymesh.segmentation.hidden import seen_points, unseen_patches
+from anymesh.segmentation.hidden import unseen_patches
 from anymesh.segmentation.regions import face_regions, number_regions, split_marks
 from anymesh.segmentation.unseen import StaysFree
 

@@ -13,11 +13,11 @@ from anymesh.progress import Progress
 from anymesh.rendering.render import View
 from anymesh.rendering.viewpoints import normal_picture
 from anymesh.segmentation.ask_marks import MarkQuestioner, ask_masks
+from anymesh.segmentation.cloud import seen_points
 from anymesh.segmentation.em import refine_instances
 from anymesh.segmentation.faces import face_parts, point_parts
 from anymesh.segmentation.fuse import count_points, fuse_masks, marked_masks
 from anymesh.segmentation.grounded_parts import EXACT, SURE, GroundedParts, SampledObject, shown_views
-from anymesh.segmentation.hidden import seen_points
 from anymesh.segmentation.mask_instances import join_numbered, lost_parts
 from anymesh.segmentation.propose import Proposal, propose_masks
 from anymesh.segmentation.regions import face_regions, number_regions
@@ -42,7 +42,7 @@ def ground_by_masks(
     region = face_regions(whole, cloud)
     shown = shown_views(sampled, questioner, region, front)
     progress("segment", "masks", 1, 4)
-    proposals = propose(region, whole.diagonal, shown.views, segmenter, config)
+    proposals = propose_in_views(region, whole.diagonal, shown.views, segmenter, config)
     progress("segment", "marks", 2, 4)
     marked = ask_masks(questioner, proposals, shown.views, shown.names) if questioner.labels else ()
     progress("segment", "fusion", 3, 4)
@@ -62,7 +62,7 @@ def ground_by_masks(
     )  # fmt: skip
 
 
-def propose(
+def propose_in_views(
     region: Int[np.ndarray, " F"], diagonal: float, seen: Sequence[View], segmenter: PromptedSegmenter, config: Config
 ) -> tuple[Proposal, ...]:
     """Return the segmenter's masks of the colour and normal picture of each view, with exact regions for `exact+sam:...`."""

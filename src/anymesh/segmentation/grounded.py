@@ -11,8 +11,9 @@ from anymesh.progress import Progress, silent
 from anymesh.segmentation.ask_marks import MarkQuestioner
 from anymesh.segmentation.faces import MIN_SEEN_SHARE
 from anymesh.segmentation.grounded_parts import Ground, SampledObject
-from anymesh.segmentation.hidden import MIN_INNER_PATCH_RATIO, add_hidden_parts, patch_sizes
+from anymesh.segmentation.hidden import MIN_INNER_PATCH_RATIO, add_hidden_parts
 from anymesh.segmentation.naming import named_parts
+from anymesh.segmentation.surface_regions import patch_sizes
 from anymesh.segmentation.unseen import StaysFree
 from anymesh.types import JointType, Segmentation
 from anymesh.types.recognition import Recognition
@@ -53,7 +54,9 @@ def ground_parts(
     )
     inside: tuple[str, ...] = ()
     left = grounded.unseen & (grounded.face_part == 0)  # unseen faces left over by an answerer that was shown the inside
-    left &= (patch_sizes(mesh, whole) >= MIN_INNER_PATCH_RATIO)[whole.mesh_patch]  # smaller ones are gaps and creases
+    left &= (patch_sizes(mesh, whole) >= MIN_INNER_PATCH_RATIO * whole.diagonal)[
+        whole.mesh_patch
+    ]  # smaller ones are gaps and creases
     # the user gave the labels; otherwise the answerer was shown the inside and asked what moves there
     by_user = recognition.size is None
     if labels and by_user and mesh.face_areas[left].sum() > MIN_SEEN_SHARE * mesh.face_areas[grounded.unseen].sum():

@@ -14,8 +14,8 @@ from anymesh.progress import Progress
 from anymesh.rendering.render import View
 from anymesh.segmentation.ask_marks import MarkQuestioner
 from anymesh.segmentation.close_ups import close_ups
-from anymesh.segmentation.cloud import Cloud, sample_cloud
-from anymesh.segmentation.hidden import inner_faces, seen_points, unseen_patches
+from anymesh.segmentation.cloud import Cloud, sample_cloud, seen_points
+from anymesh.segmentation.hidden import inner_faces, unseen_patches
 from anymesh.segmentation.unseen import StaysFree
 from anymesh.types import Mesh
 

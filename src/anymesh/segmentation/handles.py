@@ -11,6 +11,7 @@ from anymesh.geometry.boxes import OrientedBox, fit_box
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import MeshSurface
+from anymesh.segmentation.surface_regions import is_main_component, region_sizes
 
 MIN_BAR_ASPECT = 2.0  # minimum length of a bar over its larger width
 MAX_BAR_LENGTH_RATIO = 0.6  # of the diagonal: maximum length of a bar
@@ -18,13 +19,14 @@ MAX_KNOB_SIZE_RATIO = 0.08  # of the diagonal: maximum size of a knob
 MAX_HANDLE_AREA_RATIO = 0.04  # maximum share of a handle in the surface
 MIN_HANDLE_SIZE_RATIO = 0.006  # of the diagonal: minimum height and width of a handle
 MIN_HEIGHT_WIDTH_RATIO = 0.4  # of the covered width: minimum height of a handle; flatter protrusions are mouldings
-SHEET = 0.6  # length of its mean normal above which a protrusion is a strip; 1/2 for half a ball, 1/3 for a bar on a face
-FLAT = 0.5  # minimum length of the mean normal around the foot of a handle; 1 is plane
-ALIGNED = 0.94  # minimum cosine between equal directions
-MIN_MAIN_COMPONENT_RATIO = 0.8  # share of the surface above which one region covers almost all of it
+MAX_HANDLE_FLATNESS = (
+    0.6  # length of its mean normal above which a protrusion is a strip; 1/2 for half a ball, 1/3 for a bar on a face
+)
+MIN_FOOT_FLATNESS = 0.5  # minimum length of the mean normal around the foot of a handle; 1 is plane
+MIN_ALIGNED_COSINE = 0.94  # minimum cosine between equal directions
 MAX_HANDLE_GAP_RATIO = 0.02  # of the diagonal: maximum distance of a handle from its host
 TOUCH = 0.003  # of the diagonal: the foot of a separate handle is within this distance of its closest point
-CORNERS = 2000  # corners of a handle used to fit its box
+MAX_CORNERS = 2000  # corners of a handle used to fit its box
 
 
 @dataclass(frozen=True, eq=False)
@@ -95,20 +97,20 @@ def _near(whole: MeshSurface, faces: np.ndarray, host: np.ndarray) -> Int[np.nda
 
 def _corners(whole: MeshSurface, faces: np.ndarray) -> np.ndarray:
     points = whole.shape.triangles[faces].reshape(-1, 3)
-    return points[:: max(1, len(points) // CORNERS)]
+    return points[:: max(1, len(points) // MAX_CORNERS)]
 
 
 def _surface_handle(whole: MeshSurface, faces: np.ndarray, host: int, foot: np.ndarray) -> SurfaceHandle | None:
     """Return these faces as a handle on the host region, None if they are none."""
     mean = whole.shape.areas[foot] @ whole.shape.normals[foot]
-    if np.linalg.norm(mean) < FLAT * whole.shape.areas[foot].sum():
+    if np.linalg.norm(mean) < MIN_FOOT_FLATNESS * whole.shape.areas[foot].sum():
         return None
     normal = mean / max(float(np.linalg.norm(mean)), 1e-300)
     level = float(np.median(whole.shape.triangles[foot].mean(1) @ normal))
     points = _corners(whole, faces)
     out = float((points @ normal).max()) - level
     turned = np.linalg.norm(whole.shape.areas[faces] @ whole.shape.normals[faces])
-    if out < MIN_HANDLE_SIZE_RATIO * whole.diagonal or turned > SHEET * whole.shape.areas[faces].sum():
+    if out < MIN_HANDLE_SIZE_RATIO * whole.diagonal or turned > MAX_HANDLE_FLATNESS * whole.shape.areas[faces].sum():
         return None
     box = fit_box(points, whole.shape.normals[faces], whole.shape.areas[faces])
     bar = _is_bar(box, normal)
@@ -122,26 +124,11 @@ def _surface_handle(whole: MeshSurface, faces: np.ndarray, host: int, foot: np.n
 
 def _is_bar(box: OrientedBox, normal: np.ndarray) -> bool:
     """Return whether a handle is long and parallel to the face that it is on."""
-    return bool(box.half[0] >= MIN_BAR_ASPECT * box.half[1] and abs(box.axes[0] @ normal) < np.sqrt(1 - ALIGNED**2))
+    return bool(box.half[0] >= MIN_BAR_ASPECT * box.half[1] and abs(box.axes[0] @ normal) < np.sqrt(1 - MIN_ALIGNED_COSINE**2))
 
 
 def aligned(a: SurfaceHandle, b: SurfaceHandle) -> bool:
     """Return whether both are knobs, or parallel or perpendicular bars."""
     if a.axis is None or b.axis is None:
         return a.axis is b.axis
-    return bool(max(abs(a.axis @ b.axis), abs(a.axis @ np.cross(b.normal, b.axis))) > ALIGNED)
-
-
-def is_main_component(whole: MeshSurface, region: Int[np.ndarray, " F"], number: int) -> bool:
-    """Return whether one region covers almost all of the surface."""
-    return float(whole.shape.areas[region == number].sum()) > MIN_MAIN_COMPONENT_RATIO * whole.shape.area
-
-
-def region_sizes(whole: MeshSurface, region: Int[np.ndarray, " F"]) -> Float[np.ndarray, " n"]:
-    """Return the diagonal of the axis-aligned box of each region [m]."""
-    count = int(region.max()) + 1
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    for k in range(3):  # one axis at a time: numpy is ten times as fast on flat arrays
-        np.minimum.at(low[:, k], region, whole.shape.lowest[:, k])
-        np.maximum.at(high[:, k], region, whole.shape.highest[:, k])
-    return np.linalg.norm(high - low, axis=1)
+    return bool(max(abs(a.axis @ b.axis), abs(a.axis @ np.cross(b.normal, b.axis))) > MIN_ALIGNED_COSINE)

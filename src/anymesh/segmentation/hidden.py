@@ -2,31 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.geometry.patches import ObjectShape
-from anymesh.rendering.render import View
-from anymesh.segmentation.cloud import Cloud, sight
+from anymesh.segmentation.cloud import Cloud
 from anymesh.segmentation.faces import MIN_SEEN_SHARE
 from anymesh.segmentation.naming import named_parts
+from anymesh.segmentation.surface_regions import patch_sizes
 from anymesh.types import Mesh, Segmentation
 
 MAX_SEEN_SHARE = 0.25  # patches up to this visible share of the surface count as mostly hidden
 MIN_INNER_PATCH_RATIO = 0.05  # of the object's diagonal: hidden patches with a smaller diagonal are not shown
 # of the object's diagonal: minimum size of a hidden patch for the inside to be shown when the object is recognized
 MIN_RECOGNITION_PATCH_RATIO = 0.1
-
-
-def seen_points(cloud: Cloud, views: Sequence[View]) -> Bool[np.ndarray, " n"]:
-    """Return which points of the cloud some view shows."""
-    shown = np.zeros(len(cloud), bool)
-    for view in views:
-        shown[sight(cloud, view).points] = True
-    return shown
 
 
 def unseen_patches(
@@ -45,19 +36,10 @@ def inner_faces(
 
     Return no faces if no hidden patch has a diagonal of at least `min_size`, a share of the object's.
     """
-    hidden, size = unseen_patches(whole, cloud, shown, MAX_SEEN_SHARE), patch_sizes(mesh, whole)
+    hidden, size = unseen_patches(whole, cloud, shown, MAX_SEEN_SHARE), patch_sizes(mesh, whole) / whole.diagonal
     if not (hidden & (size >= min_size)).any():
         return np.zeros(len(whole.mesh_patch), bool)
     return (hidden & (size >= MIN_INNER_PATCH_RATIO))[whole.mesh_patch]
-
-
-def patch_sizes(mesh: Mesh, whole: ObjectShape) -> Float[np.ndarray, " P"]:
-    """Return the diagonal of each patch over that of the object."""
-    count = int(whole.mesh_patch.max()) + 1
-    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
-    np.minimum.at(low, whole.mesh_patch, mesh.triangles.min(1))
-    np.maximum.at(high, whole.mesh_patch, mesh.triangles.max(1))
-    return np.linalg.norm(high - low, axis=1) / whole.diagonal
 
 
 def add_hidden_parts(

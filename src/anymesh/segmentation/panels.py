@@ -10,13 +10,14 @@ from anymesh.config import FACING_COSINE
 from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import MeshSurface
-from anymesh.segmentation.handles import ALIGNED, SurfaceHandle, aligned, find_handles, is_main_component, region_sizes
+from anymesh.segmentation.handles import MIN_ALIGNED_COSINE, SurfaceHandle, aligned, find_handles
 from anymesh.segmentation.layout import filled, tile
+from anymesh.segmentation.surface_regions import is_main_component, region_sizes
 
 MAX_BEND_DEG = 40.0  # [deg] maximum bend of a face
-MAX_BULGE_RATIO = 0.06  # of the diagonal: maximum bulge of a face
+MAX_FACE_BULGE_RATIO = 0.06  # of the diagonal: maximum bulge of a face
 # minimum length of the mean normal of a face; 0.92 is a part of a cylinder with the maximum bend, 1 is plane
-MIN_FLATNESS = 0.96
+MIN_FACE_FLATNESS = 0.96
 PLANE_FITS = 3  # iterations of the fit of a face's plane
 MIN_KNOB_FACE_RATIO = 0.3  # of a side of the object: minimum size of a face that has panels with knobs
 MAX_PANEL_THICKNESS_RATIO = 0.35  # maximum thickness over smaller side of a region that is already a panel
@@ -60,7 +61,7 @@ def _of_a_kind(whole: MeshSurface, faces: np.ndarray, handles: list[SurfaceHandl
     object they are feet. Round surfaces have none.
     """
     normal = whole.shape.areas[faces] @ whole.shape.normals[faces]
-    if np.linalg.norm(normal) < MIN_FLATNESS * whole.shape.areas[faces].sum():
+    if np.linalg.norm(normal) < MIN_FACE_FLATNESS * whole.shape.areas[faces].sum():
         return []
     bars = [g for g in handles if g.axis is not None]
     if bars:
@@ -82,7 +83,7 @@ def _face_of(whole: MeshSurface, region: np.ndarray, handle: SurfaceHandle) -> I
     face = np.zeros(0, np.int64)
     for _ in range(PLANE_FITS):
         flat = (whole.shape.normals @ normal > np.cos(np.deg2rad(MAX_BEND_DEG))) & (region == handle.region)
-        flat &= np.abs(centers @ normal - level) < MAX_BULGE_RATIO * whole.diagonal
+        flat &= np.abs(centers @ normal - level) < MAX_FACE_BULGE_RATIO * whole.diagonal
         label = label_connected(len(flat), pairs[flat[pairs].all(1)])
         area = np.bincount(label, np.where(flat, areas, 0))
         mine = np.unique(label[handle.foot])
@@ -160,7 +161,7 @@ def _through(whole: MeshSurface, region: np.ndarray, new: int) -> None:
     hits = whole.shape.scene.first_hit(start, rays, float(thin.max()))
     seen = np.flatnonzero(hits.face >= 0)
     panel = region[hits.face[seen]] - new
-    facing = np.einsum("ij,ij->i", whole.shape.normals[hits.face[seen]], rays[seen]) > ALIGNED
+    facing = np.einsum("ij,ij->i", whole.shape.normals[hits.face[seen]], rays[seen]) > MIN_ALIGNED_COSINE
     mine = (panel >= 0) & facing & (hits.distance[seen] < thin[np.maximum(panel, 0)])
     region[back[seen[mine]]] = panel[mine] + new
 

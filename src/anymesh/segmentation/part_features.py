@@ -7,14 +7,14 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.config import Config
+from anymesh.config import FACING_COSINE, Config
 from anymesh.motion.part_context import PartContext
 from anymesh.segmentation.part_candidates import PartCandidates
 from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, on_axis, touching, two_pivots
 from anymesh.segmentation.part_freedom import blocked_shares, exposure, space_behind
+from anymesh.segmentation.rigid_groups import AT_BORDER
 from anymesh.types import Mesh
 
-AT_BORDER = 0.02  # of the diagonal: a candidate reaches a side of the object's bounds within this distance
 MIN_OFFSET = 0.1  # of the half extent: below this offset from the middle of the face, the side of a contact is chance
 MAX_RATIO = 8.0  # upper limit of ratios of lengths
 
@@ -36,28 +36,28 @@ class FeatureInputs:
         return cls(candidates, config, mesh.face_material[candidates.whole.source])
 
 
-def part_context_of(inputs: FeatureInputs, group: int) -> PartContext | None:
-    """Return a group as a part among the rest of the object; None if it has no face or nothing is left."""
+def candidate_context(inputs: FeatureInputs, candidate: int) -> PartContext | None:
+    """Return a candidate as a part among the rest of the object; None if it has no face or nothing is left."""
     whole = inputs.candidates.whole
-    moving = inputs.candidates.members[group][whole.patch]
+    moving = inputs.candidates.members[candidate][whole.patch]
     if not moving.any() or moving.all():
         return None
     rest = whole.of(np.flatnonzero(~moving))
     return PartContext(
-        part=whole.of(np.flatnonzero(moving)), parent=rest, rest=rest, others=None, without_part=rest, barrel_candidates=(),
-        diagonal=whole.diagonal, center=whole.shape.bounds.mean(0), config=inputs.config.articulation,
+        part=whole.of(np.flatnonzero(moving)), parent=rest, rest=rest, other_surface=None, without_part=rest,
+        barrel_candidates=(), diagonal=whole.diagonal, center=whole.shape.bounds.mean(0), config=inputs.config.articulation,
     )  # fmt: skip
 
 
-def part_features(inputs: FeatureInputs, group: int, around: PartContext) -> dict[str, float]:
+def part_features(inputs: FeatureInputs, candidate: int, around: PartContext) -> dict[str, float]:
     """Return all features of a candidate; the keys are the same for all."""
     return {
-        **_shape(inputs, group, around),
+        **_shape(inputs, candidate, around),
         **_place(around),
         **_fit(inputs, around),
-        **_neighbours(inputs, group),
-        **_copies(inputs, group, around),
-        **_material(inputs, group, around),
+        **_neighbours(inputs, candidate),
+        **_copies(inputs, candidate, around),
+        **_material(inputs, candidate, around),
         **_handle(around),
         **blocked_shares(around, inputs.config.segmentation),
         **exposure(around, inputs.config.segmentation),
@@ -69,23 +69,23 @@ def _ratio(a: float, b: float) -> float:
     return float(np.clip(a / max(b, 1e-12), 0, MAX_RATIO))
 
 
-def _shape(inputs: FeatureInputs, group: int, around: PartContext) -> dict[str, float]:
+def _shape(inputs: FeatureInputs, candidate: int, around: PartContext) -> dict[str, float]:
     core, outline, candidates = around.body_obb, around.outline, inputs.candidates
     extents = np.sort(np.ptp(candidates.whole.shape.bounds, axis=0))
     box_area = 8 * float(core.half[0] * core.half[1] + core.half[1] * core.half[2] + core.half[0] * core.half[2])
-    patches = candidates.members[group]
+    patches = candidates.members[candidate]
     return {
         "thinness": _ratio(core.half[2], core.half[1]),
         "width over length": _ratio(core.half[1], core.half[0]),
         "size": around.part.box.diagonal / around.diagonal,
         "thickness": float(2 * core.half[2] / around.diagonal),
-        "area share": float(candidates.area[group] / candidates.contacts.patch_area.sum()),
+        "area share": float(candidates.area[candidate] / candidates.contacts.patch_area.sum()),
         "face share": _ratio(4 * core.half[0] * core.half[1], extents[1] * extents[2]),
         "area over box": _ratio(around.part.area, box_area),
         "closed": float(around.part.solid @ around.part.areas / max(around.part.area, 1e-300)),
         "roundness": outline.roundness,
         "height over radius": _ratio(outline.height, outline.radius),
-        "largest patch": float(candidates.contacts.patch_area[patches].max() / max(candidates.area[group], 1e-300)),
+        "largest patch": float(candidates.contacts.patch_area[patches].max() / max(candidates.area[candidate], 1e-300)),
         "log patches of the object": float(np.log1p(len(patches))),
     }
 
@@ -120,7 +120,7 @@ def _fit(inputs: FeatureInputs, around: PartContext) -> dict[str, float]:
     gaps = np.quantile(around.gap, [0.05, 0.5]) / around.diagonal
     depth = around.depth_in_parent(around.opening_direction)
     outer = around.part.samples.normals @ around.opening_direction
-    back = outer < -0.5
+    back = outer < -FACING_COSINE
     return {
         "rims with clearance": float(sides),
         "flush rim": flush,
@@ -132,7 +132,7 @@ def _fit(inputs: FeatureInputs, around: PartContext) -> dict[str, float]:
         "depth": _ratio(depth, 2 * float(around.body_obb.half[1])),
         "two pivots": two_pivots(around, near, normals),
         "on axis": float(on_axis(around)),
-        "axle level": float(abs(around.outline.axis[2]) < 0.5),
+        "axle level": float(abs(around.outline.axis[2]) < FACING_COSINE),
         **_contact_layout(around, near),
     }
 
@@ -152,9 +152,9 @@ def _contact_layout(around: PartContext, near: np.ndarray) -> dict[str, float]:
     }
 
 
-def _neighbours(inputs: FeatureInputs, group: int) -> dict[str, float]:
+def _neighbours(inputs: FeatureInputs, candidate: int) -> dict[str, float]:
     candidates = inputs.candidates
-    inside, contacts = candidates.members[group], candidates.contacts
+    inside, contacts = candidates.members[candidate], candidates.contacts
     pairs = np.array(list(contacts.area), np.int64).reshape(-1, 2)
     amount = np.array(list(contacts.area.values()), float)
     out = inside[pairs[:, 0]] & ~inside[pairs[:, 1]]
@@ -162,7 +162,7 @@ def _neighbours(inputs: FeatureInputs, group: int) -> dict[str, float]:
     beside = np.bincount(pairs[out, 1], amount[out], len(inside))
     shared = candidates.whole.shared
     creased = inside[shared[:, 0]] != inside[shared[:, 1]] if len(shared) else np.zeros(0, bool)
-    outside, total = float(beside.sum()), max(float(candidates.area[group]), 1e-300)
+    outside, total = float(beside.sum()), max(float(candidates.area[candidate]), 1e-300)
     return {
         "contact with the first": float(beside.max(initial=0) / max(outside, 1e-300)) if outside > 0 else 0.0,
         "contact area": min(outside / total, 1.0),
@@ -172,10 +172,10 @@ def _neighbours(inputs: FeatureInputs, group: int) -> dict[str, float]:
     }
 
 
-def _copies(inputs: FeatureInputs, group: int, around: PartContext) -> dict[str, float]:
+def _copies(inputs: FeatureInputs, candidate: int, around: PartContext) -> dict[str, float]:
     """Return features of the copies of a candidate: how many there are, and whether one lies on its axis."""
     candidates = inputs.candidates
-    copies = candidates.overlap.copies[group]
+    copies = candidates.overlap.copies[candidate]
     middles = candidates.bounds[copies].mean(1)
     outline = around.outline
     arm = middles - outline.center
@@ -186,10 +186,10 @@ def _copies(inputs: FeatureInputs, group: int, around: PartContext) -> dict[str,
     }
 
 
-def _material(inputs: FeatureInputs, group: int, around: PartContext) -> dict[str, float]:
+def _material(inputs: FeatureInputs, candidate: int, around: PartContext) -> dict[str, float]:
     """Return how well the part's most frequent material separates it from the rest."""
     whole, count = inputs.candidates.whole, int(inputs.material.max()) + 2
-    moving = inputs.candidates.members[group][whole.patch]
+    moving = inputs.candidates.members[candidate][whole.patch]
     mine = np.bincount(inputs.material[moving] + 1, whole.shape.areas[moving], count)
     rest = np.bincount(inputs.material[~moving] + 1, whole.shape.areas[~moving], count)
     k = int(mine.argmax())

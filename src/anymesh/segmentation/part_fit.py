@@ -19,7 +19,7 @@ def on_axis(around: PartContext) -> bool:
 
 
 def touching(around: PartContext, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return which samples touch the rest, and the rest's normal at the closest point of each."""
+    """Return which samples are within `tolerance` [m] of the rest, and the rest's normal at the closest point of each."""
     gap, face = around.nearest
     while (gap < tolerance).sum() < min(8, len(gap)):  # as the connecting area grows in the paper
         tolerance *= 2

@@ -12,7 +12,7 @@ from anymesh.types.triangles import normals_and_areas, quartered
 
 PROBES = 160  # sample points per patch for the distance to another patch
 COARSE = 6  # every how many of these points are measured first
-CONTACT_POINTS = 500  # sample points of a patch near another one, for the area in contact
+AREA_POINTS = 500  # sample points of a patch near another one, for the area in contact
 MAX_DIVIDED = 2000  # triangles of a patch, up to which those near another patch are divided until they are as small as it
 ROUNDING = 1e-9  # of the reach: tolerance of bounds of distances
 
@@ -68,7 +68,7 @@ def area_in_contact(a: TriangleSet, b: TriangleSet, tolerance: float) -> float:
     while 0 < len(triangles) <= MAX_DIVIDED and areas.sum() > b.area:
         triangles = _beside(quartered(triangles), low, high)
         areas = normals_and_areas(triangles)[1]
-    points, _ = spread_points(triangles, areas, CONTACT_POINTS, a.seed)
+    points, _ = spread_points(triangles, areas, AREA_POINTS, a.seed)
     gap = b.tree.distance(points[within(points, low, high)])
     return float(areas.sum()) * float((gap < tolerance).sum()) / max(len(points), 1)
 

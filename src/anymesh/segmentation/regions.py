@@ -14,6 +14,7 @@ from anymesh.geometry.seams import divide_at_seams
 from anymesh.geometry.topology import components, label_connected
 from anymesh.rendering.render import View
 from anymesh.segmentation.cloud import Cloud
+from anymesh.segmentation.surface_regions import MIN_WHOLE_OBJECT_SHARE
 from anymesh.types import Mesh
 
 MAX_MARKS = 400  # marks per object, over all pictures; above, the smallest regions join their neighbours, with a warning
@@ -22,8 +23,6 @@ MAX_SPLIT_MARKS = 24  # marks that one mark is split into
 MIN_EXACT_SHARE = 0.25
 COLOR_STEP = 0.12  # distance of mean colours (0..1 per channel) that separates two regions of one patch
 MIN_COLOR_PATCH_SHARE = 0.02  # share of the surface from which a patch is searched for parts that differ in colour only
-# share of the surface from which a patch is the whole object, so that its large sides are separated too
-MIN_DOMINANT_SHARE = 0.8
 MIN_MAIN_SHARE = 0.5  # share of a mark from which a superpoint is most of it
 MAX_DEPTH_STEP_RATIO = 0.02  # of the diagonal: maximum depth difference between touching things
 
@@ -62,7 +61,7 @@ def face_regions(whole: ObjectShape, cloud: Cloud) -> Int[np.ndarray, " F"]:
     a, b = cloud.borders.T
     alike = np.linalg.norm(color[a] - color[b], axis=1) < COLOR_STEP
     split = share[patch_of] >= MIN_COLOR_PATCH_SHARE
-    side = (share[patch_of] >= MIN_DOMINANT_SHARE) & (weight >= MIN_COLOR_PATCH_SHARE * weight.sum())
+    side = (share[patch_of] >= MIN_WHOLE_OBJECT_SHARE) & (weight >= MIN_COLOR_PATCH_SHARE * weight.sum())
     together = ~split[a] | (alike & ~side[a] & ~side[b])
     patch = label_connected(cloud.count, cloud.borders[together])
     _, first, rank = np.unique(patch_of, return_index=True, return_inverse=True)  # patches without area have no point

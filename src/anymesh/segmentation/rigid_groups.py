@@ -15,6 +15,7 @@ from anymesh.segmentation.contacts import Contacts, coplanar, dominated_by
 from anymesh.types import Mesh
 from anymesh.vocabulary import is_fixed_name, recognize
 
+AT_BORDER = 0.02  # of the diagonal: what is this close to a side of the object's bounds reaches it
 MAX_SURFACE_SHARE = 0.5  # share of the object's surface above which a creased surface is the object itself
 
 
@@ -81,14 +82,14 @@ def root_ranking(whole: ObjectShape, contacts: Contacts) -> list[int]:
     """
     degree = np.bincount(contacts.touch.reshape(-1), minlength=len(contacts.shapes))
     bounds = whole.shape.bounds
-    low = bounds[0, 2] + 0.02 * whole.diagonal
+    low = bounds[0, 2] + AT_BORDER * whole.diagonal
     rank = []
     for s, d in zip(contacts.shapes, degree, strict=True):
         size = float(np.linalg.norm(s.bounds[1] - s.bounds[0])) * (1 + 0.1 * min(int(d), 10))
         samples = s.samples
         stands = ((samples.points[:, 2] < low) & (samples.normals[:, 2] < -ALONG_COSINE)).mean() if len(samples) else 0.0
         # sides of the object that the patch reaches; walls reach most of them
-        sides = int((np.abs(s.bounds - bounds) < 0.02 * whole.diagonal).sum())
+        sides = int((np.abs(s.bounds - bounds) < AT_BORDER * whole.diagonal).sum())
         rank.append(size * (1.3 if stands > 0.05 else 1.0) * (1 + 0.1 * sides))
     order = np.lexsort((-np.array(rank), np.isin(np.arange(len(rank)), whole.inferred)))
     return [int(i) for i in order]

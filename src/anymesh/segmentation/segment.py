@@ -25,7 +25,7 @@ from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import MIN_SCORE, assign_parts, conflicts, join_floating
 from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
 from anymesh.segmentation.part_classifier import score_parts
-from anymesh.segmentation.part_features import FeatureInputs, part_context_of, part_features
+from anymesh.segmentation.part_features import FeatureInputs, candidate_context, part_features
 from anymesh.types import Mesh, Segmentation
 from anymesh.vocabulary import recognize
 
@@ -83,7 +83,7 @@ def examine_candidates(
         if limit.late(SEGMENT):
             limit.leave_out("segmentation: some candidates for parts were not examined")
             return None
-        around = part_context_of(inputs, k)
+        around = candidate_context(inputs, k)
         return None if around is None else (around.place, part_features(inputs, k, around))
 
     kept, places, features = [], [], []

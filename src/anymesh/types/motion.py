@@ -70,6 +70,10 @@ class Sweep:
     clear_forward: bool  # True if the whole tested range is free
     clear_backward: bool
 
+    def reversed(self) -> Sweep:
+        """Return the same ranges of the motion along the opposite axis."""
+        return Sweep(self.backward, self.forward, self.clear_backward, self.clear_forward)
+
 
 @dataclass(frozen=True)
 class Handle:
