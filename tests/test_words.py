@@ -89,3 +89,15 @@ def test_no_two_classes_share_a_name() -> None:
             if isinstance(node, ast.ClassDef):
                 places[node.name].append(str(path.relative_to(SOURCE)))
     assert not {name: found for name, found in places.items() if len(found) > 1 and name not in SAME_NAME}
+
+
+def test_no_two_constants_of_the_inner_stages_share_a_name() -> None:
+    places = defaultdict(set)
+    for path in FILES:
+        if path.relative_to(SOURCE).parts[0] in ("segmentation", "motion", "articulation", "scoring"):
+            for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store) and re.fullmatch("[A-Z][A-Z0-9_]+", node.id):
+                    places[node.id].add(path.relative_to(SOURCE).as_posix())
+    shared = {name for name, found in places.items() if len(found) > 1}
+    # each of the two classifiers has its own calibration; NONE is a member of an enum, and a number that stands for no node
+    assert shared == {"CALIBRATION_SLOPE", "CALIBRATION_OFFSET", "NONE"}, {name: places[name] for name in shared}

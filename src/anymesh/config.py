@@ -66,6 +66,7 @@ class ArticulationConfig:
     slide_keep: float = 0.1  # share of a drawer's depth that stays inside when it is open
 
 
+REFERENCE_PX = 640  # [px] height of a picture that sizes in pixels refer to
 PAPER_VIEWS = "8@15"
 DEFAULT_VIEWS = f"{PAPER_VIEWS},2@50+30,1@-35+30"
 MAX_VIEWS = 32
@@ -86,7 +87,7 @@ class ViewsConfig:
     distance: float = 1.0  # of the camera from the object's center; 2 for a diagonal of 2 (the paper's implementation)
     fov: float = 60.0  # [deg] vertical, before the camera is zoomed (the paper's implementation)
     air: float = 0.04  # margin around the object on each side, as a share of its box in the picture
-    size: int = 640  # [px] width and height
+    size: int = REFERENCE_PX  # [px] width and height
     zoom_size: int = 4096  # [px] size of the picture that a close-up is cut from
     zoom_below: int = 5000  # [px] a part that covers less of the best view is shown in a close-up
     zoom_margin: float = 0.3  # margin on each side, as a share of the part's box in the picture

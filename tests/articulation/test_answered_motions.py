@@ -22,7 +22,7 @@ from anymesh.articulation.offers import MAX_SHOWN_ANGLE_RAD, make_offers, scored
 from anymesh.articulation.own_axes import round_patches
 from anymesh.articulation.prompted import _joint
 from anymesh.articulation.relabel import labels_by_name, relabelled, unlabelled
-from anymesh.articulation.taken import as_answered, normal_outwards
+from anymesh.articulation.unverified import as_answered, normal_outwards
 from anymesh.articulation.verify import Choice
 from anymesh.config import Config, PromptConfig
 from anymesh.deadline import Deadline

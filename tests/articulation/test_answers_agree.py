@@ -11,7 +11,7 @@ from scenes import Scene, prism, wheel
 from anymesh.articulation.cases import make_cases
 from anymesh.articulation.prompted import PromptedJoints, Questions, prompt_joints
 from anymesh.articulation.relabel import labels_by_name
-from anymesh.articulation.taken import normal_outwards, opening_slide
+from anymesh.articulation.unverified import normal_outwards, opening_slide
 from anymesh.pipeline.solving import Solver
 from anymesh.types import JointType, Part, Segmentation
 from anymesh.types.recognition import Recognition, RecognizedLabel

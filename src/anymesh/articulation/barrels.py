@@ -8,11 +8,16 @@ from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.part_context import MAX_PART_DIAGONALS
 
+BARREL_REACH_RATIO = 0.015  # of the reference length of tolerances: a barrel is this near to the part and to its parent
+MIN_BARREL_FACES, MAX_EXAMINED = 6, 60  # faces of a barrel; patches examined on each side
+MAX_BARREL_LENGTH_RATIO, MAX_BARREL_RADIUS_RATIO = 1.1, 0.05  # of the part's diagonal
+MIN_BARREL_SQUARENESS, MIN_BARREL_ASPECT = 0.7, 1.5  # smaller over larger side across; length over the larger side across
+
 
 def find_barrel_candidates(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) -> tuple[TriangleSet, ...]:
     """Find patches near both part and parent that are long, thin and small: possible hinge barrels."""
     diagonal = part.box.diagonal
-    reach = 0.015 * min(whole.diagonal, MAX_PART_DIAGONALS * diagonal)
+    reach = BARREL_REACH_RATIO * min(whole.diagonal, MAX_PART_DIAGONALS * diagonal)
     label = whole.patch
     barrels = []
     for own, other in ((part, parent), (parent, part)):
@@ -20,10 +25,11 @@ def find_barrel_candidates(whole: ObjectShape, part: TriangleSet, parent: Triang
         center = own.triangles.mean(1)
         near = ((center > low) & (center < high)).all(1)
         candidates, count = np.unique(label[own.faces[near]], return_counts=True)
-        for c in candidates[count >= 6][:60]:
+        for c in candidates[count >= MIN_BARREL_FACES][:MAX_EXAMINED]:
             mine = own.take(label[own.faces] == c)
-            half = mine.box.half
-            if 2 * half[0] > 1.1 * diagonal or half[1] > 0.05 * diagonal or half[2] < 0.7 * half[1] or half[0] < 1.5 * half[1]:
+            length, width, height = mine.box.half
+            small = 2 * length <= MAX_BARREL_LENGTH_RATIO * diagonal and width <= MAX_BARREL_RADIUS_RATIO * diagonal
+            if not small or height < MIN_BARREL_SQUARENESS * width or length < MIN_BARREL_ASPECT * width:
                 continue
             if other.tree.distance(mine.samples.points[::10]).min() < reach:
                 barrels.append(mine)

@@ -28,7 +28,7 @@ def _answered_motion(case: PartCase) -> Iterator[tuple[str, str]]:
     if moves is not None:
         yield ("slides" if moves is JointType.PRISMATIC else "turns"), f"recognized as {moves}"
     kind = case.kind
-    yield "fixed" if kind is JointAppearance.FIXED else "turns" if kind.is_rotation else "slides", kind.value.replace("_", " ")
+    yield "fixed" if kind is JointAppearance.FIXED else "turns" if kind.is_rotation else "slides", kind.words
 
 
 def _motion(kind: JointType) -> str:

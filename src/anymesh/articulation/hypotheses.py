@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 import numpy as np
+from jaxtyping import Float
 
 from anymesh.articulation.contact_metrics import contact_points
 from anymesh.articulation.motion_question import ProposedMotion
@@ -69,14 +70,19 @@ def _from_contact(around: PartContext) -> list[ProposedMotion]:
     middle = contact.mean(0)
     directions = np.linalg.svd(contact - middle, full_matrices=False)[2]
     return [
-        ("contact", Motion(JointType.REVOLUTE, _unit(directions[0]), middle, "line along the connecting area")),
-        ("center", Motion(JointType.REVOLUTE, _unit(directions[2]), middle, "normal of the connecting area")),
-        ("pin", Motion(JointType.REVOLUTE, _unit(directions[1]), middle, "width of the connecting area")),
+        ("contact", hinge_about(directions[0], middle, "line along the connecting area")),
+        ("center", hinge_about(directions[2], middle, "normal of the connecting area")),
+        ("pin", hinge_about(directions[1], middle, "width of the connecting area")),
         *(
             ("contact_slide", Motion(JointType.PRISMATIC, _unit(d), middle, f"{what} of the connecting area"))
             for d, what in zip(directions, ("length", "width", "plane normal"), strict=True)
         ),
     ]
+
+
+def hinge_about(axis: Float[np.ndarray, " 3"], origin: Float[np.ndarray, " 3"], source: str) -> Motion:
+    """Return a rotation about a line, whose axis is unit and has a positive largest component."""
+    return Motion(JointType.REVOLUTE, _unit(axis), origin, source)
 
 
 def _unit(v: np.ndarray) -> np.ndarray:
@@ -100,7 +106,7 @@ def two_pivot_line(around: PartContext) -> Motion | None:
     width = max(float(np.linalg.norm(np.ptp(near[side == s], axis=0))) for s in (0, 1))
     if apart < MIN_PIVOTS_APART_RATIO * around.part.box.diagonal or width > MAX_PIVOT_WIDTH_RATIO * apart:
         return None
-    return Motion(JointType.REVOLUTE, _unit(b - a), (a + b) / 2, "line through the two far contacts")
+    return hinge_about(b - a, (a + b) / 2, "line through the two far contacts")
 
 
 def _two_groups(points: np.ndarray, centers: np.ndarray) -> np.ndarray:
@@ -118,7 +124,7 @@ def barrels(around: PartContext) -> list[ProposedMotion]:
     for component in around.barrel_candidates:
         seen = outline_about(np.concatenate([component.corners, component.samples.points]), component.box.axes[0])
         if seen.roundness > 0.85 and seen.height > 2 * seen.radius:
-            axes.append(("barrel", Motion(JointType.REVOLUTE, _unit(seen.axis), seen.center, "axis of a hinge barrel")))
+            axes.append(("barrel", hinge_about(seen.axis, seen.center, "axis of a hinge barrel")))
     return axes
 
 
@@ -126,7 +132,7 @@ def contact_axes(around: PartContext) -> list[ProposedMotion]:
     """Return the axes about which the surfaces in contact turn in place: of pins, bushings and ball joints."""
     fitted = [fit_revolution(surface, MIN_REVOLUTION) for surface in around.contact_surfaces]
     what = "axis of the round surfaces in contact"
-    return [("surface", Motion(JointType.REVOLUTE, _unit(f.axis), f.origin, what)) for f in fitted if f is not None]
+    return [("surface", hinge_about(f.axis, f.origin, what)) for f in fitted if f is not None]
 
 
 def propose(around: PartContext) -> list[ProposedMotion]:
@@ -137,7 +143,7 @@ def propose(around: PartContext) -> list[ProposedMotion]:
         proposals.append(("two_pivot", line))
     outline = around.outline
     if around.is_round:
-        axis = Motion(JointType.REVOLUTE, _unit(outline.axis), outline.center, "axis of its round outline")
+        axis = hinge_about(outline.axis, outline.center, "axis of its round outline")
         proposals.append(("round", axis))
     proposals += barrels(around) + _edges(core) + _edge_middles(core) + _through(core) + _box_directions(core)
     proposals += _from_contact(around) + contact_axes(around)

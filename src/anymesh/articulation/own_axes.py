@@ -8,12 +8,13 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.articulation.hypotheses import hinge_about
 from anymesh.articulation.motion_question import ProposedMotion, Role
 from anymesh.geometry.circles import outline_about
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.part_context import PartContext
-from anymesh.types import JointType, Motion
+from anymesh.types import Motion
 
 MIN_CIRCLE_ROUNDNESS = 0.8  # minimum roundness of a circle that gives an axis
 MAX_CIRCLES = 4  # round patches per part, the largest first
@@ -43,7 +44,7 @@ def round_patches(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) ->
                 outlines = [outline_about(points, axis) for axis in patch.box.axes]
                 best = max(outlines, key=lambda o: o.roundness)
                 if best.roundness > MIN_CIRCLE_ROUNDNESS:
-                    circles.append((best.radius, _revolute(best.axis, best.center, "axis of a round patch")))
+                    circles.append((best.radius, hinge_about(best.axis, best.center, "axis of a round patch")))
     circles.sort(key=lambda item: -item[0])
     return tuple(motion for _, motion in circles[:MAX_CIRCLES])
 
@@ -64,12 +65,7 @@ def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[Propose
         rings = [outline_about(contact, d) for d in directions]
         best = max(rings, key=lambda o: o.roundness)
         if best.roundness > MIN_CIRCLE_ROUNDNESS:
-            lines.append(("hub", _revolute(best.axis, best.center, "axis of the ring where it is held")))
-    lines += [("pivot", _revolute(d, middle, "line through the middle of the contact")) for d in directions]
-    lines.append(("pivot", _revolute(normal, around.body_obb.center, "middle line along the contact's normal")))
+            lines.append(("hub", hinge_about(best.axis, best.center, "axis of the ring where it is held")))
+    lines += [("pivot", hinge_about(d, middle, "line through the middle of the contact")) for d in directions]
+    lines.append(("pivot", hinge_about(normal, around.body_obb.center, "middle line along the contact's normal")))
     return lines
-
-
-def _revolute(axis: Float[np.ndarray, " 3"], origin: Float[np.ndarray, " 3"], source: str) -> Motion:
-    axis = axis / np.linalg.norm(axis)
-    return Motion(JointType.REVOLUTE, -axis if axis[np.abs(axis).argmax()] < 0 else axis, origin, source)

@@ -18,7 +18,7 @@ from anymesh.articulation.estimate import joint_of
 from anymesh.articulation.limits import answered_range
 from anymesh.articulation.own_axes import pivots
 from anymesh.articulation.relabel import labels_by_name, relabelled, unlabelled
-from anymesh.articulation.taken import as_answered, normal_outwards, opening_slide
+from anymesh.articulation.unverified import as_answered, normal_outwards, opening_slide
 from anymesh.articulation.verify import Choice, MotionQuestioner, choose_motions
 from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape

@@ -132,7 +132,7 @@ def _chosen(answers: PartAnswers, probability: Float[np.ndarray, " m"], fit: Par
 def _basis(answers: PartAnswers, chosen: int) -> str:
     """Describe in words what a motion was chosen from, and which answers contradict it."""
     o, picked = answers.offers, [pick.picked for pick in answers.picks]
-    against = "" if fits(o.motions[chosen], o.case.kind) else f", though {words(o.case.kind)} was answered"
+    against = "" if fits(o.motions[chosen], o.case.kind) else f", though {o.case.kind.words} was answered"
     if not picked:
         free = [c.is_free for c in o.motions]
         only = "the only free motion" if sum(free) == 1 else "the likeliest motion"
@@ -146,8 +146,3 @@ def _basis(answers: PartAnswers, chosen: int) -> str:
 def _fallback(o: MotionOffers) -> int:
     """Return the likeliest motion of the answered kind, of which a part that does not move keeps the axis."""
     return next((k for k, c in enumerate(o.motions) if c.is_free and fits(c, o.case.kind)), 0)
-
-
-def words(kind: JointAppearance) -> str:
-    """Return a kind of joint in words."""
-    return kind.value.replace("_", " ")

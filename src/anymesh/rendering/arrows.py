@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Float, Int, UInt8
 from PIL import Image, ImageDraw
 
+from anymesh.config import REFERENCE_PX
 from anymesh.rendering.axes import draw_arrow
 from anymesh.rendering.labels import beside, draw_leader, draw_plate, take
 from anymesh.rendering.paint import mark_color
@@ -57,7 +58,7 @@ def draw_arrows(
 ) -> UInt8[np.ndarray, "H W 3"]:
     """Draw arrows of one length [m] from `center` along unit directions, each with its number at its tip."""
     height, width = image.shape[:2]
-    scale = max(1.0, height / 640)
+    scale = max(1.0, height / REFERENCE_PX)
     start = camera.project(center[None])[0][0]
     tips = camera.project(center + length * directions)[0]
     drawn = Image.fromarray(image)

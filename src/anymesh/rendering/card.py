@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float, Int, UInt8
 from PIL import Image, ImageDraw
 
-from anymesh.config import ViewsConfig
+from anymesh.config import REFERENCE_PX, ViewsConfig
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.labels import font
 from anymesh.rendering.paint import HIGHLIGHT, highlight
@@ -92,7 +92,7 @@ def _edged(image: UInt8[np.ndarray, "H W 3"]) -> UInt8[np.ndarray, "H W 3"]:
 
 def titled(image: UInt8[np.ndarray, "H W 3"], title: str) -> UInt8[np.ndarray, "h W 3"]:
     """Put a bar with a title above the picture; characters that the font lacks become question marks."""
-    scale = max(1.0, image.shape[0] / 640)
+    scale = max(1.0, image.shape[0] / REFERENCE_PX)
     bar = Image.new("RGB", (image.shape[1], round(BAR * scale)), (255, 255, 255))
     text = title.encode("ascii", "replace").decode()
     draw = ImageDraw.Draw(bar)

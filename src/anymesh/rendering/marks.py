@@ -9,6 +9,7 @@ from jaxtyping import Bool, Float, Int, UInt8
 from PIL import Image, ImageDraw
 from scipy import ndimage
 
+from anymesh.config import REFERENCE_PX
 from anymesh.rendering.labels import Plate, beside, draw_leader, draw_plate, plate_size, take
 from anymesh.rendering.paint import blend, mark_color
 
@@ -30,7 +31,7 @@ def mark_positions(labels: Int[np.ndarray, "H W"], numbers: Sequence[int] | None
     used = np.zeros(labels.shape, bool)
     boxes = ndimage.find_objects(labels + 1)
     weight = np.concatenate([[0.0], [HIDDEN / areas.get(n, 1) for n in range(len(boxes))]])[labels + 1]
-    scale = labels.shape[0] / 640
+    scale = labels.shape[0] / REFERENCE_PX
     plates, waiting = {}, []
     for number in sorted(wanted, key=lambda n: (areas[n], n)):
         anchor, plate = _inside(labels, boxes[number], used, number, scale)

@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float, UInt8
 from PIL import Image, ImageDraw
 
+from anymesh.config import REFERENCE_PX
 from anymesh.rendering.labels import beside, draw_leader, draw_plate, take
 from anymesh.rendering.paint import mark_color
 
@@ -32,7 +33,7 @@ def draw_points(
     """
     hollow = {n for n, h in zip(numbers, hidden, strict=True) if h} if hidden is not None else set()
     height, width = image.shape[:2]
-    scale = max(1.0, height / 640)
+    scale = max(1.0, height / REFERENCE_PX)
     dot, font = round(DOT * scale), round(FONT * scale)
     inside = np.all((pixels >= 0) & (pixels < [width, height]), axis=1)
     spots = [(int(p[0]), int(p[1]), n) for p, n, keep in zip(pixels, numbers, inside, strict=True) if keep]

@@ -7,7 +7,7 @@ from jaxtyping import Bool, Float, Float32, Int
 
 from anymesh.segmentation.part_candidates import Overlap
 
-MAX_ROW_OFFSET_RATIO = 0.04  # of half the object's diagonal: maximum offset of the centers of copies in one row
+IN_ROW_OFFSET = 0.04  # of half the object's diagonal: maximum offset of the centers of copies in one row
 SIZE_SCALE, MAX_SIZE = 4.0, 2.0  # the logarithm of a ratio of areas is divided by the first, up to the second
 
 
@@ -31,7 +31,7 @@ def relations(
     clearance[near[:, 0], near[:, 1]] = clearance[near[:, 1], near[:, 0]] = 1
     copy = overlap.copies
     center = place[:, :3]
-    row = (np.abs(center[None] - center[:, None]) < MAX_ROW_OFFSET_RATIO).sum(2) >= 2
+    row = (np.abs(center[None] - center[:, None]) < IN_ROW_OFFSET).sum(2) >= 2
     share = np.minimum(touching / area[:, None], 1)
     ratio = np.clip(np.log(area[None] / area[:, None]) / SIZE_SCALE, -MAX_SIZE, MAX_SIZE)
     features = (

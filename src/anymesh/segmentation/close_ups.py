@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.config import ViewsConfig
+from anymesh.config import REFERENCE_PX, ViewsConfig
 from anymesh.rendering.render import View
 from anymesh.segmentation.cloud import Cloud, seen_points
 from anymesh.types.camera import Camera
@@ -34,7 +34,7 @@ def close_ups(
     """
     pictures = pictures or ViewsConfig()
     size, across, middle = _shown(region, views)
-    scale = views[0].camera.height / 640
+    scale = views[0].camera.height / REFERENCE_PX
     zoom = np.sqrt(LEGIBLE_AREA_PX * scale**2 / np.maximum(size, 1))
     zoom = np.maximum(zoom, np.where(across < MIN_WIDTH_PX * scale, LEGIBLE_WIDTH_PX * scale / np.maximum(across, 0.1), 0))
     zoom = np.clip(zoom, MIN_ZOOM, pictures.zoom_size / pictures.size)

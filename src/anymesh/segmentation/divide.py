@@ -35,16 +35,16 @@ def object_shape(
 
 def divide_surface(mesh: Mesh, seed: int, config: PatchConfig) -> DividedSurface:
     """Orient a mesh and divide it into patches; the mesh is not modified."""
-    s = mesh_surface(mesh, seed)
-    patch, inferred = split_patches(s, config)
-    pairs = np.sort(patch[s.components.edges.faces], 1)
+    surface = mesh_surface(mesh, seed)
+    patch, inferred = split_patches(surface, config)
+    pairs = np.sort(patch[surface.components.edges.faces], 1)
     shared = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
-    flipped = s.components.flip[s.components.label] & ~s.void[s.components.label]
-    from_handles = np.flatnonzero(np.bincount(patch, np.where(inferred, s.shape.areas, -s.shape.areas)) > 0)
-    return DividedSurface(s.shape, flipped, patch, shared, from_handles, s.diagonal)
+    flipped = surface.components.flip[surface.components.label] & ~surface.void[surface.components.label]
+    from_handles = np.flatnonzero(np.bincount(patch, np.where(inferred, surface.shape.areas, -surface.shape.areas)) > 0)
+    return DividedSurface(surface.shape, flipped, patch, shared, from_handles, surface.diagonal)
 
 
-def split_patches(whole: MeshSurface, config: PatchConfig) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
+def split_patches(surface: MeshSurface, config: PatchConfig) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
     """Return a patch index per face, and which faces are on panels inferred from handles alone.
 
     Patches are numbered from 0 in the order of their first faces.
@@ -52,69 +52,69 @@ def split_patches(whole: MeshSurface, config: PatchConfig) -> tuple[Int[np.ndarr
     Components that are large enough to contain a fused part are cut along their concave creases, sharp or soft, and with
     `config.seams` at creases that are closed in places. Crumbs left by the cut join the neighbour with the longest common edge.
     """
-    component = whole.components.label
-    large = region_sizes(whole, component) > config.fused_size * whole.diagonal
-    edges = whole.components.edges
+    component = surface.components.label
+    large = region_sizes(surface, component) > config.fused_size * surface.diagonal
+    edges = surface.components.edges
     pairs = edges.faces
-    concave = _concave(whole, config.crease)
-    soft = _soft_regions(whole, component, large, config)
+    concave = _concave(surface, config.crease)
+    soft = _soft_regions(surface, component, large, config)
     cut = (concave & edges.aligned & large[component[pairs[:, 0]]]) | (soft[pairs[:, 0]] != soft[pairs[:, 1]])
-    region, inferred = split_panels(whole, label_connected(len(component), pairs[~cut]))
+    region, inferred = split_panels(surface, label_connected(len(component), pairs[~cut]))
     if config.seams:
-        region = _split_at_seams(whole, region, large & (np.bincount(component) > config.soft_faces))
+        region = _split_at_seams(surface, region, large & (np.bincount(component) > config.soft_faces))
     cut |= region[pairs[:, 0]] != region[pairs[:, 1]]
-    length = np.linalg.norm(_ends(whole, 0) - _ends(whole, 1), axis=1)
-    region = _absorb_crumbs(whole, region, pairs[cut], length[cut], config)
-    region = _fill_voids(whole, region)
-    region = _limit_count(whole, region, config.most_patches)
-    return _limit_pairs(whole, region, config.most_pairs), inferred
+    length = np.linalg.norm(_ends(surface, 0) - _ends(surface, 1), axis=1)
+    region = _absorb_crumbs(surface, region, pairs[cut], length[cut], config)
+    region = _fill_voids(surface, region)
+    region = _limit_count(surface, region, config.most_patches)
+    return _limit_pairs(surface, region, config.most_pairs), inferred
 
 
-def _soft_regions(whole: MeshSurface, component: np.ndarray, large: np.ndarray, config: PatchConfig) -> np.ndarray:
+def _soft_regions(surface: MeshSurface, component: np.ndarray, large: np.ndarray, config: PatchConfig) -> np.ndarray:
     """Return regions bounded by soft concave creases on large and dense components; other components are one region each."""
     region = component.copy()
     count = np.bincount(component)
-    flip = whole.components.flip & ~whole.void
+    flip = surface.components.flip & ~surface.void
     for c in np.flatnonzero(large & (count > config.soft_faces)):
         mine = np.flatnonzero(component == c)
-        triangles = whole.shape.triangles[mine]
-        convex_region = convex_regions(triangles[:, ::-1] if flip[c] else triangles, whole.diagonal, config)
+        triangles = surface.shape.triangles[mine]
+        convex_region = convex_regions(triangles[:, ::-1] if flip[c] else triangles, surface.diagonal, config)
         region[mine] = np.where(convex_region > 0, int(region.max()) + convex_region, c)
     return region
 
 
-def _split_at_seams(whole: MeshSurface, region: np.ndarray, dense: Bool[np.ndarray, " c"]) -> np.ndarray:
+def _split_at_seams(surface: MeshSurface, region: np.ndarray, dense: Bool[np.ndarray, " c"]) -> np.ndarray:
     """Divide the regions of some components at seams.
 
     dense: which components.
     """
     if not dense.any():
         return region
-    divided, component = region.copy(), whole.components.label
+    divided, component = region.copy(), surface.components.label
     mine = np.flatnonzero(dense[component])
-    points, at = spread_points(whole.shape.triangles[mine], whole.shape.areas[mine], SEAM_POINTS, whole.shape.seed)
+    points, at = spread_points(surface.shape.triangles[mine], surface.shape.areas[mine], SEAM_POINTS, surface.shape.seed)
     faces = mine[at]
     for r, count in zip(*np.unique(region[faces], return_counts=True), strict=True):
         if count < MIN_SEAM_POINTS:
             continue
         inside = region[faces] == r
         outside = (component[faces] == component[faces[inside][0]]) & ~inside
-        finer = divide_at_seams(points[inside], whole.shape.normals[faces[inside]], points[outside])
+        finer = divide_at_seams(points[inside], surface.shape.normals[faces[inside]], points[outside])
         if finer.any():
             all_ = np.flatnonzero(region == r)
-            nearest = KDTree(points[inside]).query(whole.shape.triangles[all_].mean(1), workers=-1)[1]
+            nearest = KDTree(points[inside]).query(surface.shape.triangles[all_].mean(1), workers=-1)[1]
             divided[all_] = np.where(finer[nearest] > 0, int(divided.max()) + finer[nearest], r)
     return np.unique(divided, return_inverse=True)[1]  # coarse faces may leave numbers unused
 
 
-def _ends(whole: MeshSurface, which: int) -> np.ndarray:
-    return whole.vertices[whole.components.edges.vertices[:, which]]
+def _ends(surface: MeshSurface, which: int) -> np.ndarray:
+    return surface.vertices[surface.components.edges.vertices[:, which]]
 
 
-def _concave(whole: MeshSurface, min_angle: float) -> np.ndarray:
+def _concave(surface: MeshSurface, min_angle: float) -> np.ndarray:
     """Return which edge pairs fold inwards by more than `min_angle` [deg]."""
-    f, g = whole.components.edges.faces.T
-    normals, centers = whole.shape.normals, whole.shape.triangles.mean(1)
+    f, g = surface.components.edges.faces.T
+    normals, centers = surface.shape.normals, surface.shape.triangles.mean(1)
     inward = np.einsum("ij,ij->i", centers[g] - centers[f], normals[f])
     inward += np.einsum("ij,ij->i", centers[f] - centers[g], normals[g])
     cosine = np.einsum("ij,ij->i", normals[f], normals[g])
@@ -122,12 +122,12 @@ def _concave(whole: MeshSurface, min_angle: float) -> np.ndarray:
 
 
 def _absorb_crumbs(
-    whole: MeshSurface, region: np.ndarray, pairs: np.ndarray, length: np.ndarray, config: PatchConfig
+    surface: MeshSurface, region: np.ndarray, pairs: np.ndarray, length: np.ndarray, config: PatchConfig
 ) -> np.ndarray:
     """Join regions that are too small to the neighbour with the longest common border; three rounds resolve chains."""
     for _ in range(3):
-        small = region_sizes(whole, region) < config.crumb * whole.diagonal
-        small |= np.bincount(region, whole.shape.areas) < (config.crumb * whole.diagonal) ** 2  # slivers along a groove
+        small = region_sizes(surface, region) < config.crumb * surface.diagonal
+        small |= np.bincount(region, surface.shape.areas) < (config.crumb * surface.diagonal) ** 2  # slivers along a groove
         a, b = region[pairs[:, 0]], region[pairs[:, 1]]
         source, target = np.r_[a, b], np.r_[b, a]
         weight = np.r_[length, length]
@@ -143,12 +143,12 @@ def _absorb_crumbs(
     return region
 
 
-def _fill_voids(whole: MeshSurface, region: np.ndarray) -> np.ndarray:
+def _fill_voids(surface: MeshSurface, region: np.ndarray) -> np.ndarray:
     """Assign the walls of closed cavities to the nearest other region, since nothing inside moves."""
-    hidden = whole.void[whole.components.label]
+    hidden = surface.void[surface.components.label]
     if not hidden.any():
         return region
-    centers = whole.shape.triangles.mean(1)
+    centers = surface.shape.triangles.mean(1)
     nearest = KDTree(centers[~hidden]).query(centers[hidden], workers=-1)[1]
     target = region.copy()
     for r in np.unique(region[hidden]):
@@ -157,7 +157,7 @@ def _fill_voids(whole: MeshSurface, region: np.ndarray) -> np.ndarray:
     return np.unique(target, return_inverse=True)[1].reshape(-1)
 
 
-def _limit_count(whole: MeshSurface, region: np.ndarray, max_count: int) -> np.ndarray:
+def _limit_count(surface: MeshSurface, region: np.ndarray, max_count: int) -> np.ndarray:
     """Limit the number of patches to about `max_count`: the smallest join their nearest larger one.
 
     All copies of one size are treated alike.
@@ -165,44 +165,44 @@ def _limit_count(whole: MeshSurface, region: np.ndarray, max_count: int) -> np.n
     count = int(region.max()) + 1
     if count <= max_count:
         return region
-    size = region_sizes(whole, region)
+    size = region_sizes(surface, region)
     order = np.argsort(-size, kind="stable")
     larger = order[size[order] > (1 + SAME_SIZE) * size[order[max_count]]]
-    return _keep(whole, region, larger if len(larger) > 1 else order[:max_count])
+    return _keep(surface, region, larger if len(larger) > 1 else order[:max_count])
 
 
-def _keep(whole: MeshSurface, region: np.ndarray, keep: np.ndarray) -> np.ndarray:
+def _keep(surface: MeshSurface, region: np.ndarray, keep: np.ndarray) -> np.ndarray:
     """Join all other regions to the nearest of those that are kept."""
     count = int(region.max()) + 1
-    centers = whole.shape.triangles.mean(1)
+    centers = surface.shape.triangles.mean(1)
     lost = np.setdiff1d(np.arange(count), keep)
     middle = np.zeros((count, 3))
     np.add.at(middle, region, centers)
     middle /= np.bincount(region, minlength=count)[:, None]
     faces = np.flatnonzero(np.isin(region, keep))
-    nearest = region[faces[TriangleTree(whole.shape.triangles[faces]).nearest(middle[lost])[1]]]
+    nearest = region[faces[TriangleTree(surface.shape.triangles[faces]).nearest(middle[lost])[1]]]
     target = np.arange(count)
     target[lost] = nearest
     return np.unique(target[region], return_inverse=True)[1].reshape(-1)
 
 
-def _limit_pairs(whole: MeshSurface, region: np.ndarray, max_pairs: int) -> np.ndarray:
+def _limit_pairs(surface: MeshSurface, region: np.ndarray, max_pairs: int) -> np.ndarray:
     """Limit the number of pairs of patches whose boxes meet, each of which is measured later.
 
     The smallest patches join their nearest larger one.
     """
     while True:
-        count, pairs = int(region.max()) + 1, _meeting_boxes(whole, region)
+        count, pairs = int(region.max()) + 1, _meeting_boxes(surface, region)
         if pairs <= max_pairs:
             return region
-        largest = np.argsort(-region_sizes(whole, region), kind="stable")
-        region = _keep(whole, region, largest[: int(count * np.sqrt(max_pairs / pairs))])
+        largest = np.argsort(-region_sizes(surface, region), kind="stable")
+        region = _keep(surface, region, largest[: int(count * np.sqrt(max_pairs / pairs))])
 
 
-def _meeting_boxes(whole: MeshSurface, region: np.ndarray) -> int:
+def _meeting_boxes(surface: MeshSurface, region: np.ndarray) -> int:
     """Return the number of pairs of regions whose axis-aligned boxes meet."""
     order = np.argsort(region, kind="stable")
     start = np.searchsorted(region[order], np.arange(int(region.max()) + 1))
-    low = np.minimum.reduceat(whole.shape.lowest[order], start)
-    high = np.maximum.reduceat(whole.shape.highest[order], start)
+    low = np.minimum.reduceat(surface.shape.lowest[order], start)
+    high = np.maximum.reduceat(surface.shape.highest[order], start)
     return sum(int(((low[k + 1 :] <= high[k]) & (high[k + 1 :] >= low[k])).all(1).sum()) for k in range(len(low)))

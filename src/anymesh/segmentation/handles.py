@@ -23,7 +23,7 @@ MAX_HANDLE_FLATNESS = (
     0.6  # length of its mean normal above which a protrusion is a strip; 1/2 for half a ball, 1/3 for a bar on a face
 )
 MIN_FOOT_FLATNESS = 0.5  # minimum length of the mean normal around the foot of a handle; 1 is plane
-MIN_ALIGNED_COSINE = 0.94  # minimum cosine between equal directions
+MIN_PARALLEL_COSINE = 0.94  # minimum cosine between equal directions
 MAX_HANDLE_GAP_RATIO = 0.02  # of the diagonal: maximum distance of a handle from its host
 TOUCH = 0.003  # of the diagonal: the foot of a separate handle is within this distance of its closest point
 MAX_CORNERS = 2000  # corners of a handle used to fit its box
@@ -46,15 +46,17 @@ class SurfaceHandle:
     foot: Int[np.ndarray, " m"]
 
 
-def find_handles(whole: MeshSurface, region: Int[np.ndarray, " F"]) -> list[SurfaceHandle]:
+def find_handles(surface: MeshSurface, region: Int[np.ndarray, " F"]) -> list[SurfaceHandle]:
     """Find all handles, ordered by their first region.
 
     A handle consists of small regions that border on a large one, or that are near the one region that covers almost all of the
     surface.
     """
-    area = np.bincount(region, whole.shape.areas)
-    small = (region_sizes(whole, region) < MAX_BAR_LENGTH_RATIO * whole.diagonal) & (area < MAX_HANDLE_AREA_RATIO * area.sum())
-    pairs = whole.components.edges.faces
+    area = np.bincount(region, surface.shape.areas)
+    small = (region_sizes(surface, region) < MAX_BAR_LENGTH_RATIO * surface.diagonal) & (
+        area < MAX_HANDLE_AREA_RATIO * area.sum()
+    )
+    pairs = surface.components.edges.faces
     a, b = region[pairs[:, 0]], region[pairs[:, 1]]
     group = label_connected(len(area), np.unique(np.c_[a, b][small[a] & small[b]], axis=0))
     mixed = np.flatnonzero(small[a] != small[b])
@@ -68,11 +70,11 @@ def find_handles(whole: MeshSurface, region: Int[np.ndarray, " F"]) -> list[Surf
         if beside is not None:
             host = int(np.bincount(region[beside]).argmax())
             foot = np.unique(beside[region[beside] == host])
-        elif is_main_component(whole, region, main):
-            host, foot = main, _near(whole, faces, np.flatnonzero(region == main))
+        elif is_main_component(surface, region, main):
+            host, foot = main, _near(surface, faces, np.flatnonzero(region == main))
         else:
             continue
-        handle = _surface_handle(whole, faces, host, foot) if len(foot) else None
+        handle = _surface_handle(surface, faces, host, foot) if len(foot) else None
         handles += [handle] if handle is not None else []
     return handles
 
@@ -84,51 +86,51 @@ def _listed(key: np.ndarray, value: np.ndarray) -> dict[int, np.ndarray]:
     return {int(k): v for k, v in zip(keys, np.split(value[order], start[1:]), strict=True)} if len(keys) else {}
 
 
-def _near(whole: MeshSurface, faces: np.ndarray, host: np.ndarray) -> Int[np.ndarray, " n"]:
+def _near(surface: MeshSurface, faces: np.ndarray, host: np.ndarray) -> Int[np.ndarray, " n"]:
     """Return the host's faces closest to a separate component; none if it is too far away or too large for a handle."""
-    points = _corners(whole, faces)
-    if np.ptp(points, axis=0).max() > MAX_BAR_LENGTH_RATIO * whole.diagonal:
+    points = _corners(surface, faces)
+    if np.ptp(points, axis=0).max() > MAX_BAR_LENGTH_RATIO * surface.diagonal:
         return np.zeros(0, np.int64)
-    corners = whole.shape.triangles[host].reshape(-1, 3)
+    corners = surface.shape.triangles[host].reshape(-1, 3)
     gap, face, _ = distance_to_mesh(points, corners, np.arange(len(corners)).reshape(-1, 3))
-    near = gap < min(float(gap.min()) + TOUCH * whole.diagonal, MAX_HANDLE_GAP_RATIO * whole.diagonal)
+    near = gap < min(float(gap.min()) + TOUCH * surface.diagonal, MAX_HANDLE_GAP_RATIO * surface.diagonal)
     return np.unique(host[face[near]])
 
 
-def _corners(whole: MeshSurface, faces: np.ndarray) -> np.ndarray:
-    points = whole.shape.triangles[faces].reshape(-1, 3)
+def _corners(surface: MeshSurface, faces: np.ndarray) -> np.ndarray:
+    points = surface.shape.triangles[faces].reshape(-1, 3)
     return points[:: max(1, len(points) // MAX_CORNERS)]
 
 
-def _surface_handle(whole: MeshSurface, faces: np.ndarray, host: int, foot: np.ndarray) -> SurfaceHandle | None:
+def _surface_handle(surface: MeshSurface, faces: np.ndarray, host: int, foot: np.ndarray) -> SurfaceHandle | None:
     """Return these faces as a handle on the host region, None if they are none."""
-    mean = whole.shape.areas[foot] @ whole.shape.normals[foot]
-    if np.linalg.norm(mean) < MIN_FOOT_FLATNESS * whole.shape.areas[foot].sum():
+    mean = surface.shape.areas[foot] @ surface.shape.normals[foot]
+    if np.linalg.norm(mean) < MIN_FOOT_FLATNESS * surface.shape.areas[foot].sum():
         return None
     normal = mean / max(float(np.linalg.norm(mean)), 1e-300)
-    level = float(np.median(whole.shape.triangles[foot].mean(1) @ normal))
-    points = _corners(whole, faces)
+    level = float(np.median(surface.shape.triangles[foot].mean(1) @ normal))
+    points = _corners(surface, faces)
     out = float((points @ normal).max()) - level
-    turned = np.linalg.norm(whole.shape.areas[faces] @ whole.shape.normals[faces])
-    if out < MIN_HANDLE_SIZE_RATIO * whole.diagonal or turned > MAX_HANDLE_FLATNESS * whole.shape.areas[faces].sum():
+    turned = np.linalg.norm(surface.shape.areas[faces] @ surface.shape.normals[faces])
+    if out < MIN_HANDLE_SIZE_RATIO * surface.diagonal or turned > MAX_HANDLE_FLATNESS * surface.shape.areas[faces].sum():
         return None
-    box = fit_box(points, whole.shape.normals[faces], whole.shape.areas[faces])
+    box = fit_box(points, surface.shape.normals[faces], surface.shape.areas[faces])
     bar = _is_bar(box, normal)
-    if not bar and box.diagonal > MAX_KNOB_SIZE_RATIO * whole.diagonal:
+    if not bar and box.diagonal > MAX_KNOB_SIZE_RATIO * surface.diagonal:
         return None
     width = float(np.ptp(points @ np.cross(box.axes[0], normal))) if bar else 2 * float(box.half[1])
-    if 2 * box.half[1] < MIN_HANDLE_SIZE_RATIO * whole.diagonal or out < MIN_HEIGHT_WIDTH_RATIO * width:
+    if 2 * box.half[1] < MIN_HANDLE_SIZE_RATIO * surface.diagonal or out < MIN_HEIGHT_WIDTH_RATIO * width:
         return None
     return SurfaceHandle(host, normal, level, box.axes[0] if bar else None, points, faces, foot)
 
 
 def _is_bar(box: OrientedBox, normal: np.ndarray) -> bool:
     """Return whether a handle is long and parallel to the face that it is on."""
-    return bool(box.half[0] >= MIN_BAR_ASPECT * box.half[1] and abs(box.axes[0] @ normal) < np.sqrt(1 - MIN_ALIGNED_COSINE**2))
+    return bool(box.half[0] >= MIN_BAR_ASPECT * box.half[1] and abs(box.axes[0] @ normal) < np.sqrt(1 - MIN_PARALLEL_COSINE**2))
 
 
 def aligned(a: SurfaceHandle, b: SurfaceHandle) -> bool:
     """Return whether both are knobs, or parallel or perpendicular bars."""
     if a.axis is None or b.axis is None:
         return a.axis is b.axis
-    return bool(max(abs(a.axis @ b.axis), abs(a.axis @ np.cross(b.normal, b.axis))) > MIN_ALIGNED_COSINE)
+    return bool(max(abs(a.axis @ b.axis), abs(a.axis @ np.cross(b.normal, b.axis))) > MIN_PARALLEL_COSINE)

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Int
 
+from anymesh.config import REFERENCE_PX
 from anymesh.rendering.render import View
 from anymesh.rendering.viewpoints import zoom
 from anymesh.segmentation.regions import Marks
@@ -55,7 +56,7 @@ def choose_pictures(
         return []
     labels = [marks.in_view(view) for view in views]
     size = np.stack([_count(label, numbers) for label in labels])
-    scale = np.array([(view.camera.height / 640) ** 2 for view in views])[:, None]
+    scale = np.array([(view.camera.height / REFERENCE_PX) ** 2 for view in views])[:, None]
     well = size >= np.minimum(WELL * scale, np.maximum(HALF * size.max(0), 1))
     pictures: list[MarkPicture] = []
     for v, new in _cover(well, size):
@@ -96,7 +97,7 @@ def _drawn(
 
     The first of these with at most MAX_MARKS_PER_PICTURE marks is chosen. whole: the view with all marks, also tiny ones.
     """
-    shown = numbers[size >= MIN_MARK_PIXELS * (whole.view.camera.height / 640) ** 2]
+    shown = numbers[size >= MIN_MARK_PIXELS * (whole.view.camera.height / REFERENCE_PX) ** 2]
     own = np.union1d(shown, numbers[new])
     if len(own) <= MAX_MARKS_PER_PICTURE:
         return [whole.only(own)]

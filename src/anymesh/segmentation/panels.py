@@ -10,7 +10,7 @@ from anymesh.config import FACING_COSINE
 from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import MeshSurface
-from anymesh.segmentation.handles import MIN_ALIGNED_COSINE, SurfaceHandle, aligned, find_handles
+from anymesh.segmentation.handles import MIN_PARALLEL_COSINE, SurfaceHandle, aligned, find_handles
 from anymesh.segmentation.layout import filled, tile
 from anymesh.segmentation.surface_regions import is_main_component, region_sizes
 
@@ -27,70 +27,70 @@ MAX_CUT_OFF_RATIO = 0.5
 SAMPLES = 20_000  # sample points on a face, for finding the rectangle that it fills
 
 
-def split_panels(whole: MeshSurface, region: Int[np.ndarray, " F"]) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
+def split_panels(surface: MeshSurface, region: Int[np.ndarray, " F"]) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
     """Split regions into panels by their handles; return the new regions, and which faces belong to such a panel.
 
     A region is split if its handles imply several panels, or one panel on a region that is no panel itself.
     """
     new_region, count = region.copy(), int(region.max()) + 1
-    for faces, handles in _faces_with_handles(whole, region):
+    for faces, handles in _faces_with_handles(surface, region):
         new = int(new_region.max()) + 1
         if (new_region[faces] < count).all():
-            _divide(whole, new_region, faces, handles)
-            _through(whole, new_region, new)
+            _divide(surface, new_region, faces, handles)
+            _through(surface, new_region, new)
     return np.unique(new_region, return_inverse=True)[1].reshape(-1), new_region >= count
 
 
-def _faces_with_handles(whole: MeshSurface, region: np.ndarray) -> list[tuple[Int[np.ndarray, " n"], list[SurfaceHandle]]]:
+def _faces_with_handles(surface: MeshSurface, region: np.ndarray) -> list[tuple[Int[np.ndarray, " n"], list[SurfaceHandle]]]:
     """Return the faces (flat parts of regions) with handles, each with all mutually aligned handles on it."""
     faces_with_handles: list[tuple[np.ndarray, list[SurfaceHandle]]] = []
-    for handle in find_handles(whole, region):
+    for handle in find_handles(surface, region):
         for faces, others in faces_with_handles:
             if np.isin(handle.foot, faces).any():
                 others.append(handle)
                 break
         else:
-            faces_with_handles.append((_face_of(whole, region, handle), [handle]))
-    return [(faces, kept) for faces, handles in faces_with_handles if (kept := _of_a_kind(whole, faces, handles))]
+            faces_with_handles.append((_face_of(surface, region, handle), [handle]))
+    return [(faces, kept) for faces, handles in faces_with_handles if (kept := _of_a_kind(surface, faces, handles))]
 
 
-def _of_a_kind(whole: MeshSurface, faces: np.ndarray, handles: list[SurfaceHandle]) -> list[SurfaceHandle]:
+def _of_a_kind(surface: MeshSurface, faces: np.ndarray, handles: list[SurfaceHandle]) -> list[SurfaceHandle]:
     """Return the handles that imply panels: bars that are parallel or perpendicular to each other, otherwise knobs.
 
     Knobs count only on a large upright face without bars. Beside bars and on small panels, knobs are controls, and under an
     object they are feet. Round surfaces have none.
     """
-    normal = whole.shape.areas[faces] @ whole.shape.normals[faces]
-    if np.linalg.norm(normal) < MIN_FACE_FLATNESS * whole.shape.areas[faces].sum():
+    normal = surface.shape.areas[faces] @ surface.shape.normals[faces]
+    if np.linalg.norm(normal) < MIN_FACE_FLATNESS * surface.shape.areas[faces].sum():
         return []
     bars = [g for g in handles if g.axis is not None]
     if bars:
         return [g for g in bars if aligned(bars[0], g)]
-    across = np.ptp(whole.shape.triangles.reshape(-1, 3), axis=0)
+    across = np.ptp(surface.shape.triangles.reshape(-1, 3), axis=0)
     side = across.prod() / across * np.abs(normal) / max(float(np.linalg.norm(normal)), 1e-300)
     upright = abs(normal[2]) < FACING_COSINE * np.linalg.norm(normal)
     return handles if upright and np.linalg.norm(normal) > MIN_KNOB_FACE_RATIO * side.sum() else []
 
 
-def _face_of(whole: MeshSurface, region: np.ndarray, handle: SurfaceHandle) -> Int[np.ndarray, " n"]:
+def _face_of(surface: MeshSurface, region: np.ndarray, handle: SurfaceHandle) -> Int[np.ndarray, " n"]:
     """Return the connected faces of the handle's region that lie roughly in one plane with its foot.
 
     The plane is that of the foot first, then that of the faces found.
     """
-    pairs = whole.components.edges.faces
-    centers, areas = whole.shape.triangles.mean(1), whole.shape.areas
+    pairs = surface.components.edges.faces
+    centers, areas = surface.shape.triangles.mean(1), surface.shape.areas
     normal, level = handle.normal, handle.level
     face = np.zeros(0, np.int64)
     for _ in range(PLANE_FITS):
-        flat = (whole.shape.normals @ normal > np.cos(np.deg2rad(MAX_BEND_DEG))) & (region == handle.region)
-        flat &= np.abs(centers @ normal - level) < MAX_FACE_BULGE_RATIO * whole.diagonal
+        flat = (surface.shape.normals @ normal > np.cos(np.deg2rad(MAX_BEND_DEG))) & (region == handle.region)
+        flat &= np.abs(centers @ normal - level) < MAX_FACE_BULGE_RATIO * surface.diagonal
         label = label_connected(len(flat), pairs[flat[pairs].all(1)])
         area = np.bincount(label, np.where(flat, areas, 0))
         mine = np.unique(label[handle.foot])
         face = np.flatnonzero(flat & (label == mine[area[mine].argmax()]))
         if len(face) == 0:
             break
-        mean = areas[face] @ whole.shape.normals[face]
+        mean = areas[face] @ surface.shape.normals[face]
         normal = mean / max(float(np.linalg.norm(mean)), 1e-300)
         level = float(np.average(centers[face] @ normal, weights=areas[face]))
     return face
@@ -112,28 +112,28 @@ def _smallest_frame(points: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "2 2"
     return best
 
 
-def _divide(whole: MeshSurface, region: np.ndarray, faces: np.ndarray, handles: list[SurfaceHandle]) -> None:
+def _divide(surface: MeshSurface, region: np.ndarray, faces: np.ndarray, handles: list[SurfaceHandle]) -> None:
     """Assign a region of its own to each panel of the face, in place."""
     if len(faces) < 2:
         return
     number = handles[0].region
-    normal = whole.shape.areas[faces] @ whole.shape.normals[faces]
+    normal = surface.shape.areas[faces] @ surface.shape.normals[faces]
     normal /= max(float(np.linalg.norm(normal)), 1e-300)
     frame = np.linalg.svd(normal[None])[2][1:]
-    frame = _smallest_frame(whole.shape.triangles[faces].reshape(-1, 3) @ frame.T) @ frame
-    sides = np.ptp(whole.shape.triangles[faces].reshape(-1, 3) @ frame.T, axis=0)
-    thickness = np.ptp(whole.shape.triangles[region == number].reshape(-1, 3) @ normal)
-    if thickness < MAX_PANEL_THICKNESS_RATIO * sides.min() and not is_main_component(whole, region, number):
+    frame = _smallest_frame(surface.shape.triangles[faces].reshape(-1, 3) @ frame.T) @ frame
+    sides = np.ptp(surface.shape.triangles[faces].reshape(-1, 3) @ frame.T, axis=0)
+    thickness = np.ptp(surface.shape.triangles[region == number].reshape(-1, 3) @ normal)
+    if thickness < MAX_PANEL_THICKNESS_RATIO * sides.min() and not is_main_component(surface, region, number):
         return
     spots = np.array([[(g.points @ frame.T).min(0), (g.points @ frame.T).max(0)] for g in handles])
     along = np.array([-1 if g.axis is None else int(np.abs(frame @ g.axis).argmax()) for g in handles])
-    samples = sample_surface(whole.shape.triangles[faces], SAMPLES, whole.shape.seed).points @ frame.T
+    samples = sample_surface(surface.shape.triangles[faces], SAMPLES, surface.shape.seed).points @ frame.T
     rectangle = filled(samples, np.array([spots[:, 0].min(0), spots[:, 1].max(0)]))
     panels = tile(*rectangle, spots, along) if rectangle is not None else ()
     least = min((float(np.prod(np.subtract(f.high, f.low))) for f in panels), default=0.0)
-    if len(panels) > 1 and whole.shape.areas[faces].max() > MAX_TRIANGLE_RATIO * least:
+    if len(panels) > 1 and surface.shape.areas[faces].max() > MAX_TRIANGLE_RATIO * least:
         return  # triangles too large to separate the panels
-    middle = whole.shape.triangles[faces].mean(1) @ frame.T
+    middle = surface.shape.triangles[faces].mean(1) @ frame.T
     new = int(region.max()) + 1
     for k, panel in enumerate(panels):
         inside = (middle >= np.array(panel.low)).all(1) & (middle <= np.array(panel.high)).all(1)
@@ -141,10 +141,10 @@ def _divide(whole: MeshSurface, region: np.ndarray, faces: np.ndarray, handles: 
     for k, panel in enumerate(panels):
         handle = handles[panel.handle]
         region[np.r_[handle.faces, np.intersect1d(handle.foot, faces)]] = new + k
-    _hand_over(whole, region, number, new)
+    _hand_over(surface, region, number, new)
 
 
-def _through(whole: MeshSurface, region: np.ndarray, new: int) -> None:
+def _through(surface: MeshSurface, region: np.ndarray, new: int) -> None:
     """Assign the back of a thin region to the panel in front of it, in place, as for a door but not for a cabinet.
 
     New panels are numbered from `new`.
@@ -152,31 +152,31 @@ def _through(whole: MeshSurface, region: np.ndarray, new: int) -> None:
     panels = np.flatnonzero(region >= new)
     if not len(panels):
         return
-    area = np.bincount(region[panels] - new, whole.shape.areas[panels])
+    area = np.bincount(region[panels] - new, surface.shape.areas[panels])
     # area over diagonal, which is nearly the shorter side of an oblong rectangle
-    thin = MAX_PANEL_THICKNESS_RATIO * area / np.maximum(region_sizes(whole, region)[new:], 1e-300)
+    thin = MAX_PANEL_THICKNESS_RATIO * area / np.maximum(region_sizes(surface, region)[new:], 1e-300)
     back = np.flatnonzero(region < new)
-    rays = -whole.shape.normals[back]
-    start = whole.shape.triangles[back].mean(1) + 1e-5 * whole.diagonal * rays
-    hits = whole.shape.scene.first_hit(start, rays, float(thin.max()))
+    rays = -surface.shape.normals[back]
+    start = surface.shape.triangles[back].mean(1) + 1e-5 * surface.diagonal * rays
+    hits = surface.shape.scene.first_hit(start, rays, float(thin.max()))
     seen = np.flatnonzero(hits.face >= 0)
     panel = region[hits.face[seen]] - new
-    facing = np.einsum("ij,ij->i", whole.shape.normals[hits.face[seen]], rays[seen]) > MIN_ALIGNED_COSINE
+    facing = np.einsum("ij,ij->i", surface.shape.normals[hits.face[seen]], rays[seen]) > MIN_PARALLEL_COSINE
     mine = (panel >= 0) & facing & (hits.distance[seen] < thin[np.maximum(panel, 0)])
     region[back[seen[mine]]] = panel[mine] + new
 
 
-def _hand_over(whole: MeshSurface, region: np.ndarray, host: int, new: int) -> None:
+def _hand_over(surface: MeshSurface, region: np.ndarray, host: int, new: int) -> None:
     """Assign what the panels cut off from the rest of their region (the reveal around a pane) to them, in place.
 
     New panels are numbered from `new`.
     """
-    pairs = whole.components.edges.faces
+    pairs = surface.components.edges.faces
     rest = region == host
     if not rest.any():
         return
     label = label_connected(len(region), pairs[rest[pairs].all(1)])
-    main = np.bincount(label[rest], whole.shape.areas[rest]).argmax()
+    main = np.bincount(label[rest], surface.shape.areas[rest]).argmax()
     side = region[pairs]
     for k in (0, 1):
         cut = (side[:, k] == host) & (label[pairs[:, k]] != main) & (side[:, 1 - k] >= new)
@@ -185,5 +185,5 @@ def _hand_over(whole: MeshSurface, region: np.ndarray, host: int, new: int) -> N
         at = np.flatnonzero(label == c)
         beside = np.r_[side[np.isin(pairs[:, 0], at), 1], side[np.isin(pairs[:, 1], at), 0]]
         panel = int(np.bincount(beside[beside >= new]).argmax())
-        own = whole.shape.areas[at].sum() < MAX_CUT_OFF_RATIO * whole.shape.areas[region == panel].sum()
+        own = surface.shape.areas[at].sum() < MAX_CUT_OFF_RATIO * surface.shape.areas[region == panel].sum()
         region[at] = panel if own else host

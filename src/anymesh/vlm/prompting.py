@@ -30,6 +30,10 @@ class JointAppearance(StrEnum):
     def is_rotation(self) -> bool:
         return self in (JointAppearance.HINGE_ALONG, JointAppearance.HINGE_INTO, JointAppearance.HINGE_HIDDEN)
 
+    @property
+    def words(self) -> str:
+        return self.value.replace("_", " ")
+
 
 @dataclass(frozen=True, eq=False)
 class PartShown:

@@ -9,7 +9,7 @@ from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_classifier import PartMotionScores
 from anymesh.articulation.motion_question import SlideDirection
 from anymesh.articulation.offers import moves_as
-from anymesh.articulation.verify import Choice, words
+from anymesh.articulation.verify import Choice
 from anymesh.config import FACING_COSINE
 from anymesh.types import JointType, Motion
 from anymesh.vlm.prompting import JointAppearance
@@ -47,7 +47,7 @@ def as_answered(case: PartCase) -> Choice:
     scores = PartMotionScores(case.around, case.label, both).alone.score
     best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is JointType.REVOLUTE else both[0]
     moves = case.recognized.moves if case.recognized else None
-    answer = f"answered: {words(case.kind)}; {motion.source}"
+    answer = f"answered: {case.kind.words}; {motion.source}"
     if case.kind is JointAppearance.FIXED:
         return Choice(best, answer, answered_confidence(None if moves is None else False, line=False), moves=False)
     as_recognized = None if moves is None else moves_as(best, moves)
