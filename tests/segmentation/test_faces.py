@@ -7,7 +7,7 @@ import pytest
 import trimesh
 from assets import box, mesh_of
 
-from anymesh.config import GroundingConfig
+from anymesh.config import Config, GroundingConfig
 from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.matching import match_parts, part_ious
 from anymesh.loading import load_mesh, place_mesh
@@ -39,7 +39,7 @@ def parts_of(pieces, told: dict[int, int]) -> tuple[np.ndarray, np.ndarray]:
     whole = object_shape(mesh)
     cloud = sample_cloud(mesh, whole, FEW)
     point = np.array([told.get(int(p), -1) for p in piece[cloud.faces]])
-    return face_parts(mesh, whole, cloud, point), piece
+    return face_parts(mesh, whole, cloud, point, Config()), piece
 
 
 def test_a_box_that_no_view_sees_joins_the_front_that_it_hangs_on() -> None:
@@ -61,7 +61,7 @@ def test_a_small_component_goes_to_the_part_of_most_of_its_points() -> None:
     whole = object_shape(mesh)
     cloud = sample_cloud(mesh, whole, FEW)
     point = np.where(piece[cloud.faces] == 1, (cloud.points[:, 0] > 1.04).astype(int), 0)
-    found = face_parts(mesh, whole, cloud, point)
+    found = face_parts(mesh, whole, cloud, point, Config())
     assert (found == piece).all()
 
 
@@ -76,7 +76,7 @@ def test_a_piece_of_two_parts_is_cut_along_its_superpoints_without_speckles() ->
     point = np.where(rng.random(len(cloud)) < 0.25, ~top, top).astype(int)
     point[rng.random(len(cloud)) < 0.3] = -1
     point[cloud.normals[:, 0] > 0.9] = -1  # a side that no view shows
-    found = face_parts(mesh, whole, cloud, point)
+    found = face_parts(mesh, whole, cloud, point, Config())
     known = mesh.face_normals[:, 0] < 0.9
     assert (found[known] == (mesh.face_normals[known, 2] > 0.9)).all()
     assert set(found[~known]) <= {0, 1}
@@ -89,7 +89,7 @@ def test_what_shows_through_a_gap_tells_nothing() -> None:
     own = piece[cloud.faces]
     point = np.where(own == 5, 1, np.where(own < 5, 0, -1))
     point[np.flatnonzero(own == 6)[::200]] = 0
-    assert (face_parts(mesh, whole, cloud, point)[piece == 6] == 1).all()
+    assert (face_parts(mesh, whole, cloud, point, Config())[piece == 6] == 1).all()
 
 
 def test_nothing_told_is_all_base() -> None:
@@ -125,14 +125,14 @@ def grounded(truth: GroundTruth, exact: bool) -> tuple[float, float]:
     middle, turns = mesh.bounds.mean(0), np.deg2rad(np.arange(0, 360, 45))
     eyes = [middle + mesh.diagonal * np.array([0.97 * np.cos(a), 0.97 * np.sin(a), 0.26]) for a in turns]
     views = [render(mesh, Camera.looking_at(e, middle, np.deg2rad(60.0), 320, 320)) for e in eyes]
-    marks = number_regions(face_regions(whole, cloud), views, whole.diagonal)
+    marks = number_regions(face_regions(whole, cloud), views, whole.diagonal, GroundingConfig())
     shown = seen_points(cloud, views)
     if exact:
         part = [np.bincount(truth.labels[marks.face_mark == n]).argmax() for n in range(1, int(marks.face_mark.max()) + 1)]
         named = [[n for n, p in enumerate(part, 1) if p == k] for k in range(1, len(truth.parts))]
-        found = mark_parts(mesh, whole, marks.face_mark, named, unseen_patches(whole, cloud, shown))
+        found = mark_parts(mesh, whole, marks.face_mark, named, unseen_patches(whole, cloud, shown), Config())
     else:
-        found = face_parts(mesh, whole, cloud, point_parts(cloud, by_masks(truth, marks, cloud, views), shown))
+        found = face_parts(mesh, whole, cloud, point_parts(cloud, by_masks(truth, marks, cloud, views), shown), Config())
     ious = part_ious(found, truth.labels, mesh.face_areas)
     return sum(iou for _, _, iou in match_parts(ious)) / (len(truth.parts) - 1), float(ious[0, 0])
 
@@ -148,8 +148,8 @@ def by_masks(truth: GroundTruth, marks: Marks, cloud: Cloud, views: list[View]) 
             Mask(np.isin(label, [n for n, p in part.items() if p == k]), truth.parts[k].label, int(rng.integers(1, 9)))
             for k in sorted(set(part.values()) - {0})
         ]
-        counts.append(count_points(cloud, view, masks))
-    return refine_instances(cloud, counts, fuse_masks(cloud, counts), rng)
+        counts.append(count_points(cloud, view, masks, GroundingConfig()))
+    return refine_instances(cloud, counts, fuse_masks(cloud, counts, GroundingConfig()), rng, GroundingConfig())
 
 
 @pytest.mark.parametrize("exact", [pytest.param(True, marks=pytest.mark.slow), False], ids=["exact", "em"])

@@ -89,7 +89,7 @@ def voted(pieces: list, share: float) -> list[set[int]]:
         mine = np.flatnonzero(piece[cloud.faces] == k)
         rank[mine[np.argsort(cloud.points[mine, 2], kind="stable")]] = np.linspace(0, 1, len(mine))
     point = np.where(piece[cloud.faces] == 0, 0, (rank > 1 - share).astype(int))
-    found = face_parts(mesh, whole, cloud, point)
+    found = face_parts(mesh, whole, cloud, point, Config())
     return [set(found[piece == k].tolist()) for k in range(len(pieces))]
 
 
@@ -109,7 +109,7 @@ def test_faces_without_a_mark_follow_their_patch(marks: list[int], expected: lis
         box((0, 0, 0), (1, 1, 1)), box((0, 0, 1), (0.5, 0.5, 1.5)), box((4, 0, 0), (5, 1, 1)), box((0, -9, 0), (9, -3, 1))
     )
     mark = np.where(np.arange(48) % 2 == 0, np.array([*marks, 3])[piece], -1)
-    found = mark_parts(mesh, whole, mark, [(1,), (2,)], np.zeros(4, bool))
+    found = mark_parts(mesh, whole, mark, [(1,), (2,)], np.zeros(4, bool), Config())
     assert [set(found[piece == k].tolist()) for k in range(4)] == [*({k} for k in expected), {0}]
 
 
@@ -117,8 +117,8 @@ def test_patches_that_views_hardly_show_are_not_of_the_base() -> None:
     mesh, whole, piece = shape(BASE, POST, ARM)
     mark = np.array([3, 1, 2])[piece]
     shown, hidden = np.zeros(3, bool), np.array([False, False, True])
-    assert mark_parts(mesh, whole, mark, [(1,)], shown)[piece == 2].tolist() == [0] * 12
-    assert mark_parts(mesh, whole, mark, [(1,)], hidden)[piece == 2].tolist() == [1] * 12
+    assert mark_parts(mesh, whole, mark, [(1,)], shown, Config())[piece == 2].tolist() == [0] * 12
+    assert mark_parts(mesh, whole, mark, [(1,)], hidden, Config())[piece == 2].tolist() == [1] * 12
 
 
 def sampled(*pieces) -> tuple[Mesh, ObjectShape, Cloud, np.ndarray]:

@@ -61,12 +61,11 @@ class Sight:
     pixels: Int[np.ndarray, " k"]
 
 
-def sample_cloud(mesh: Mesh, whole: ObjectShape, config: GroundingConfig | None = None, seed: int = 0) -> Cloud:
+def sample_cloud(mesh: Mesh, whole: ObjectShape, config: GroundingConfig, seed: int = 0) -> Cloud:
     """Sample points evenly by area, at least one per face, and cut them into superpoints by normal and colour.
 
     The superpoints come from l0 cut pursuit.
     """
-    config = config or GroundingConfig()
     s = sample_surface(mesh.triangles, config.points, seed, at_least=1)
     colors = point_colors(mesh, s)
     label, borders = find_superpoints(s, colors, whole.mesh_patch[s.faces], config)

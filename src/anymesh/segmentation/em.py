@@ -24,10 +24,9 @@ JOIN_POINTS = 40_000  # points of the cloud used to find neighbouring superpoint
 
 
 def refine_instances(
-    cloud: Cloud, counts: Sequence[Counts], start: Instances, rng: np.random.Generator, config: GroundingConfig | None = None
+    cloud: Cloud, counts: Sequence[Counts], start: Instances, rng: np.random.Generator, config: GroundingConfig
 ) -> Instances:
     """Refine the initial instances to explain the masks, split unconnected ones, and label each by majority."""
-    config = config or GroundingConfig()
     if not any(c.labels for c in counts):
         return start
     chosen = maximise(counts, start.number, len(start.labels), rng, config)

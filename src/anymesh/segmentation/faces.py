@@ -28,7 +28,7 @@ def face_parts(
     whole: ObjectShape,
     cloud: Cloud,
     point_part: Int[np.ndarray, " n"],
-    config: Config | None = None,
+    config: Config,
     stays_free: StaysFree | None = None,
 ) -> Int[np.ndarray, " F"]:
     """Return a part index per face, 0 for the base.
@@ -38,7 +38,6 @@ def face_parts(
     A patch joins one part as a whole. A patch with several parts is cut along the borders of its superpoints. An unseen patch
     joins the part that supports it if that part can still move as far (see `join_unseen`).
     """
-    config = config or Config()
     most = int(point_part.max(initial=0)) + 1
     patch = whole.mesh_patch[cloud.faces]
     patches = int(whole.mesh_patch.max()) + 1
@@ -93,7 +92,7 @@ def mark_parts(
     face_mark: Int[np.ndarray, " F"],
     parts: Sequence[Collection[int]],
     little: Bool[np.ndarray, " P"],
-    config: Config | None = None,
+    config: Config,
     stays_free: StaysFree | None = None,
 ) -> Int[np.ndarray, " F"]:
     """Return a part index per face from exact marks, 0 for the base.
@@ -103,7 +102,6 @@ def mark_parts(
     A face without a mark takes the part of the nearest marked face of its patch. A patch without marks joins the part that
     supports it if that part can still move as far.
     """
-    config = config or Config()
     part_of = np.zeros(int(face_mark.max(initial=0)) + 2, np.int64)
     for k, marks in enumerate(parts, start=1):
         part_of[[m for m in marks if m > 0]] = k

@@ -72,12 +72,11 @@ def marked_masks(proposals: Sequence[Proposal], parts: Sequence[MarkedPart]) -> 
     return tuple(view_masks)
 
 
-def count_points(cloud: Cloud, view: View, masks: Sequence[Mask], config: GroundingConfig | None = None) -> Counts:
+def count_points(cloud: Cloud, view: View, masks: Sequence[Mask], config: GroundingConfig) -> Counts:
     """Count the visible points of every superpoint in every mask.
 
     Masks that are empty or cover nearly all of the object are left out.
     """
-    config = config or GroundingConfig()
     visible = sight(cloud, view)
     label = cloud.superpoint[visible.points]
     height, width = view.face.shape
@@ -108,13 +107,12 @@ def _pixel_box(pixels: np.ndarray) -> tuple[float, float, float, float]:
     return float(columns[0]), float(rows[0]), float(columns[-1]), float(rows[-1])
 
 
-def fuse_masks(cloud: Cloud, counts: Sequence[Counts], config: GroundingConfig | None = None) -> Instances:
+def fuse_masks(cloud: Cloud, counts: Sequence[Counts], config: GroundingConfig) -> Instances:
     """Return the label and instance of each superpoint.
 
     Labels come from the coverage over the views that see a superpoint. Nearby superpoints of one label that the masks cover
     equally form an instance. Instances without a mask of their label in place in any view are dropped.
     """
-    config = config or GroundingConfig()
     number = np.where(sum(c.seen for c in counts) > 0, 0, -1)
     names, label = label_superpoints(counts, config)
     labels: list[str] = []

@@ -34,10 +34,9 @@ def _large_enough(labels: np.ndarray, min_pixels: float) -> tuple[int, ...]:
 
 
 def propose_masks(
-    masks: Sequence[Bool[np.ndarray, "_ H W"]], views: Sequence[View], config: GroundingConfig | None = None
+    masks: Sequence[Bool[np.ndarray, "_ H W"]], views: Sequence[View], config: GroundingConfig
 ) -> tuple[Proposal, ...]:
     """Return regions from a model's masks of every view, of its colour and its normal picture together."""
-    config = config or GroundingConfig()
     proposals = []
     for k, (some, view) in enumerate(zip(masks, views, strict=True)):
         least = min_pixels(view, config)

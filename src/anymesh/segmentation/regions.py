@@ -80,15 +80,12 @@ def _by_majority(label: np.ndarray, faces: np.ndarray, count: int) -> Int[np.nda
     return face_label
 
 
-def number_regions(
-    region: Int[np.ndarray, " F"], views: Sequence[View], diagonal: float, config: GroundingConfig | None = None
-) -> Marks:
+def number_regions(region: Int[np.ndarray, " F"], views: Sequence[View], diagonal: float, config: GroundingConfig) -> Marks:
     """Number the regions (-1 for none) that views show, the most visible first.
 
     A region too small for a mark in every view joins the region that it touches most in the pictures, or gets no mark if it
     touches none. The same applies to the smallest regions until MAX_MARKS are left.
     """
-    config = config or GroundingConfig()
     size, shown = _sizes(region, views, config)
     target, crowded = _merged(size, _touching(shown, views, size.shape[1], diagonal), MAX_MARKS)
     return Marks(_numbered(region, size, target, 1), crowded)
@@ -100,13 +97,12 @@ def split_marks(
     mesh: Mesh,
     cloud: Cloud,
     views: Sequence[View],
-    config: GroundingConfig | None = None,
+    config: GroundingConfig,
 ) -> Marks:
     """Divide the chosen marks into their connected components and superpoints, numbered above all others.
 
     A superpoint that is most of a mark is divided at its seams too.
     """
-    config = config or GroundingConfig()
     inside = np.isin(marks.face_mark, list(chosen))
     fine = _by_majority(_fine_regions(marks.face_mark[cloud.faces], chosen, cloud), cloud.faces, len(inside))
     component = components(mesh.vertices, mesh.faces).label
