@@ -27,6 +27,11 @@ class Deadline:
         self._begin = time.monotonic()
         self._left_out: list[str] = []
 
+    @property
+    def limit(self) -> float | None:
+        """Return the limit [s], None if there is none."""
+        return None if math.isinf(self.seconds) else self.seconds
+
     def late(self, share: float) -> bool:
         """Return whether more than a share of the limit has passed."""
         return time.monotonic() - self._begin > share * self.seconds

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
 from typing import Any
+from xml.etree import ElementTree
 
 from anymesh.checking.report import Finding, failure
 from anymesh.checking.tree import CHECK
@@ -19,11 +20,11 @@ SAME = 1e-6  # tolerance between the numbers of the two files
 
 
 def check_asset_json(path: Path, robot: Robot) -> Iterator[Finding]:
-    """Check that the file follows its schema, and that its links, joints and limits are those of the description."""
+    """Check that the file follows its schema, that its files and tree are complete, and that it agrees with the description."""
     import jsonschema
 
     try:
-        record = json.loads(path.read_text(encoding="utf-8"))
+        record = json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse)
     except (OSError, ValueError) as error:
         yield failure(CHECK, NAME, f"cannot be read: {error}")
         return
@@ -33,9 +34,45 @@ def check_asset_json(path: Path, robot: Robot) -> Iterator[Finding]:
         yield failure(CHECK, NAME, f"{error.json_path}: {error.message[:200]}")
     if not errors:
         yield from _agreement(record, robot)
+        yield from _tree(record)
+        yield from _files(record, path.parent)
         for part in record["parts"]:
             if not (path.parent / part["faces"]).is_file():
                 yield failure(CHECK, NAME, f"the file {part['faces']} of part {part['name']!r} is not there")
+
+
+def _refuse(number: str) -> None:
+    raise ValueError(f"found the number {number}; valid are finite numbers")
+
+
+def _tree(record: dict[str, Any]) -> Iterator[Finding]:
+    """Check that every part but one has a joint, and hangs on the one without."""
+    parts, parent = {p["name"] for p in record["parts"]}, {j["child"]: j["parent"] for j in record["joints"]}
+    unknown = sorted({name for pair in parent.items() for name in pair} - parts)
+    if unknown:
+        yield failure(CHECK, NAME, f"joints name {unknown}, which are no parts; valid are {sorted(parts)}")
+    for name in sorted(parts):
+        seen, at = {name}, parent.get(name)
+        while at is not None and at not in seen:
+            seen.add(at)
+            at = parent.get(at)
+        if at is not None:
+            yield failure(CHECK, NAME, f"part {name!r} hangs on itself, through {sorted(seen)}")
+    roots = sorted(parts - parent.keys())
+    if len(roots) != 1:
+        yield failure(CHECK, NAME, f"found {len(roots)} parts without a joint ({roots}); valid is one, the base")
+
+
+def _files(record: dict[str, Any], folder: Path) -> Iterator[Finding]:
+    """Check that the main file of each format is there, and is complete if it is XML."""
+    for kind, file in record["files"].items():
+        if not (folder / file).is_file():
+            yield failure(CHECK, NAME, f"the {kind} file {file} is not there")
+        elif kind in ("urdf", "mjcf", "sdf"):
+            try:
+                ElementTree.parse(folder / file)
+            except ElementTree.ParseError as error:
+                yield failure(CHECK, file, f"is broken or truncated: {error}")
 
 
 def _agreement(record: dict[str, Any], robot: Robot) -> Iterator[Finding]:

@@ -8,7 +8,7 @@ from pathlib import Path
 from anymesh.deadline import Deadline
 from anymesh.export.asset_json import TIMING_FILE, asset_record, json_text
 from anymesh.export.build import build_model
-from anymesh.export.formats import DEFAULT, Format, parse_formats, write_formats
+from anymesh.export.formats import DEFAULT, Format, load_libraries, parse_formats, write_formats
 from anymesh.export.meshes import write_meshes
 from anymesh.export.model import Base, Driven, Model
 from anymesh.export.settings import ExportConfig
@@ -17,7 +17,7 @@ from anymesh.vlm.transcript import write_transcript
 
 TRANSCRIPT = "transcript"  # folder of the questions and answers, browsable and replayable
 
-__all__ = ["Base", "Driven", "ExportConfig", "Format", "parse_formats", "write_asset"]
+__all__ = ["Base", "Driven", "ExportConfig", "Format", "load_libraries", "parse_formats", "write_asset"]
 
 
 def write_asset(

@@ -6,8 +6,16 @@ import io
 import zipfile
 from pathlib import Path
 
+from anymesh.errors import OutputError
+
 EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date that a zip can hold
 PLAIN_FILE = 0o100644 << 16  # a file readable by all and writable by its owner
+
+
+def check_zip(path: Path) -> None:
+    """Raise OutputError if no zip can be written there."""
+    if path.suffix.lower() != ".zip" or path.is_dir() or not path.parent.is_dir():
+        raise OutputError(f"--zip: found {str(path)!r}; valid is the path of a file that ends in .zip, in an existing folder")
 
 
 def write_zip(folder: Path, path: Path) -> None:

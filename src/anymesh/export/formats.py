@@ -13,7 +13,7 @@ from anymesh.export.model import Model
 from anymesh.export.sdf import write_sdf
 from anymesh.export.settings import ExportConfig
 from anymesh.export.urdf import urdf_text
-from anymesh.export.usd_ import write_usd
+from anymesh.export.usd_ import load_usd, write_usd
 
 
 class Format(StrEnum):
@@ -52,6 +52,15 @@ def main_file(kind: Format, name: str) -> str:
         Format.SDF: "model.sdf",
         Format.GLB: f"{name}.glb",
     }[kind]
+
+
+def load_libraries(formats: Sequence[Format]) -> None:
+    """Import what the writers of the formats need, while no other thread works: OpenUSD can hang if one does.
+
+    Raise MissingExtraError for one whose extra is not installed.
+    """
+    if Format.USD in formats:
+        load_usd()
 
 
 def write_formats(model: Model, folder: Path, formats: Sequence[Format], config: ExportConfig) -> None:

@@ -97,6 +97,15 @@ def visible(link: Link, config: ExportConfig) -> tuple[Primitive, ...]:
     return tuple(_with_back(p, shift) for p in primitives)
 
 
+def with_four_corners(primitive: Primitive) -> Primitive:
+    """Return a primitive with fewer than four corners with a back sheet, since MuJoCo refuses it alone."""
+    corners = primitive.positions[primitive.triangles].reshape(-1, 3)
+    normal = flat_normal(corners, share=SHEET) if len(np.unique(corners, axis=0)) < 4 else None
+    if normal is None:
+        return primitive
+    return _with_back(primitive, normal * max(SHEET * float(np.linalg.norm(np.ptp(corners, axis=0))), 1e-6))
+
+
 def _area(primitive: Primitive) -> float:
     return float(np.linalg.norm(face_cross(primitive.positions[primitive.triangles]), axis=1).sum() / 2)
 

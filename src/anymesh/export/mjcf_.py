@@ -17,11 +17,10 @@ from anymesh.export.model import Base, Driven, ExportLink, Model
 from anymesh.export.rotations import quaternion
 from anymesh.export.settings import ExportConfig
 from anymesh.mujoco_ import load_mujoco
-from anymesh.physics.collision.convex import volume
+from anymesh.physics.collision.convex import MIN_VOLUME, volume
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
 VISUAL, COLLISION = "visual", "collision"
-MIN_VOLUME = 1e-12  # [m^3] smaller meshes are refused unless their inertia, which is not used, is that of a shell
 DRIVES = 1  # group of the actuators: `actuatorgroupdisable="1"` makes the asset passive
 
 
@@ -154,7 +153,7 @@ def _shape(mujoco: Any, spec: Any, geom: Any, shape: Shape, path: str | None) ->
             geom.type, geom.size = mujoco.mjtGeom.mjGEOM_CYLINDER, [shape.radius, shape.length / 2, 0]
         case Hull():
             mesh = spec.add_mesh(name=geom.name, file=path)
-            if volume(shape) < MIN_VOLUME:
+            if volume(shape) < MIN_VOLUME:  # refused unless its inertia, which is not used, is that of a shell
                 mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
             geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, mesh.name
         case _:

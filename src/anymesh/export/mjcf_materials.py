@@ -10,7 +10,7 @@ from pathlib import Path
 from PIL import Image
 
 from anymesh.export.materials import display_color, painted, texture_files
-from anymesh.export.meshes import material_names, visible, write_obj
+from anymesh.export.meshes import material_names, visible, with_four_corners, write_obj
 from anymesh.export.model import FOLDER, ExportLink
 from anymesh.export.settings import ExportConfig
 from anymesh.types import Mesh
@@ -41,7 +41,7 @@ def geom_materials(mesh: Mesh, body: ExportLink, folder: Path, config: ExportCon
         if len(primitives) > 1:
             (folder / PIECES).mkdir(exist_ok=True)
             path = f"{PIECES}/{body.name}_{number}.obj"
-            write_obj(folder / path, body.name, None, [replace(p, material=-1)], names)
+            write_obj(folder / path, body.name, None, [replace(with_four_corners(p), material=-1)], names)
         material = None if p.material < 0 or painted(mesh, p) else p.material
         geoms.append(GeomMaterial(f"{body.name}_visual_{number}", path, material, display_color(mesh, p)))
     return geoms

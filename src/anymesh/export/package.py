@@ -34,8 +34,8 @@ def write_package(folder: Path, into: Path, *, base: Base) -> Path:
         raise InputError(f"{folder}: a package needs one .urdf, found {len(urdfs)}")
     name = package_name(urdfs[0].stem)
     package = into / name
-    if package.exists():
-        raise OutputError(f"{package} exists")
+    if package.exists() or (into.exists() and not into.is_dir()):
+        raise OutputError(f"{package if package.exists() else into} exists; valid is a folder without a package of this name")
     (package / "urdf").mkdir(parents=True)
     (package / FOLDER).mkdir()
     for file in sorted((folder / FOLDER).iterdir()):

@@ -23,7 +23,8 @@ from anymesh.types.mesh import TEXTURE_SLOTS
 NOISE = 1e-12  # [m, kg m^2] smaller values are rounding
 
 
-def _pxr() -> ModuleType:
+def load_usd() -> ModuleType:
+    """Import OpenUSD. Raise MissingExtraError without it."""
     try:
         import pxr
         import pxr.Gf
@@ -46,7 +47,7 @@ def write_usd(model: Model, folder: Path, config: ExportConfig) -> None:
 
     Raise MissingExtraError without OpenUSD.
     """
-    pxr = _pxr()
+    pxr = load_usd()
     (folder / FOLDER).mkdir(exist_ok=True)
     textures = write_textures(model.asset.mesh, folder / FOLDER, TEXTURE_SLOTS)
     stage = pxr.Usd.Stage.CreateInMemory()

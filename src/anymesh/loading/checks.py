@@ -11,6 +11,7 @@ from anymesh.errors import InputError
 FORMATS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae")
 MAX_FACES = 20_000_000
 MAX_BYTES = 4 * 1024**3
+ASCII_STL = re.compile(rb"(?is)(\xef\xbb\xbf)?\s*solid\b.{0,2000}facet")
 SIGNS = {  # start of files of other formats
     "GLB": rb"glTF",
     "PLY": rb"ply\r?\n",
@@ -21,7 +22,7 @@ SIGNS = {  # start of files of other formats
     "a JPEG picture": rb"\xff\xd8\xff",
     "a ZIP archive": rb"PK\x03\x04",
     "an FBX": rb"Kaydara FBX",
-    "an ASCII STL": rb"(?s)\s*solid\b.{0,2000}facet",
+    "an ASCII STL": ASCII_STL,
     "a web page": rb"(?i)\s*<(!doctype )?html",
 }
 
@@ -66,9 +67,9 @@ def _plausible(suffix: str, data: bytes) -> bool:
         case ".dae":
             return b"<COLLADA" in data[:4096]
         case ".stl":
-            return re.match(SIGNS["an ASCII STL"], data) is not None or is_binary_stl(data)
+            return ASCII_STL.match(data) is not None or is_binary_stl(data)
         case _:
-            return b"\0" not in data[:4096] and re.search(rb"(?m)^\s*(v|f|o|g|mtllib|usemtl)\s", data) is not None
+            return b"\0" not in data[:4096] and re.search(rb"(^|[\r\n])[ \t]*(v|f|o|g|mtllib|usemtl)\s", data) is not None
 
 
 def is_binary_stl(data: bytes) -> bool:

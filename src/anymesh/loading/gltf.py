@@ -10,7 +10,7 @@ import numpy as np
 
 from anymesh.errors import InputError
 from anymesh.loading.folder import Folder
-from anymesh.loading.gltf_data import Buffers, parse_json, split_glb
+from anymesh.loading.gltf_data import Buffers, item, parse_json, split_glb
 from anymesh.loading.gltf_materials import GltfMaterial, read_materials
 from anymesh.loading.join import join, rgba, simple_mesh, unique_names, unit
 from anymesh.types import Mesh, Node
@@ -40,13 +40,14 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
         number = node.get("mesh")
         if number is None:
             continue
+        source = item(tree["meshes"], number)
         if number not in meshes:
-            meshes[number] = _mesh(folder, f"mesh {labels[number]!r}", tree["meshes"][number], buffers, looks)
+            meshes[number] = _mesh(folder, f"mesh {labels[number]!r}", source, buffers, looks)
         mesh = meshes[number]
         if mesh is None:
             continue
-        if "skin" in node:
-            folder.warn("a mesh has a skin, which is ignored")
+        for what in _ignored(node, source):
+            folder.warn(f"a mesh has {what}, which are ignored")
         if not np.isfinite(T).all():
             raise InputError(f"{name}: node {index} has a transform that is not finite")
         nodes = (Node(str(node.get("name") or labels[number]), labels[number]),)
@@ -57,6 +58,16 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
         contents = f"only {' and '.join(only)}" if only else "no mesh in its scene"
         raise InputError(f"{name}: found {contents}; a scene with at least one triangle is needed")
     return join(placed)
+
+
+def _ignored(node: dict[str, Any], mesh: dict[str, Any]) -> Iterator[str]:
+    """Yield what moves or repeats a mesh and is not read."""
+    if "skin" in node:
+        yield "bones (a skin)"
+    if any("targets" in p for p in mesh["primitives"]):
+        yield "morph targets"
+    if "EXT_mesh_gpu_instancing" in node.get("extensions", {}):
+        yield "instances (EXT_mesh_gpu_instancing)"
 
 
 def _placed(name: str, tree: dict[str, Any]) -> Iterator[tuple[int, np.ndarray]]:

@@ -83,7 +83,7 @@ class Buffers:
 
     def _buffer(self, number: int) -> bytes:
         if number not in self._read:
-            buffer = _item(self._tree.get("buffers", []), number)
+            buffer = item(self._tree.get("buffers", []), number)
             uri = buffer.get("uri")
             data = (self._binary or b"") if uri is None else from_uri(uri, self._folder)
             length = buffer["byteLength"]
@@ -97,7 +97,7 @@ class Buffers:
 
         Raise InputError if it exceeds its buffer.
         """
-        view = _item(self._tree["bufferViews"], index)
+        view = item(self._tree["bufferViews"], index)
         data = self._buffer(view["buffer"])
         start, length = view.get("byteOffset", 0), view["byteLength"]
         if start < 0 or length < 0 or start + length > len(data):
@@ -109,7 +109,7 @@ class Buffers:
 
         Raise InputError if it is not valid.
         """
-        a = _item(self._tree["accessors"], index)
+        a = item(self._tree["accessors"], index)
         count, width, dtype = a["count"], WIDTHS[a["type"]], np.dtype(TYPES[a["componentType"]])
         if not isinstance(count, int) or not 0 <= count <= 3 * MAX_FACES:
             raise InputError(f"{self._name}: an accessor states {count} elements; valid are 0 to {3 * MAX_FACES}")
@@ -152,7 +152,8 @@ def from_uri(uri: str, folder: Folder) -> bytes:
         raise InputError(f"{folder.path.name}: found a data URI whose base64 is broken or truncated") from None
 
 
-def _item(items: list, index: int) -> Any:
+def item(items: list, index: int) -> Any:
+    """Return the item that a document refers to. Raise IndexError if there is none."""
     if isinstance(index, bool) or not isinstance(index, int) or not 0 <= index < len(items):
         raise IndexError(f"found the index {index}; valid are 0 to {len(items) - 1}")
     return items[index]

@@ -76,7 +76,7 @@ def _material(number: int, m: dict[str, Any], textures: list[dict[str, Any]], im
         emissive=_factor(m.get("emissiveFactor", (0.0, 0.0, 0.0)), 3),
         double_sided=bool(m.get("doubleSided", False)),
         alpha_mode=mode if mode in ("OPAQUE", "MASK", "BLEND") else "OPAQUE",
-        alpha_cutoff=float(m.get("alphaCutoff", 0.5)),
+        alpha_cutoff=float(np.clip(np.nan_to_num(float(m.get("alphaCutoff", 0.5)), nan=0.5), 0, 1)),
         textures={slot: t for slot, t in slot_textures.items() if t is not None},
     )
     main = base or next((info for info in named.values() if info is not None), {})

@@ -12,13 +12,16 @@ from anymesh.errors import InputError
 from anymesh.types import Material, Mesh, Node
 
 
-def check_geometry(name: str, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> None:
-    """Raise InputError if there is no triangle, an index without a vertex, or a corner that is not finite."""
+def check_geometry(name: str, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], first: int = 0) -> None:
+    """Raise InputError if there is no triangle, an index without a vertex, or a corner that is not finite.
+
+    first: number of the first vertex in the file.
+    """
     if not len(faces):
         raise InputError(f"{name}: found no triangle, only {len(vertices)} points; at least one triangle is needed")
     if faces.min() < 0 or faces.max() >= len(vertices):
         index = int(faces.min() if faces.min() < 0 else faces.max())
-        raise InputError(f"{name}: a face refers to vertex {index}; valid are 0 to {len(vertices) - 1}")
+        raise InputError(f"{name}: a face refers to vertex {index + first}; valid are {first} to {len(vertices) - 1 + first}")
     if not np.isfinite(vertices[faces]).all():
         raise InputError(f"{name}: found a vertex that is not finite (NaN or infinite); valid are finite coordinates")
 

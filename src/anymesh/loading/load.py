@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -31,6 +31,7 @@ READERS: dict[str, Callable[[bytes, Folder], Mesh]] = {
     ".dae": read_dae,
 }
 FARTHEST = 1e12  # coordinates above are no plausible lengths
+MAX_UV = 1e6  # a larger texture coordinate in single precision does not tell the place in the picture
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +60,8 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None) -> LoadedMesh
     folder = Folder(path, root)
     suffix = path.suffix.lower()
     try:
-        mesh = READERS[suffix](data, folder)
+        with np.errstate(over="ignore", invalid="ignore"):
+            mesh = _with_usable_uv(READERS[suffix](data, folder), folder)
         up, unit = _frame(suffix, path.name, data)
     except InputError:
         raise
@@ -70,6 +72,14 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None) -> LoadedMesh
         raise InputError(f"{path.name} has {len(mesh.faces)} faces; at most {MAX_FACES} are handled")
     _check_numbers(path.name, mesh)
     return LoadedMesh(mesh, str(path), hashlib.sha256(data).hexdigest(), up, unit, tuple(folder.warnings), folder.digest())
+
+
+def _with_usable_uv(mesh: Mesh, folder: Folder) -> Mesh:
+    """Return the mesh with texture coordinates that are not finite, or too large to mean a place, replaced by 0."""
+    if mesh.corner_uv is None or (usable := np.abs(mesh.corner_uv) <= MAX_UV).all():
+        return mesh
+    folder.warn(f"texture coordinates that are not finite or above {MAX_UV:.0e} are taken for 0")
+    return replace(mesh, corner_uv=np.where(usable, mesh.corner_uv, np.float32(0)))
 
 
 def _check_numbers(name: str, mesh: Mesh) -> None:

@@ -11,7 +11,7 @@ from anymesh.errors import InputError
 from anymesh.loading.folder import Folder
 from anymesh.loading.join import check_geometry, rgba, unique_names, unit
 from anymesh.loading.mtl import read_mtl
-from anymesh.loading.polygons import fans, recut
+from anymesh.loading.polygons_ import fans, recut
 from anymesh.types import Material, Mesh, Node
 
 
@@ -42,7 +42,7 @@ def read_obj(data: bytes, folder: Folder) -> Mesh:
     corners = np.array(lines.corners, np.int64).reshape(-1, 3)
     counts = np.array(lines.sizes, np.int64)
     triangles, polygon = fans(counts)
-    check_geometry(name, vertices, corners[triangles][:, :, 0])
+    check_geometry(name, vertices, corners[triangles][:, :, 0], first=1)
     rows = corners[recut(triangles, polygon, counts, vertices, corners[:, 0])]  # (F, 3, 3): vertex, texture, normal per corner
     faces = rows[:, :, 0]
     vertices[~np.isfinite(vertices)] = 0.0  # vertices of no face

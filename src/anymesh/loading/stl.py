@@ -9,15 +9,16 @@ from typing import Any
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.loading.checks import check_count
+from anymesh.loading.checks import ASCII_STL, check_count
 from anymesh.loading.folder import Folder
 from anymesh.loading.join import join, simple_mesh
 from anymesh.types import Mesh
 
 TRIANGLE = np.dtype([("normal", "<f4", 3), ("vertices", "<f4", (3, 3)), ("attributes", "<u2")])
-ASCII = re.compile(rb"(?s)\s*solid\b.{0,2000}facet")
-VERTEX = re.compile(rb"(?mi)^\s*vertex\s+(\S+)\s+(\S+)\s+(\S+)\s*$")
-SOLID = re.compile(rb"(?mi)^\s*solid\b[ \t]*(.*?)\s*$")
+SOLID = re.compile(rb"(?mi)^[ \t]*solid\b[ \t]*([^\n]*?)[ \t]*(?=$|\bfacet\s+normal\b)")
+FACET, END = re.compile(rb"(?i)\bfacet\s+normal\b"), re.compile(rb"(?i)\bendsolid\b")
+VERTEX = re.compile(rb"(?i)\bvertex\s+(\S+)\s+(\S+)\s+(\S+)")
+MAX_TITLE = 200  # characters of a solid's name that are kept
 
 
 def read_stl(data: bytes, folder: Folder) -> Mesh:
@@ -26,17 +27,24 @@ def read_stl(data: bytes, folder: Folder) -> Mesh:
     Raise InputError if they are not valid.
     """
     name = folder.path.name
-    if not ASCII.match(data):
+    if not ASCII_STL.match(data) or _is_complete(data):
         return _binary(name, data)
-    data = data.replace(b"\r", b"\n")  # some exporters end lines with a carriage return alone
+    data = data.removeprefix(b"\xef\xbb\xbf").replace(b"\r", b"\n")  # some exporters end lines with a carriage return alone
     starts = [m.start() for m in SOLID.finditer(data)]
     parts = [data[a:b] for a, b in zip(starts, [*starts[1:], len(data)], strict=True)]
     return join([_solid(name, part) for part in parts if b"facet" in part.lower()])
 
 
+def _is_complete(data: bytes) -> bool:
+    """Return whether the data are as long as a binary STL states, whose header may be text."""
+    return len(data) >= 84 and len(data) == 84 + TRIANGLE.itemsize * struct.unpack_from("<I", data, 80)[0]
+
+
 def _binary(name: str, data: bytes) -> Mesh:
     if len(data) < 84:
-        raise InputError(f"{name} is truncated: a binary STL header has 84 bytes, found {len(data)}")
+        raise InputError(
+            f"{name} is truncated or no STL: a binary one has at least 84 bytes, found {len(data)}; an ASCII one has facets"
+        )
     count = struct.unpack_from("<I", data, 80)[0]
     check_count(name, "triangles", count, (len(data) - 84) // TRIANGLE.itemsize)
     table: Any = np.frombuffer(data, TRIANGLE, count, 84)
@@ -46,11 +54,10 @@ def _binary(name: str, data: bytes) -> Mesh:
 
 def _solid(name: str, text: bytes) -> Mesh:
     label = SOLID.match(text)
-    title = label[1].decode("utf-8", "replace") if label else ""
-    if not re.search(rb"(?mi)^\s*endsolid", text):
+    title, body = (label[1].decode("utf-8", "replace")[:MAX_TITLE], text[label.end() :]) if label else ("", text)
+    if not END.search(body):
         raise InputError(f"{name} is truncated: the solid {title!r} has no endsolid, with which an ASCII STL ends")
-    rows = VERTEX.findall(text)
-    facets = len(re.findall(rb"(?mi)^\s*facet\b", text))
+    rows, facets = VERTEX.findall(body), len(FACET.findall(body))
     if len(rows) != 3 * facets:
         raise InputError(f"{name} is broken: found {facets} facets with {len(rows)} vertices; valid are 3 each")
     return simple_mesh(name, title or _stem(name), np.array(rows, float).reshape(-1, 3), np.arange(len(rows)))

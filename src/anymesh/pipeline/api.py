@@ -10,7 +10,7 @@ from typing import Unpack
 from anymesh.deadline import DEFAULT_SECONDS, Deadline
 from anymesh.errors import OptionError
 from anymesh.export import Base, Driven, Format
-from anymesh.export.archive import write_zip
+from anymesh.export.archive import check_zip, write_zip
 from anymesh.export.formats import DEFAULT
 from anymesh.export.options import ExportOptions
 from anymesh.export.package import write_package
@@ -129,6 +129,8 @@ def export_asset(
     how, deadline = ExportOptions.parse(base, formats, drives), Deadline(time_limit)
     if package is not None and Format.URDF not in how.formats:
         raise OptionError(f"--package needs the format urdf, found {formats!r}")
+    if archive is not None:
+        check_zip(Path(archive))
     with RunFolder.open(Path(folder)) as run:
         asset = write_files(run, how, deadline, progress)
     if package is not None:

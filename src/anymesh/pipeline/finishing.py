@@ -48,7 +48,7 @@ class Completion:
 def complete_asset(folder: RunFolder, how: Completion, deadline: Deadline, progress: Progress) -> None:
     """Complete shapes and textures, unless the saved result has the same inputs and options."""
     progress("finish", how.completer, 0, 1)
-    settings = {"by": how.completer, "texture": how.texture, "tight": how.watertight, "limit": deadline.seconds}
+    settings = {"by": how.completer, "texture": how.texture, "tight": how.watertight, "limit": deadline.limit}
     key = stage_key(COMPLETION, previous=folder.last_key(), config=settings)
     if folder.load(COMPLETION, key) is None:
         with folder.timed("finish"):

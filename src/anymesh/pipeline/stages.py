@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Generic, TypeVar
 
 from anymesh.deadline import PREVIEW, Deadline
-from anymesh.export import write_asset
+from anymesh.export import load_libraries, write_asset
 from anymesh.export.options import ExportOptions
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline.answering import AnswererSetup
@@ -101,7 +101,7 @@ def recognize(run: Run, loaded: Keyed[LoadResult], parts: str, *, sized: bool) -
 
 def segment_parts(run: Run, solver: Solver, recognized: Keyed[RecognitionResult], parts: str) -> Keyed[SegmentationResult]:
     """Find the movable parts (paper, 3.2)."""
-    settings = {**run.who.settings("verify"), "parts": parts, "labels": _bytes_of_labels(parts), "limit": run.deadline.seconds}
+    settings = {**run.who.settings("verify"), "parts": parts, "labels": _bytes_of_labels(parts), "limit": run.deadline.limit}
     key = stage_key(SEGMENTATION, previous=recognized.key, config=settings)
     recognition = recognized.result.recognition
     return Keyed(run.answered(SEGMENTATION, key, "segment", lambda: solver.parts(parts, recognition, run.progress)), key)
@@ -127,13 +127,14 @@ def estimate_joints(
             run.folder.save(SEGMENTATION, segmented.key, replace(parts, segmentation=estimated.segmentation))
         return estimated
 
-    key = stage_key(JOINTS, previous=segmented.key, config={**run.who.settings(), "limit": run.deadline.seconds})
+    key = stage_key(JOINTS, previous=segmented.key, config={**run.who.settings(), "limit": run.deadline.limit})
     return run.answered(JOINTS, key, "joints", compute)
 
 
 def write_files(folder: RunFolder, how: ExportOptions, deadline: Deadline, progress: Progress) -> Asset:
     """Write the files of the asset and its preview; only the legend of the preview if the deadline is near."""
     progress("export", "files", 0, 2)
+    load_libraries(how.formats)
     asset = folder.asset()
     brief = deadline.late(PREVIEW)
     if brief:

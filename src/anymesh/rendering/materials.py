@@ -70,7 +70,8 @@ def texels_per_pixel(mesh: Mesh, hits: SurfaceHits, beside: Int[np.ndarray, "m 2
             corners = mesh.corner_uv[hits.face[pairs[:, 0]]]
             du, dv = (np.diff(a[pairs], axis=1) for a in (hits.u, hits.v))
             uv = du * (corners[:, 1] - corners[:, 0]) + dv * (corners[:, 2] - corners[:, 0])
-            texels[number] = max(1, round(float(np.median(np.linalg.norm(uv * texture(material).shape[1::-1], axis=1)))))
+            size = texture(material).shape[1::-1]
+            texels[number] = int(np.clip(np.median(np.linalg.norm(uv * size, axis=1)).round(), 1, min(size)))
     return texels
 
 

@@ -65,7 +65,7 @@ def asset_entry(asset: Asset, *, faces: int) -> ReportEntry:
 
 def within(entries: list[ReportEntry], megabytes: float) -> list[ReportEntry]:
     """Limit the size of the page, leaving out pictures of questions first, then 3D views."""
-    left = int(megabytes * 1e6) - sum(len(e.preview) * 4 // 3 for e in entries)
+    left = int(min(megabytes, 1e6) * 1e6) - sum(len(e.preview) * 4 // 3 for e in entries)
     limited_entries = []
     for entry in entries:
         notes = entry.notes

@@ -19,6 +19,7 @@ from anymesh.physics.collision.convex import hull_of, thinned
 from anymesh.physics.collision.crossing import LinkSurface
 from anymesh.physics.collision.decompose import Component, Resolution, smallest_box, split_components
 from anymesh.physics.collision.decomposer import Decomposer, Fallback
+from anymesh.physics.collision.primitives import engine_shape
 from anymesh.physics.collision.settings import CollisionConfig
 from anymesh.types import Asset, Joint, JointType, Shape
 
@@ -83,7 +84,7 @@ def collision_shapes(
         resolution = [Resolution(config.gaps[k] * size, wall, config.pieces[k]) for k in levels]
         divided = decomposer.divide(some, resolution)
         fallbacks.update({owner[id(c)]: d.fallback for c, d in zip(some, divided, strict=True) if d.fallback is not None})
-        return [d.shapes for d in divided]
+        return [tuple(engine_shape(s) for s in d.shapes) for d in divided]
 
     with ThreadPoolExecutor(1) as thread:  # while the child processes divide components
         surfaces = thread.submit(lambda: {link: LinkSurface(simplify(t, MAX_CROSSING_FACES)) for link, t in triangles.items()})
@@ -96,7 +97,7 @@ def collision_shapes(
         config.crossing * size,
     )
     done = clear(scene, pieces, shapes_of, levels=len(config.gaps), rounds=config.rounds, late=late)
-    link_shapes = {link: tuple(s for p in done.pieces if p.link == link for s in p.shapes) for link in triangles}
+    link_shapes = {link: tuple(engine_shape(s) for p in done.pieces if p.link == link for s in p.shapes) for link in triangles}
     link_shapes = {link: shapes or (smallest_box(triangles[link], wall),) for link, shapes in link_shapes.items()}
     warnings = tuple(
         f"link {link}: collision made by {f.used}, since {'; '.join(f.reasons)}" for link, f in sorted(fallbacks.items())
@@ -106,7 +107,7 @@ def collision_shapes(
 
 def _one_hull(component: Component, wall: float) -> tuple[Shape, ...]:
     hull = hull_of(component.triangles.reshape(-1, 3), wall)
-    return () if hull is None else (thinned(hull),)
+    return () if hull is None else (engine_shape(thinned(hull)),)
 
 
 def joint_poses(

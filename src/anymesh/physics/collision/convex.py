@@ -10,6 +10,7 @@ from anymesh.geometry.sampling import spread_directions
 from anymesh.types import Hull
 from anymesh.types.triangles import face_cross
 
+MIN_VOLUME = 1e-12  # [m^3] MuJoCo refuses smaller meshes, also in a URDF
 MAX_CORNERS = 64  # corners of a hull; GPU engines accept no more
 MIN_THICKNESS_RATIO = 1e-4  # of the diagonal: no engine accepts thinner hulls
 

@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from anymesh.geometry.boxes import dominant_normals, fit_box
 from anymesh.geometry.circles import roundest
-from anymesh.physics.collision.convex import hull_of, thinned, volume
+from anymesh.physics.collision.convex import MIN_VOLUME, hull_of, thinned, volume
 from anymesh.types import Box, Cylinder, Hull, Shape
 from anymesh.types.triangles import normals_and_areas
 
@@ -46,6 +46,14 @@ def _cylinder(hull: Hull, directions: np.ndarray, exact: float, fit: float) -> C
     u /= np.linalg.norm(u)
     rotation = np.stack([u, np.cross(outline.axis, u), outline.axis], 1)
     return Cylinder(outline.center, rotation, outline.radius, outline.height)
+
+
+def engine_shape(shape: Shape) -> Shape:
+    """Return the box of a hull whose volume is too small for engines; other shapes as they are."""
+    if not isinstance(shape, Hull) or volume(shape) >= MIN_VOLUME:
+        return shape
+    box = fit_box(shape.vertices, *normals_and_areas(shape.vertices[shape.faces]))
+    return Box(box.center, box.axes.T.copy(), 2 * box.half)
 
 
 def as_hull(shape: Shape) -> Hull:

@@ -1,7 +1,8 @@
 """Triangulation of polygons.
 
-Convex polygons become fans. Concave ones are cut by ear clipping, so that no triangle covers a window's hole. Common ear
-clippers drop corners that lie on a line between others, and with them the seams to neighbours. This one keeps every corner.
+Convex polygons become fans. Concave ones are cut by manifold3d, so that no triangle covers a window's hole. It keeps every
+corner, also those on a line between others, and with them the seams to neighbours, and it ends soon for outlines that cross
+themselves.
 """
 
 from __future__ import annotations
@@ -28,10 +29,12 @@ def recut(
     vertices: Float[np.ndarray, "V 3"],
     corners: Int[np.ndarray, " c"],
 ) -> Int[np.ndarray, "F 3"]:
-    """Cut the fans of concave polygons again, by ears; the number of triangles and their positions stay the same.
+    """Cut the fans of concave polygons again; the number of triangles and their positions stay the same.
 
     corners: the vertex of each corner, polygon after polygon; those of polygons without triangles may not be valid vertices.
     """
+    from manifold3d import triangulate
+
     big = np.flatnonzero(counts > 3)
     if not len(big):
         return triangles
@@ -52,7 +55,7 @@ def recut(
     place = np.searchsorted(polygon, np.arange(len(counts)))
     for k in np.flatnonzero(reflex & (counts > 3)):
         corners = points[start[k] : start[k] + counts[k]]
-        recut_triangles[place[k] : place[k] + counts[k] - 2] = start[k] + _ears(_flat(corners, normal[k]))
+        recut_triangles[place[k] : place[k] + counts[k] - 2] = start[k] + triangulate([_flat(corners, normal[k])])
     return recut_triangles
 
 
@@ -61,38 +64,3 @@ def _flat(points: np.ndarray, normal: np.ndarray) -> np.ndarray:
     k = int(np.abs(normal).argmax())
     axes = [(k + 1) % 3, (k + 2) % 3]
     return points[:, axes if normal[k] > 0 else axes[::-1]]
-
-
-def _ears(p: np.ndarray) -> np.ndarray:
-    """Return the (n - 2, 3) corner indices of the triangles of a simple counterclockwise polygon (n, 2)."""
-    left, ears = list(range(len(p))), []
-    while len(left) > 3:
-        ear = next((i for i in range(len(left)) if _is_ear(p, left, i)), None)
-        if ear is None:  # the polygon crosses itself: the flattest corner does the least harm
-            ear = int(np.argmin([abs(_cross(p, *_around(left, i))) for i in range(len(left))]))
-        ears.append(_around(left, ear))
-        del left[ear]
-    return np.array([*ears, tuple(left)])
-
-
-def _around(left: list[int], i: int) -> tuple[int, int, int]:
-    return left[i - 1], left[i], left[(i + 1) % len(left)]
-
-
-def _cross(p: np.ndarray, a: int, b: int, c: int) -> float:
-    u, v = p[b] - p[a], p[c] - p[b]
-    return float(u[0] * v[1] - u[1] * v[0])
-
-
-def _is_ear(p: np.ndarray, left: list[int], i: int) -> bool:
-    """Return whether the corner is convex, and no other corner lies in its triangle (one at the same place does not count)."""
-    a, b, c = _around(left, i)
-    if _cross(p, a, b, c) <= 0:
-        return False
-    others = p[[k for k in left if k not in (a, b, c)]]
-    inside = np.ones(len(others), bool)
-    for start, end in ((a, b), (b, c), (c, a)):
-        side, arm = p[end] - p[start], others - p[start]
-        inside &= side[0] * arm[:, 1] - side[1] * arm[:, 0] >= 0
-    at_corner = (others[:, None] == p[[a, b, c]]).all(2).any(1)
-    return not (inside & ~at_corner).any()
