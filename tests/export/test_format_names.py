@@ -7,7 +7,7 @@ from assets import cabinet
 from models import CONFIG, model_of, with_meshes
 
 from anymesh.errors import MissingExtraError, OptionError
-from anymesh.export.formats import DEFAULT, WRITERS, Format, main_file, parse_formats, write_formats
+from anymesh.export.formats import DEFAULT, WRITERS, Format, load_libraries, main_file, parse_formats, write_formats
 
 
 def test_formats_are_read_once_each_in_the_order_of_the_set():
@@ -42,3 +42,6 @@ def test_a_missing_package_is_one_error_that_says_how_it_is_had(kind, package, t
     with pytest.raises(MissingExtraError, match=told):
         write_formats(model_of(cabinet()), tmp_path, [Format(kind)], CONFIG)
     assert not list(tmp_path.iterdir())
+    if kind == "usd":
+        with pytest.raises(MissingExtraError, match=told):
+            load_libraries([Format.URDF, Format.USD])

@@ -14,7 +14,7 @@ from anymesh.errors import OutputError
 from anymesh.export.drives import WITHIN, drives
 from anymesh.export.mjcf_ import write_mjcf
 from anymesh.export.model import Base, Driven, Exclusion
-from anymesh.types import Hull
+from anymesh.types import Hull, Material
 
 
 def load(model, folder):
@@ -131,3 +131,14 @@ def test_a_hull_of_hardly_any_volume_compiles(tmp_path):
     )
     model = replace(model, bodies=(replace(model.bodies[0], shapes=(shape,)), *model.bodies[1:]))
     assert load(model, tmp_path).ngeom > 0
+
+
+def test_a_material_of_one_triangle_compiles(tmp_path):
+    """MuJoCo refuses meshes of fewer than four corners, and gets one for each material of a link."""
+    asset = cabinet()
+    mesh = asset.mesh
+    materials = (*mesh.materials, Material("sticker"), Material("rest"))
+    number = np.full(len(mesh.faces), len(materials) - 1)
+    number[0] = len(materials) - 2
+    read = load(model_of(replace(asset, mesh=replace(mesh, materials=materials, face_material=number))), tmp_path)
+    assert "base_visual_1" in {read.mesh(k).name for k in range(read.nmesh)}  # one mesh for each material

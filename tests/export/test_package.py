@@ -9,7 +9,7 @@ import yourdfpy
 from models import CONFIG, desk, model_of, with_meshes
 
 from anymesh.errors import InputError, OutputError
-from anymesh.export.archive import write_zip
+from anymesh.export.archive import check_zip, write_zip
 from anymesh.export.formats import DEFAULT, write_formats
 from anymesh.export.model import Base
 from anymesh.export.package import write_package
@@ -50,6 +50,20 @@ def test_a_package_is_not_overwritten_and_needs_a_urdf(written, tmp_path):
         write_package(written, tmp_path, base=Base.FREE)
     with pytest.raises(InputError, match=r"one \.urdf, found 0"):
         write_package(tmp_path / "desk_no_7", tmp_path, base=Base.FREE)
+
+
+def test_a_package_needs_a_folder(written, tmp_path):
+    (tmp_path / "file").touch()
+    with pytest.raises(OutputError, match="exists"):
+        write_package(written, tmp_path / "file", base=Base.FREE)
+
+
+@pytest.mark.parametrize("path", ["", "asset.json", "lost/a.zip", "folder.zip"])
+def test_a_zip_needs_a_name_of_its_own_in_a_folder_that_exists(tmp_path, path):
+    (tmp_path / "folder.zip").mkdir()
+    with pytest.raises(OutputError, match=r"ends in \.zip"):
+        check_zip(tmp_path / path)
+    check_zip(tmp_path / "a.zip")
 
 
 def test_a_zip_holds_the_folder_and_its_bytes_do_not_depend_on_when(written, tmp_path):

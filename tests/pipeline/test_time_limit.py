@@ -14,6 +14,7 @@ from anymesh import deadline as module
 from anymesh.cli import run
 from anymesh.deadline import Deadline
 from anymesh.errors import OptionError
+from anymesh.pipeline import stages
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 CABINET = EXAMPLES / "meshes" / "cabinet.glb"
@@ -54,6 +55,15 @@ def test_without_time_nothing_is_examined_and_the_asset_says_so(tmp_path):
     with Image.open(tmp_path / "out" / "preview.png") as picture:
         assert picture.height < 100  # one line of the legend
     assert (tmp_path / "out" / "cabinet.urdf").is_file()
+
+
+def test_a_run_without_a_limit_loads_libraries_before_it_draws_beside(tmp_path, monkeypatch):
+    """OpenUSD hangs now and then if another thread works while it is imported."""
+    order, draw = [], stages.write_preview
+    monkeypatch.setattr(stages, "load_libraries", lambda formats: order.append([str(f) for f in formats]))
+    monkeypatch.setattr(stages, "write_preview", lambda *given: [order.append("preview"), draw(*given)])
+    anymesh.articulate(CABINET, tmp_path / "out", time_limit=math.inf, formats="urdf")
+    assert order == [["urdf"], "preview"]
 
 
 def test_given_parts_get_joints_from_the_likeliest_motions(tmp_path):
