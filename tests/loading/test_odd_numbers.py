@@ -42,9 +42,12 @@ def test_what_moves_or_repeats_a_mesh_is_told(tmp_path) -> None:
     document = plain_gltf()
     document.doc["nodes"][0]["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": {}}}
     document.doc["meshes"][0]["primitives"][0]["targets"] = [{}]
+    document.doc["extensionsRequired"] = ["KHR_materials_unlit", "ACME_gravity"]
     warnings = " ".join(load_mesh(put(tmp_path, "a.glb", document.glb())).warnings)
     assert "instances" in warnings
     assert "morph targets" in warnings
+    assert "ACME_gravity" in warnings
+    assert "unlit" not in warnings
 
 
 def test_an_obj_counts_from_1_also_in_its_errors(tmp_path) -> None:

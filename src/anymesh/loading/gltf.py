@@ -17,6 +17,7 @@ from anymesh.types import Mesh, Node
 from anymesh.types.color import to_srgb
 
 TRIANGLES, STRIP, FAN = 4, 5, 6
+READ = ("KHR_texture_transform", "KHR_mesh_quantization", "EXT_texture_webp")
 LEFT_OUT = {0: "points", 1: "lines", 2: "lines", 3: "lines"}
 
 
@@ -31,6 +32,9 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
         data, binary = split_glb(name, data)
     tree = parse_json(name, data)
     buffers = Buffers(tree, binary, folder)
+    for extension in tree.get("extensionsRequired", []):
+        if extension not in READ and not extension.startswith("KHR_materials_"):
+            folder.warn(f"the file requires the extension {extension}, which is not read")
     looks = read_materials(tree, buffers, folder)
     labels = unique_names(str(m.get("name") or f"mesh_{k}") for k, m in enumerate(tree["meshes"]))
     meshes: dict[int, Mesh | None] = {}
