@@ -181,6 +181,9 @@ def main() -> None:
     parser.add_argument("--pictures", action="store_true")
     options = parser.parse_args()
     how = {"views": options.views, "noise": options.noise, "seed": options.seed, "pictures": options.pictures}
+    if options.pictures and "recorded" in options.answers:
+        parser.error("--pictures: no answers are recorded for these scans; add --answers geometry")
+    options.out /= "pictures" if options.pictures else ""
     scans = [kept(options.out / n / "scan.json", partial(measured, n, options.out / n, **how)) for n in options.names]
     print(scan_table(scans))
     for answers in options.answers.split(","):

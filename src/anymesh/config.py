@@ -7,7 +7,7 @@ from dataclasses import asdict, dataclass, field
 
 from anymesh.errors import OptionError
 
-# directions as both stages compare them, sizes as stage A does; not settings
+# shared by both stages; not settings
 ALONG_COSINE = 0.7  # about 45 degrees: minimum cosine between two directions that are along each other, not across
 FACING_COSINE = 0.5  # 60 degrees: minimum cosine between a normal or a motion and the side that it faces
 LEVEL_COSINE = 0.8  # 37 degrees: minimum cosine between the vertical and the normal of a level face

@@ -10,8 +10,8 @@ from surfaces import is_closed, shell
 from anymesh.completion.blocks import board, tray
 from anymesh.completion.closing import backed, cap, covers_itself, shelled, without_folds
 from anymesh.completion.sheets import open_sheets
-from anymesh.completion.triangulate_ import triangulate
 from anymesh.errors import MissingExtraError
+from anymesh.geometry.triangulate_ import triangulate
 
 
 def volume(triangles: np.ndarray) -> float:

@@ -1,5 +1,6 @@
 """Numbers that mean nothing: texture coordinates and cutoffs that are not finite, and files that take long for their size."""
 
+import re
 import time
 
 import numpy as np
@@ -20,12 +21,12 @@ def test_texture_coordinates_that_mean_no_place_are_0(tmp_path, value) -> None:
     first = np.array(FACES) == 0
     assert (uv_read[first][:, 0] == 0).all()
     assert uv_read[~first] == pytest.approx(UV[np.array(FACES)][~first])
-    if value != "nan":  # nothing but 0 has ever been read from these
+    if value != "nan":  # the OBJ reader takes NaN for 0 without a warning
         assert any("texture coordinates" in w for w in read.warnings)
 
 
-@pytest.mark.parametrize(("cutoff", "kept"), [(float("nan"), 0.5), (float("inf"), 1.0), (0.3, 0.3)])
-def test_a_cutoff_lies_between_0_and_1(tmp_path, cutoff, kept) -> None:
+@pytest.mark.parametrize(("cutoff", "kept"), [(float("nan"), 0.5), (float("inf"), 0.5), (0.3, 0.3), (1.5, 1.5)])
+def test_a_cutoff_is_finite(tmp_path, cutoff, kept) -> None:
     document = plain_gltf()
     document.doc["materials"] = [{"alphaMode": "MASK", "alphaCutoff": cutoff}]
     document.doc["meshes"][0]["primitives"][0]["material"] = 0
@@ -57,8 +58,18 @@ def test_an_obj_counts_from_1_also_in_its_errors(tmp_path) -> None:
 
 @pytest.mark.parametrize(
     "change",
-    [bytes.upper, lambda d: b"\xef\xbb\xbf" + d, lambda d: d.replace(b"\n", b" "), lambda d: d.replace(b"\n", b"\r")],
-    ids=["capitals", "byte order mark", "one line", "carriage returns"],
+    [
+        bytes.upper,
+        lambda d: b"\xef\xbb\xbf" + d,
+        lambda d: d.replace(b"\n", b" "),
+        lambda d: d.replace(b"\n", b"\r"),
+        lambda d: b"\f" + d,
+        lambda d: re.sub(rb" normal [^\n]*", b"", d),
+        lambda d: re.sub(rb"solid[^\n]*", b"solid my facet normal map, vertex one two three", d, count=1),
+        lambda d: re.sub(rb"endsolid[^\n]*", b"endsolid facet normal vertex a b c", d),
+        lambda d: d.replace(b"outer loop", b"outer loop ; a vertex of the box here"),
+    ],
+    ids=["capitals", "mark", "one line", "returns", "feed", "no normals", "title", "end", "comments"],
 )
 def test_spellings_of_ascii_stl(tmp_path, change) -> None:
     plain = load_mesh(put(tmp_path, "a.stl", stl_ascii())).mesh
@@ -80,7 +91,8 @@ def test_the_time_of_large_outlines_and_empty_lines_does_not_explode(tmp_path) -
     rng = np.random.default_rng(0)
     outline = np.c_[rng.random((3000, 2)), np.zeros(3000)]  # crosses itself thousands of times
     polygon = put(tmp_path, "a.obj", (rows("v ", outline) + "f " + " ".join(map(str, range(1, 3001))) + "\n").encode())
-    empty = put(tmp_path, "b.stl", stl_ascii().replace(b"endfacet\n", b"endfacet" + b"\n" * 5000))
+    empty = put(tmp_path, "b.stl", stl_ascii().replace(b"endfacet\n", b"endfacet" + b"\n" * 50_000))
     assert len(load_mesh(polygon).mesh.faces) == 2998
-    assert seconds(polygon) < 20  # 0.1 s; with the triangles of one corner after the other it took hours
-    assert seconds(empty) < 20
+    assert seconds(polygon) < 2  # 0.1 s; with the triangles of one corner after the other it took hours
+    assert seconds(empty) < 2
+    assert seconds(put(tmp_path, "c.stl", stl_ascii() + stl_ascii().replace(b"solid", b"solid" + b" " * 100_000, 1))) < 2

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from anymesh.loading import load_mesh
-from anymesh.loading.polygons_ import fans, recut
+from anymesh.loading.polygons import fans, recut
 
 FRAME = np.array([(0, 0), (1, 0), (1, 0.2), (0.2, 0.2), (0.2, 1.8), (1, 1.8), (1, 2), (0, 2)], float)  # a C
 # a square with a square hole, connected by a cut from corner to corner
@@ -35,6 +35,13 @@ def test_no_triangle_covers_the_hole_of_a_concave_polygon(outline: np.ndarray, a
     assert len(triangles) == len(outline) - 2
     assert areas.sum() == pytest.approx(area)
     assert np.abs(areas).sum() == pytest.approx(abs(area))  # no two overlap
+
+
+def test_an_outline_may_repeat_its_corners() -> None:
+    points, triangles, _ = cut(np.repeat(FRAME, 2, axis=0))
+    areas = signed_areas(points, triangles)
+    assert len(triangles) == 2 * len(FRAME) - 2
+    assert np.abs(areas).sum() == pytest.approx(areas.sum()) == pytest.approx(0.72)
 
 
 def test_convex_polygons_are_fanned_and_neighbours_stay() -> None:

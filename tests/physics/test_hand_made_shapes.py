@@ -15,7 +15,7 @@ from anymesh.physics.collision.contacts_ import ContactBench
 from anymesh.physics.collision.convex import MAX_CORNERS, cut, hull_of, planes, thinned, trimmed, volume
 from anymesh.physics.collision.crossing import LinkSurface, cross, placed_bounds
 from anymesh.physics.collision.decompose import Resolution, cleaned, component_shapes, split_components
-from anymesh.physics.collision.primitives import as_hull, fitted, shifted
+from anymesh.physics.collision.primitives import as_hull, engine_shape, fitted, shifted
 from anymesh.physics.collision.split import cutting_planes, least_volume_first, outline, patch_of, split_surface
 from anymesh.physics.collision.store import load_shapes, save_shapes
 from anymesh.types import Box, Cylinder, Hull
@@ -220,3 +220,12 @@ def test_shapes_are_stored_in_a_folder_that_is_made(tmp_path) -> None:
     assert [p.name for p in folder.iterdir()] == ["k.npz"]
     save_shapes(None, "k", ())
     assert load_shapes(None, "k") is None
+
+
+def test_a_hull_too_small_for_engines_becomes_its_box() -> None:
+    corners = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]])
+    assert isinstance(engine_shape(hull(1e-2 * corners)), Hull)
+    tiny = engine_shape(hull(1e-5 * corners))
+    assert isinstance(tiny, Box)
+    assert np.allclose(as_hull(tiny).vertices.min(0), 0, atol=1e-5)
+    assert tiny.size.prod() >= 1e-15 / 6

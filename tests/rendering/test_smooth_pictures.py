@@ -183,17 +183,17 @@ def test_rays_for_pictures_meet_what_other_rays_meet():
     np.testing.assert_allclose((down[:, None] + across).reshape(-1, 3), directions, atol=1e-6)
 
 
-@pytest.mark.parametrize("texels", [32, 512])
-def test_a_fine_texture_is_averaged_to_the_pixels(texels):
+@pytest.mark.parametrize(("texels", "times"), [(32, 1), (512, 1), (32, 1e6)])
+def test_a_fine_texture_is_averaged_to_the_pixels(texels, times):
     corners = np.array([[-1, 0, -1], [1, 0, -1], [1, 0, 1], [-1, 0, 1.0]])
     faces = np.array([[0, 1, 2], [0, 2, 3]])
     material = Material("squares", (1.0, 1.0, 1.0, 1.0), textures={"base_color": Texture(checker(texels), "image/png")})
-    mesh, _ = mesh_of([(corners, faces)], [0, 0], materials=(material,), corner_uv=QUAD_UV)
+    mesh, _ = mesh_of([(corners, faces)], [0, 0], materials=(material,), corner_uv=QUAD_UV * np.float32(times))
     camera = Camera.looking_at(np.array([0, -4.0, 0]), np.zeros(3), 2 * np.arctan(0.25), SIZE, SIZE)
     samples = samples_of(mesh, camera)
     found = texels_per_pixel(mesh, samples.hits, samples.pairs_beside())
-    assert found == {0: max(1, round(texels / SIZE))}
-    assert (np.ptp(material_colors(mesh, samples)[: len(samples.plain)], axis=0).max() > 100) == (texels < SIZE)
+    assert found == {0: int(np.clip(round(times * texels / SIZE), 1, texels))}
+    assert (np.ptp(material_colors(mesh, samples)[: len(samples.plain)], axis=0).max() > 100) == (times * texels < SIZE)
 
 
 def test_where_strokes_meet_the_strongest_counts():

@@ -24,11 +24,11 @@ def features(mesh: Mesh, solids: set[int]) -> dict[str, float]:
     whole = object_shape(mesh)
     contacts = find_contacts(whole, config.segmentation)
     tree = part_candidates(mesh, whole, contacts, 0.004, 150)
-    group = next(k for k, m in enumerate(tree.members) if set(np.flatnonzero(m).tolist()) == solids)
+    candidate = next(k for k, m in enumerate(tree.members) if set(np.flatnonzero(m).tolist()) == solids)
     inputs = FeatureInputs.of(mesh, tree, config)
-    around = candidate_context(inputs, group)
+    around = candidate_context(inputs, candidate)
     assert around is not None
-    return part_features(inputs, group, around)
+    return part_features(inputs, candidate, around)
 
 
 MESH = mesh_of([*WALLS, DOOR, KNOB])[0]

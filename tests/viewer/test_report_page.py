@@ -1,6 +1,7 @@
 """The report as a file: what it holds, that it asks for nothing from outside, and that no word in it becomes markup."""
 
 import json
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -183,6 +184,7 @@ def test_a_page_is_limited_and_says_so(two, tmp_path):
     assert all("limited" in note for note in told.notes)
     assert small.words["p"].count("limited") == 3
     assert json.loads(small.data["anymesh-pictures"]) == {}
+    assert write_report(two, tmp_path / "all.html", megabytes=math.inf).notes == ()
 
 
 def test_a_report_lies_beside_the_folder_and_cannot_be_written_nowhere(tmp_path):

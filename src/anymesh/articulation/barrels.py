@@ -27,9 +27,9 @@ def find_barrel_candidates(whole: ObjectShape, part: TriangleSet, parent: Triang
         candidates, count = np.unique(label[own.faces[near]], return_counts=True)
         for c in candidates[count >= MIN_BARREL_FACES][:MAX_EXAMINED]:
             mine = own.take(label[own.faces] == c)
-            length, width, height = mine.box.half
-            small = 2 * length <= MAX_BARREL_LENGTH_RATIO * diagonal and width <= MAX_BARREL_RADIUS_RATIO * diagonal
-            if not small or height < MIN_BARREL_SQUARENESS * width or length < MIN_BARREL_ASPECT * width:
+            half_length, half_width, half_height = mine.box.half
+            small = 2 * half_length <= MAX_BARREL_LENGTH_RATIO * diagonal and half_width <= MAX_BARREL_RADIUS_RATIO * diagonal
+            if not small or half_height < MIN_BARREL_SQUARENESS * half_width or half_length < MIN_BARREL_ASPECT * half_width:
                 continue
             if other.tree.distance(mine.samples.points[::10]).min() < reach:
                 barrels.append(mine)

@@ -29,6 +29,7 @@ from anymesh.types import Joint, JointType, Motion, Segmentation
 
 MIN_RIM_THICKNESS_RATIO = 0.01  # of the tolerance length: minimum thickness of a rim
 MAX_RIM_THICKNESSES = 1.5  # hinge lines within this multiple of the rim's thickness are at one rim
+WIDE_OPENING_RAD = np.deg2rad(110)  # [rad] larger openings are not compared
 MIN_RIM_COSINE = 0.999  # minimum cosine between the axes of such lines
 TIGHT_PENETRATION_SCALE = 0.2  # penetration scale for the clearance to neighbours, which is a few millimetres
 MAX_COPIES = 8  # maximum number of copies whose motions are compared with those of a part
@@ -120,11 +121,10 @@ def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Can
     if best.role not in BOX_RIM_ROLES or not around.other_parts:
         return best
     near = replace(around.obstacles_with_others, tolerance=TIGHT_PENETRATION_SCALE * around.penetration)
-    most = float(np.deg2rad(around.config.door_most))  # larger openings are not compared
     thickness = max(2 * float(around.body_obb.half[2]), MIN_RIM_THICKNESS_RATIO * around.tolerance_length)
 
     def opens(c: Candidate) -> float:
-        return free_amount(near, c.opening_motion, 1, min(c.opening, most), around.config.sweep_steps)[0]
+        return free_amount(near, c.opening_motion, 1, min(c.opening, WIDE_OPENING_RAD), around.config.sweep_steps)[0]
 
     alike = [c for c in candidates if c is best or (c.role in BOX_RIM_ROLES and c.outward * best.outward > 0)]
     alternatives = [c for c in alike if _at_one_rim(best, c, thickness)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
@@ -24,7 +25,7 @@ def check_asset_json(path: Path, robot: Robot) -> Iterator[Finding]:
     import jsonschema
 
     try:
-        record = json.loads(path.read_text(encoding="utf-8"), parse_constant=_refuse)
+        record = json.loads(path.read_text(encoding="utf-8"), parse_constant=_finite, parse_float=_finite)
     except (OSError, ValueError) as error:
         yield failure(CHECK, NAME, f"cannot be read: {error}")
         return
@@ -41,8 +42,10 @@ def check_asset_json(path: Path, robot: Robot) -> Iterator[Finding]:
                 yield failure(CHECK, NAME, f"the file {part['faces']} of part {part['name']!r} is not there")
 
 
-def _refuse(number: str) -> None:
-    raise ValueError(f"found the number {number}; valid are finite numbers")
+def _finite(number: str) -> float:
+    if not math.isfinite(value := float(number)):
+        raise ValueError(f"found the number {number}; valid are finite numbers")
+    return value
 
 
 def _tree(record: dict[str, Any]) -> Iterator[Finding]:
@@ -51,12 +54,14 @@ def _tree(record: dict[str, Any]) -> Iterator[Finding]:
     unknown = sorted({name for pair in parent.items() for name in pair} - parts)
     if unknown:
         yield failure(CHECK, NAME, f"joints name {unknown}, which are no parts; valid are {sorted(parts)}")
+    if len(parent) < len(record["joints"]):
+        yield failure(CHECK, NAME, f"found {len(record['joints'])} joints of {len(parent)} parts; valid is one of each")
     for name in sorted(parts):
         seen, at = {name}, parent.get(name)
         while at is not None and at not in seen:
             seen.add(at)
             at = parent.get(at)
-        if at is not None:
+        if at == name:
             yield failure(CHECK, NAME, f"part {name!r} hangs on itself, through {sorted(seen)}")
     roots = sorted(parts - parent.keys())
     if len(roots) != 1:

@@ -31,6 +31,6 @@ Seed = Annotated[int, option_of(AnswererOptions, "seed")]
 Package = Annotated[
     Path | None, typer.Option(metavar="DIR", help="Also write a ROS 2 package of the URDF, as a new folder in DIR.")
 ]
-Zip = Annotated[Path | None, typer.Option("--zip", metavar="FILE", help="Also write the asset as one zip file.")]
+Zip = Annotated[Path | None, typer.Option("--zip", metavar="FILE", help="Also write the asset as one .zip file.")]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.")]

@@ -17,7 +17,6 @@ from anymesh.export.model import Base, Driven, ExportLink, Model
 from anymesh.export.rotations import quaternion
 from anymesh.export.settings import ExportConfig
 from anymesh.mujoco_ import load_mujoco
-from anymesh.physics.collision.convex import MIN_VOLUME, volume
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
 VISUAL, COLLISION = "visual", "collision"
@@ -153,8 +152,6 @@ def _shape(mujoco: Any, spec: Any, geom: Any, shape: Shape, path: str | None) ->
             geom.type, geom.size = mujoco.mjtGeom.mjGEOM_CYLINDER, [shape.radius, shape.length / 2, 0]
         case Hull():
             mesh = spec.add_mesh(name=geom.name, file=path)
-            if volume(shape) < MIN_VOLUME:  # refused unless its inertia, which is not used, is that of a shell
-                mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL
             geom.type, geom.meshname = mujoco.mjtGeom.mjGEOM_MESH, mesh.name
         case _:
             assert_never(shape)

@@ -76,7 +76,7 @@ def _material(number: int, m: dict[str, Any], textures: list[dict[str, Any]], im
         emissive=_factor(m.get("emissiveFactor", (0.0, 0.0, 0.0)), 3),
         double_sided=bool(m.get("doubleSided", False)),
         alpha_mode=mode if mode in ("OPAQUE", "MASK", "BLEND") else "OPAQUE",
-        alpha_cutoff=float(np.clip(np.nan_to_num(float(m.get("alphaCutoff", 0.5)), nan=0.5), 0, 1)),
+        alpha_cutoff=_cutoff(m.get("alphaCutoff", 0.5)),
         textures={slot: t for slot, t in slot_textures.items() if t is not None},
     )
     main = base or next((info for info in named.values() if info is not None), {})
@@ -89,6 +89,11 @@ def _texture(info: dict[str, Any], textures: list[dict[str, Any]], images: list[
     extended = [e["source"] for e in texture.get("extensions", {}).values() if isinstance(e, dict) and "source" in e]
     sources = [texture["source"]] if "source" in texture else []
     return next((images[s] for s in (*extended, *sources) if images[s] is not None), None)
+
+
+def _cutoff(value: Any) -> float:
+    """Return a number, the default of the specification in place of one that is not finite."""
+    return float(value) if np.isfinite(float(value)) else 0.5
 
 
 def _factor(values: Any, width: int) -> Any:

@@ -11,7 +11,7 @@ from anymesh.errors import InputError
 from anymesh.loading.folder import Folder
 from anymesh.loading.join import check_geometry, rgba, unique_names, unit
 from anymesh.loading.mtl import read_mtl
-from anymesh.loading.polygons_ import fans, recut
+from anymesh.loading.polygons import fans, recut
 from anymesh.types import Material, Mesh, Node
 
 

@@ -10,7 +10,7 @@ from anymesh.errors import InputError
 from anymesh.loading.checks import check_count
 from anymesh.loading.folder import Folder
 from anymesh.loading.join import rgba, simple_mesh
-from anymesh.loading.polygons_ import fans, recut
+from anymesh.loading.polygons import fans, recut
 from anymesh.types import Mesh
 
 

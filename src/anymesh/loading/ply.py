@@ -11,7 +11,7 @@ from anymesh.loading.folder import Folder
 from anymesh.loading.join import rgba, simple_mesh, unit
 from anymesh.loading.pictures import picture_file
 from anymesh.loading.ply_data import Columns, parse_header, read_elements
-from anymesh.loading.polygons_ import fans, recut
+from anymesh.loading.polygons import fans, recut
 from anymesh.types import Material, Mesh
 
 INDICES = ("vertex_indices", "vertex_index")

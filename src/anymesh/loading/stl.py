@@ -15,9 +15,10 @@ from anymesh.loading.join import join, simple_mesh
 from anymesh.types import Mesh
 
 TRIANGLE = np.dtype([("normal", "<f4", 3), ("vertices", "<f4", (3, 3)), ("attributes", "<u2")])
-SOLID = re.compile(rb"(?mi)^[ \t]*solid\b[ \t]*([^\n]*?)[ \t]*(?=$|\bfacet\s+normal\b)")
-FACET, END = re.compile(rb"(?i)\bfacet\s+normal\b"), re.compile(rb"(?i)\bendsolid\b")
-VERTEX = re.compile(rb"(?i)\bvertex\s+(\S+)\s+(\S+)\s+(\S+)")
+NUMBER = rb"[-+]?(?:[\d.]|nan|inf)"  # its beginning, by which a facet's words are told from a title's
+SOLID = re.compile(rb"(?mi)^[ \t\v\f]*solid\b([^\n]*?)(?=$|\bfacet\s+normal\s+" + NUMBER + rb")")
+FACET, END = re.compile(rb"(?i)\bfacet\b"), re.compile(rb"(?i)\bendsolid\b")
+VERTEX = re.compile(rb"(?i)\bvertex" + 3 * (rb"\s+(" + NUMBER + rb"\S*)"))
 MAX_TITLE = 200  # characters of a solid's name that are kept
 
 
@@ -54,9 +55,11 @@ def _binary(name: str, data: bytes) -> Mesh:
 
 def _solid(name: str, text: bytes) -> Mesh:
     label = SOLID.match(text)
-    title, body = (label[1].decode("utf-8", "replace")[:MAX_TITLE], text[label.end() :]) if label else ("", text)
-    if not END.search(body):
+    title, body = (label[1].strip().decode("utf-8", "replace")[:MAX_TITLE], text[label.end() :]) if label else ("", text)
+    end = END.search(body)
+    if end is None:
         raise InputError(f"{name} is truncated: the solid {title!r} has no endsolid, with which an ASCII STL ends")
+    body = body[: end.start()]
     rows, facets = VERTEX.findall(body), len(FACET.findall(body))
     if len(rows) != 3 * facets:
         raise InputError(f"{name} is broken: found {facets} facets with {len(rows)} vertices; valid are 3 each")

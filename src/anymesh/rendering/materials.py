@@ -71,7 +71,7 @@ def texels_per_pixel(mesh: Mesh, hits: SurfaceHits, beside: Int[np.ndarray, "m 2
             du, dv = (np.diff(a[pairs], axis=1) for a in (hits.u, hits.v))
             uv = du * (corners[:, 1] - corners[:, 0]) + dv * (corners[:, 2] - corners[:, 0])
             size = texture(material).shape[1::-1]
-            texels[number] = int(np.clip(np.median(np.linalg.norm(uv * size, axis=1)).round(), 1, min(size)))
+            texels[number] = int(np.clip(np.median(np.linalg.norm(uv * size, axis=1)).round(), 1, max(size)))
     return texels
 
 

@@ -54,9 +54,8 @@ def ground_parts(
     )
     inside: tuple[str, ...] = ()
     left = grounded.unseen & (grounded.face_part == 0)  # unseen faces left over by an answerer that was shown the inside
-    left &= (patch_sizes(mesh, whole) >= MIN_INNER_PATCH_RATIO * whole.diagonal)[
-        whole.mesh_patch
-    ]  # smaller ones are gaps and creases
+    large = patch_sizes(mesh, whole) >= MIN_INNER_PATCH_RATIO * whole.diagonal  # smaller ones are gaps and creases
+    left &= large[whole.mesh_patch]
     # the user gave the labels; otherwise the answerer was shown the inside and asked what moves there
     by_user = recognition.size is None
     if labels and by_user and mesh.face_areas[left].sum() > MIN_SEEN_SHARE * mesh.face_areas[grounded.unseen].sum():

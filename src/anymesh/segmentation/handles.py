@@ -19,9 +19,8 @@ MAX_KNOB_SIZE_RATIO = 0.08  # of the diagonal: maximum size of a knob
 MAX_HANDLE_AREA_RATIO = 0.04  # maximum share of a handle in the surface
 MIN_HANDLE_SIZE_RATIO = 0.006  # of the diagonal: minimum height and width of a handle
 MIN_HEIGHT_WIDTH_RATIO = 0.4  # of the covered width: minimum height of a handle; flatter protrusions are mouldings
-MAX_HANDLE_FLATNESS = (
-    0.6  # length of its mean normal above which a protrusion is a strip; 1/2 for half a ball, 1/3 for a bar on a face
-)
+# length of its mean normal above which a protrusion is a strip; 1/2 for half a ball, 1/3 for a bar on a face
+MAX_HANDLE_FLATNESS = 0.6
 MIN_FOOT_FLATNESS = 0.5  # minimum length of the mean normal around the foot of a handle; 1 is plane
 MIN_PARALLEL_COSINE = 0.94  # minimum cosine between equal directions
 MAX_HANDLE_GAP_RATIO = 0.02  # of the diagonal: maximum distance of a handle from its host

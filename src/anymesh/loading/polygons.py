@@ -10,6 +10,8 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float, Int
 
+from anymesh.geometry.triangulate_ import triangulate
+
 REFLEX = 1e-6  # sine-like ratio of a corner's cross product to its sides' lengths; a corner that turns in by less is straight
 
 
@@ -33,8 +35,6 @@ def recut(
 
     corners: the vertex of each corner, polygon after polygon; those of polygons without triangles may not be valid vertices.
     """
-    from manifold3d import triangulate
-
     big = np.flatnonzero(counts > 3)
     if not len(big):
         return triangles
@@ -50,7 +50,7 @@ def recut(
     turn = np.einsum("ij,ij->i", np.cross(before, after), normal[owner])
     limit = REFLEX * np.linalg.norm(before, axis=1) * np.linalg.norm(after, axis=1) * np.linalg.norm(normal, axis=1)[owner]
     reflex = np.zeros(len(counts), bool)
-    np.logical_or.at(reflex, owner, turn < -limit)
+    np.logical_or.at(reflex, owner, (turn < -limit) | (limit == 0))  # also at corners that are repeated
     recut_triangles = triangles.copy()
     place = np.searchsorted(polygon, np.arange(len(counts)))
     for k in np.flatnonzero(reflex & (counts > 3)):
