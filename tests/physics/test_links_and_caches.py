@@ -149,3 +149,10 @@ def test_keys_depend_on_every_value_and_its_order() -> None:
     keys = {content_key(a, 1), content_key(b, 1), content_key(a, 2), content_key(1, a), content_key(a), content_key(a, 1, 0.5)}
     assert len(keys) == 6
     assert content_key(a, 1) == content_key(a[::-1][::-1], 1.0)
+
+
+def test_specks_that_no_engine_can_make_a_hull_of_become_boxes() -> None:
+    """Triangles of ten nanometres a metre apart, as thick as walls: needles in double precision, lines in single."""
+    specks = [1e-8 * np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]]) + at for at in (-0.5, 0.5)]
+    shapes = made(asset_of((np.concatenate(specks), np.array([[0, 1, 2], [3, 4, 5]])))).shapes["part_0"]
+    assert all(isinstance(shape, Box) for shape in shapes)

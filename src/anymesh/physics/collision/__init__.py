@@ -84,7 +84,7 @@ def collision_shapes(
         resolution = [Resolution(config.gaps[k] * size, wall, config.pieces[k]) for k in levels]
         divided = decomposer.divide(some, resolution)
         fallbacks.update({owner[id(c)]: d.fallback for c, d in zip(some, divided, strict=True) if d.fallback is not None})
-        return [d.shapes for d in divided]
+        return [tuple(engine_shape(s) for s in d.shapes) for d in divided]
 
     with ThreadPoolExecutor(1) as thread:  # while the child processes divide components
         surfaces = thread.submit(lambda: {link: LinkSurface(simplify(t, MAX_CROSSING_FACES)) for link, t in triangles.items()})
@@ -107,7 +107,7 @@ def collision_shapes(
 
 def _one_hull(component: Component, wall: float) -> tuple[Shape, ...]:
     hull = hull_of(component.triangles.reshape(-1, 3), wall)
-    return () if hull is None else (thinned(hull),)
+    return () if hull is None else (engine_shape(thinned(hull)),)
 
 
 def joint_poses(
