@@ -8,6 +8,7 @@ import pytest
 from called import FACES, PARTS, called, contents
 
 from anymesh.cli import run
+from anymesh.cli.defect import write_defect
 from anymesh.errors import MissingExtraError
 from anymesh.pipeline import geometry_stages
 
@@ -110,3 +111,11 @@ def test_other_ends(raised, code: int, word: str, mesh, monkeypatch, capfd) -> N
         assert not Path("out").exists()
         with pytest.raises(type(raised)):
             run(["--debug", "articulate", str(mesh), "-o", "out"])
+
+
+def test_closed_streams_and_a_missing_working_folder_are_no_defects(tmp_path, monkeypatch) -> None:
+    monkeypatch.setattr("sys.stdout", None)
+    monkeypatch.setattr("sys.stderr", None)
+    assert run(["articulate", str(tmp_path / "lost.obj"), "-o", str(tmp_path / "out")]) == 3
+    monkeypatch.setattr("pathlib.Path.cwd", lambda: (_ for _ in ()).throw(FileNotFoundError("gone")))
+    assert write_defect(ValueError("x"), "articulate", {}) is not None

@@ -96,6 +96,8 @@ def test_a_missing_model_is_replaced_by_the_default():
 def test_wrong_places_and_names_are_one_clear_error(surface, tmp_path):
     with pytest.raises(OutputError, match="lies in the output folder"):
         finish(surface, surface)
+    with pytest.raises(OutputError, match="lies in the asset"):
+        finish(surface, surface / "done")
     with pytest.raises(OutputError, match="is not an output of anymesh"):
         finish(tmp_path, tmp_path / "done")
     with pytest.raises(OptionError, match="--completer: found 'magic'; valid are builtin, off"):

@@ -24,8 +24,12 @@ def write_defect(error: BaseException, command: str, options: Mapping[str, Any])
 
 
 def _places(command: str, options: Mapping[str, Any]) -> Iterator[Path]:
-    out = options.get("out") or options.get("folder")
-    beside = Path(out).resolve() if out else Path.cwd() / f"anymesh-{command}"
-    name = f"{beside.name or 'anymesh'}.defect.json"
-    yield beside.parent / name
+    out, name = options.get("out") or options.get("folder"), f"anymesh-{command}.defect.json"
+    try:
+        beside = Path(out).absolute() if out else Path.cwd() / f"anymesh-{command}"
+    except OSError:  # the working folder is gone
+        beside = None
+    if beside is not None:
+        name = f"{beside.name or 'anymesh'}.defect.json"
+        yield beside.parent / name
     yield Path(tempfile.gettempdir()) / name

@@ -33,7 +33,7 @@ Kept = Annotated[
     ),
 ]
 Host = Annotated[str, typer.Option(help="Address to listen on; the default is only reachable from this machine.")]
-Port = Annotated[int, typer.Option(help="If the port is taken, the next one is used.")]
+Port = Annotated[int, typer.Option(min=0, max=65535, help="If the port is taken, the next one is used.")]
 NoBrowser = Annotated[bool, typer.Option("--no-browser", help="Do not open a browser.")]
 Reviewer = Annotated[
     str, typer.Option(metavar="NAME", help="Name in the logs of corrections and decisions; the user's name by default.")

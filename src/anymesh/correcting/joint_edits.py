@@ -24,6 +24,7 @@ BY_HAND = "corrected by hand"  # prefix of the reason of a corrected joint
 CERTAIN = 1.0  # confidence of manual corrections
 USUAL_TURN = (0.0, float(np.pi / 2))  # [rad] default limits of a hinge
 USUAL_SLIDE = 0.5  # default travel of a slide, as a share of the part's extent along the axis
+MAX_LIMIT, MIN_RANGE = 1e6, 1e-6  # [rad or m] of a joint that engines accept
 
 
 def change_type(asset: Asset, c: ChangeType) -> Asset:
@@ -79,8 +80,12 @@ def set_limits(asset: Asset, c: SetLimits) -> Asset:
     joint = joint_of_part(asset, c.part)
     if joint.type is JointType.FIXED:
         raise CorrectionError(f"the joint of {c.part!r} is fixed and has no limits; change its type first")
-    if not c.lower <= 0 <= c.upper:
-        raise CorrectionError(f"limits must include the rest pose 0, found {c.lower:g}..{c.upper:g}")
+    if not -MAX_LIMIT <= c.lower <= 0 <= c.upper <= MAX_LIMIT:
+        raise CorrectionError(
+            f"limits must include the rest pose 0 and lie within {MAX_LIMIT:g}, found {c.lower:g}..{c.upper:g}"
+        )
+    if c.upper - c.lower < MIN_RANGE:
+        raise CorrectionError(f"limits must contain a range of {MIN_RANGE:g} or more, found {c.lower:g}..{c.upper:g}")
     type_ = JointType.REVOLUTE if joint.type is JointType.CONTINUOUS else joint.type
     return with_joint(asset, replace(joint, type=type_, limits=(float(c.lower), float(c.upper)), **_reason("limits")))
 
@@ -111,8 +116,8 @@ def _unit(axis: Vector) -> Float[np.ndarray, " 3"]:
 
 def _origin_on_part(asset: Asset, part: str, axis: np.ndarray, point: np.ndarray, type_: JointType) -> Float[np.ndarray, " 3"]:
     """Return the point of the axis level with the part's centre; for a slide the centre itself (docs/conventions.md)."""
-    if not np.isfinite(point).all():
-        raise CorrectionError(f"a point on the axis must be finite, found {tuple(point)}")
+    if not (np.abs(point) <= MAX_LIMIT).all():
+        raise CorrectionError(f"a point on the axis must be finite, up to {MAX_LIMIT:g} m, found {point.tolist()}")
     middle = box_middle(asset, part)
     return middle if type_ is JointType.PRISMATIC else point + ((middle - point) @ axis) * axis
 

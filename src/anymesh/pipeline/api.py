@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Unpack
 
 from anymesh.deadline import DEFAULT_SECONDS, Deadline
-from anymesh.errors import OptionError
+from anymesh.errors import OptionError, OutputError
 from anymesh.export import Base, Driven, Format
 from anymesh.export.archive import check_zip, write_zip
 from anymesh.export.formats import DEFAULT
@@ -166,6 +166,8 @@ def finish(
 
     written, deadline, out = ExportOptions.parse(base, formats, drives), Deadline(time_limit), Path(out)
     how = Completion(completer, texture, watertight, max_calls, state=out.parent / f".{out.name}.meshy.json")
+    if (Path(folder) / "asset.json").is_file() and Path(folder).absolute() in out.absolute().parents:
+        raise OutputError(f"{out} lies in the asset {folder}, which is not changed; choose another folder")
     with RunFolder.create(out, source=Path(folder) / "asset.json", force=force) as run:
         run.take_over(Path(folder))
         complete_asset(run, how, deadline, progress)

@@ -54,6 +54,7 @@ def test_wrong_calls_are_one_line(tmp_path, source, capfd) -> None:
         told = capfd.readouterr().err
         assert told.startswith("error: ")
         assert told.count("\n") == 1
+    assert not Path(out).exists()  # a mistyped call fixes no options for later ones
 
 
 @pytest.mark.slow

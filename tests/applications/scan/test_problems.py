@@ -111,6 +111,23 @@ def test_frames_that_are_no_list_of_objects(mine: Path, frames: object) -> None:
     assert f"found {frames}" in told_by(mine)
 
 
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda record: record.update(camera=[1]),
+        lambda record: record.update(depth_scale="x"),
+        lambda record: record["camera"].update(fx=10**400),
+        lambda record: record["frames"][0].update(camera="none"),
+        lambda record: record["frames"][0].update(color="a\0.jpg"),
+    ],
+)
+def test_a_description_that_makes_no_sense(mine: Path, change) -> None:
+    record = json.loads((mine / "frames.json").read_text())
+    change(record)
+    (mine / "frames.json").write_text(json.dumps(record))
+    assert "is broken" in told_by(mine)
+
+
 def test_too_few_frames(mine: Path) -> None:
     told = json.loads((mine / "frames.json").read_text())
     edited(mine, frames=told["frames"][:2])

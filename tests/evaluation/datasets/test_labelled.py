@@ -64,3 +64,36 @@ def test_what_cannot_be_used_is_told(tmp_path: Path) -> None:
     np.save(place / "labels.npy", np.zeros(3, np.int16))
     with pytest.raises(InputError, match="cannot be used"):
         open_dataset(f"labelled:{tmp_path}").truth("some_1", tmp_path / "out")
+
+
+JOINT = {"part": 1, "parent_part": 0, "type": "revolute", "axis": [0, 0, 1], "origin": [0, 0, 0], "limits": [0, 1.5]}
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"axis": [0, 0, 0]}, "valid are finite numbers, not all 0"),
+        ({"axis": [0, float("nan"), 1]}, "valid are finite numbers"),
+        ({"origin": [0, float("inf"), 1]}, "valid are finite numbers"),
+        ({"limits": [1, -1]}, "two finite numbers in order"),
+        ({"limits": [0, float("inf")]}, "two finite numbers in order"),
+        ({"limits": [1]}, "not enough values"),
+        ({"parent_part": 9}, "does not hang on part 0"),
+        ({"parent_part": 1}, "does not hang on part 0"),
+        ({"part": float("inf")}, "OverflowError"),
+        ({"part": 2}, "at most one of each"),
+        ({"type": "ball"}, "ball"),
+    ],
+)
+def test_a_truth_that_makes_no_sense_is_told(tmp_path: Path, change: dict, words: str) -> None:
+    written(tmp_path, joints=[{**JOINT, **change}, {**JOINT, "part": 2}])
+    with pytest.raises(InputError, match=words):
+        open_dataset(f"labelled:{tmp_path}").truth("some_1", tmp_path / "out")
+
+
+@pytest.mark.parametrize("change", [lambda a: a.astype(str), lambda a: a.astype(float), lambda a: a + 1, lambda a: a - 1])
+def test_labels_are_whole_numbers_from_0(tmp_path: Path, change) -> None:
+    place = written(tmp_path)
+    np.save(place / "labels.npy", change(np.load(place / "labels.npy")))
+    with pytest.raises(InputError, match="valid is one integer per face, 0 for the base"):
+        open_dataset(f"labelled:{tmp_path}").truth("some_1", tmp_path / "out")

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Generator, Mapping
+from collections.abc import Callable, Generator, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.util import find_spec
+from itertools import chain
 from pathlib import Path
 from typing import Any
 
@@ -16,13 +17,14 @@ from anymesh.applications.annotate.inputs import find_objects
 from anymesh.applications.annotate.ledger import Ledger
 from anymesh.applications.annotate.outages import Outage
 from anymesh.applications.annotate.report import write_report
+from anymesh.applications.annotate.requests import ObjectRequest
 from anymesh.applications.annotate.runner import Plan, Runner
 from anymesh.applications.annotate.salvage import open_ledger
 from anymesh.applications.annotate.states import AttemptOutcome
 from anymesh.applications.annotate.tally import Tally, tally
 from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits, Workers
 from anymesh.cores import usable_cores
-from anymesh.deadline import DEFAULT_SECONDS
+from anymesh.deadline import DEFAULT_SECONDS, Deadline
 from anymesh.errors import OptionError
 from anymesh.export.formats import DEFAULT
 from anymesh.export.options import ExportOptions
@@ -32,7 +34,7 @@ from anymesh.vlm.rates import Rate
 
 PARQUET = "ledger.parquet"
 UNPINNED = ("max_calls", "max_cost", "cache", "timeout")  # options that may differ between runs on one output
-KILL = 4.0  # maximum duration of an object, as a multiple of its time limit
+KILL, MIN_KILL = 4.0, 60.0  # maximum duration of an object, as a multiple of its time limit; at least, for reading it [s]
 PATIENCE = 3600.0  # [s] for which a run waits for an unreachable model
 
 
@@ -87,9 +89,10 @@ def annotate(
     if speed.attempts < 1:
         raise OptionError(f"--attempts: found {speed.attempts}; valid are integers from 1 up")
     Rate(speed.requests, speed.tokens)
-    with open_ledger(out) as ledger, _workers(speed, options, plan, work) as (workers, count):
+    objects = _begun(find_objects(source, without=out))
+    with _workers(speed, options, plan, work) as (workers, count), open_ledger(out) as ledger:
         _pin(ledger, options)
-        enter_objects(ledger, find_objects(source, without=out))
+        enter_objects(ledger, objects)
         _open_again(ledger, again)
         with begun_run(ledger, count) as run:
             runner = Runner(ledger, run, workers, plan, Outage(speed.patience), on_tally, count=count)
@@ -102,6 +105,17 @@ def annotate(
         if find_spec("pyarrow") is not None:
             export_ledger(ledger, out / PARQUET)
         return Annotated(tally(ledger), runner.ended, report)
+
+
+def killed_after(speed: Speed, options: Mapping[str, Any]) -> float:
+    """Return the processor time after which an object is ended [s]. Raise OptionError for a time limit that is not valid."""
+    limit = Deadline(float(options.get("time_limit", DEFAULT_SECONDS))).seconds
+    return speed.kill_after or max(KILL * limit, MIN_KILL)
+
+
+def _begun(objects: Iterator[ObjectRequest]) -> Iterator[ObjectRequest]:
+    """Return the objects once there is one, so that a mistyped INPUT leaves no ledger."""
+    return chain([next(objects)], objects)
 
 
 def checked(options: Mapping[str, Any]) -> str:
@@ -141,7 +155,7 @@ def _open_again(ledger: Ledger, again: bool) -> None:
 def _workers(speed: Speed, options: Mapping[str, Any], plan: Plan, given: Workers | None) -> Generator[tuple[Workers, int]]:
     if speed.workers is not None and speed.workers < 1:
         raise OptionError(f"--workers: found {speed.workers}; valid are integers from 1 up")
-    seconds = speed.kill_after or KILL * float(options.get("time_limit", DEFAULT_SECONDS))
+    seconds = killed_after(speed, options)
     if given is not None:
         yield given, given.free
     elif speed.ray is not None:

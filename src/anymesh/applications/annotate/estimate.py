@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from anymesh.applications.annotate.annotate import KILL, Speed, checked
+from anymesh.applications.annotate.annotate import Speed, checked, killed_after
 from anymesh.applications.annotate.inputs import find_objects
 from anymesh.applications.annotate.requests import ObjectRequest
 from anymesh.applications.annotate.states import AttemptOutcome, Claim, Result
@@ -18,7 +18,6 @@ from anymesh.applications.annotate.tally import duration
 from anymesh.applications.annotate.work import Job
 from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits
 from anymesh.cores import usable_cores
-from anymesh.deadline import DEFAULT_SECONDS
 from anymesh.errors import OptionError
 from anymesh.pipeline.options import GEOMETRY
 
@@ -92,9 +91,7 @@ def estimate(source: str, count: int, *, speed: Speed, **options: Any) -> Estima
     requests = [r for r in find_objects(source, without=Path("/nonexistent")) if not r.refusal]
     chosen = random.Random(int(options.get("seed", 0))).sample(requests, min(count, len(requests)))
     workers = speed.workers or usable_cores()
-    limits = ObjectLimits.default(
-        workers, speed.memory, speed.kill_after or KILL * float(options.get("time_limit", DEFAULT_SECONDS))
-    )
+    limits = ObjectLimits.default(workers, speed.memory, killed_after(speed, options))
     work = LocalWorkers(workers, limits, REHEARSAL)
     folder = Path(tempfile.mkdtemp(prefix="anymesh-dry-run-"))
     try:

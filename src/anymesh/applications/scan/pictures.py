@@ -48,7 +48,7 @@ def picture_size(path: Path) -> tuple[int, int]:
     try:
         with Image.open(path) as image:
             return image.size
-    except OSError as error:
+    except (OSError, Image.DecompressionBombError) as error:
         raise InputError(f"{path} is not a readable picture: {error}") from None
 
 
@@ -59,7 +59,7 @@ def read_color(source: Path | bytes, name: str) -> UInt8[np.ndarray, "H W 3"]:
     try:
         with Image.open(source if isinstance(source, Path) else io.BytesIO(source)) as image:
             return np.asarray(image.convert("RGB"))
-    except (OSError, SyntaxError) as error:
+    except (OSError, SyntaxError, Image.DecompressionBombError) as error:
         raise InputError(f"{name} is not a readable picture: {error}") from None
 
 
@@ -77,14 +77,14 @@ def read_depth(path: Path, scale: float) -> Float32[np.ndarray, "h w"]:
             if image.mode not in ("I;16", "I;16B", "I", "F"):
                 raise InputError(f"{path}: depth must be a picture of 16 bits and one channel, found mode {image.mode}")
             return clean_depth(np.asarray(image), path.name, scale)
-    except (OSError, SyntaxError) as error:
+    except (OSError, SyntaxError, Image.DecompressionBombError) as error:
         raise InputError(f"{path} is not a readable picture: {error}") from None
 
 
 def clean_depth(raw: np.ndarray, name: str, scale: float = 1.0) -> Float32[np.ndarray, "h w"]:
     """Return raw values times `scale` [m], 0 where not positive and finite. Raise InputError unless they have one channel."""
     raw = raw[..., 0] if raw.ndim == 3 and raw.shape[2] == 1 else raw
-    if raw.ndim != 2 or raw.dtype.kind not in "iuf":
+    if raw.ndim != 2 or raw.size == 0 or raw.dtype.kind not in "iuf":
         raise InputError(f"{name}: a depth map of one channel was expected, found {raw.shape} of {raw.dtype}")
     depth = raw.astype(np.float32) * np.float32(scale)
     return np.where(np.isfinite(depth) & (depth > 0), depth, np.float32(0))
@@ -99,7 +99,7 @@ def read_mask(path: Path | None) -> Bool[np.ndarray, "h w"] | None:
     try:
         with Image.open(path) as image:
             pixels = np.asarray(image)
-    except (OSError, SyntaxError) as error:
+    except (OSError, SyntaxError, Image.DecompressionBombError) as error:
         raise InputError(f"{path} is not a readable picture: {error}") from None
     return (pixels if pixels.ndim == 2 else pixels.max(2)) >= CONFIDENT
 

@@ -24,21 +24,28 @@ def read_frames(path: Path, *, depth_scale: float | None = None, scale: float | 
     path = Path(path)
     if not path.exists():
         raise InputError(f"{path} does not exist; a folder of frames or an .r3d file is expected")
-    if (path / OURS).is_file():
-        frames = read_frames_json(path, depth_scale, scale)
-    elif (path / NERFSTUDIO).is_file():
-        frames = read_transforms_json(path, depth_scale, scale)
-    elif is_record3d(path):
-        frames = read_record3d(path, depth_scale, scale)
-    elif path.is_dir() and keyframes(path) is not None:
-        frames = read_polycam(path, depth_scale, scale)
-    elif path.is_dir() and model_folder(path) is not None:
-        frames = read_colmap(path, depth_scale, scale)
-    else:
-        raise InputError(
-            f"{path} holds no recording that is known; valid are a folder with {OURS}, {NERFSTUDIO} (nerfstudio), "
-            "keyframes/ (Polycam's raw data), sparse/ (COLMAP), or metadata and rgbd/ (Record3D), or an .r3d file"
-        )
+    try:
+        frames = _read(path, depth_scale, scale)
+    except (TypeError, ValueError, LookupError, ArithmeticError, AttributeError, RecursionError, OSError) as error:
+        cause = " ".join(f"{type(error).__name__}: {error}".split())[:200]
+        raise InputError(f"{path}: the description of the recording is broken ({cause})") from None
     if len(frames) < FEWEST:
         raise InputError(f"{path}: found {len(frames)} usable frames; a surface needs {FEWEST} or more from different sides")
     return frames
+
+
+def _read(path: Path, depth_scale: float | None, scale: float | None) -> Frames:
+    if (path / OURS).is_file():
+        return read_frames_json(path, depth_scale, scale)
+    if (path / NERFSTUDIO).is_file():
+        return read_transforms_json(path, depth_scale, scale)
+    if is_record3d(path):
+        return read_record3d(path, depth_scale, scale)
+    if path.is_dir() and keyframes(path) is not None:
+        return read_polycam(path, depth_scale, scale)
+    if path.is_dir() and model_folder(path) is not None:
+        return read_colmap(path, depth_scale, scale)
+    raise InputError(
+        f"{path} holds no recording that is known; valid are a folder with {OURS}, {NERFSTUDIO} (nerfstudio), "
+        "keyframes/ (Polycam's raw data), sparse/ (COLMAP), or metadata and rgbd/ (Record3D), or an .r3d file"
+    )

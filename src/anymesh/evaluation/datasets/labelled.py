@@ -51,7 +51,7 @@ class LabelledFolder:
             labels = np.load(place / LABELS, allow_pickle=False)
             mesh = read_visual(place / MESH, place)
             bodies = _bodies(record, mesh, labels)
-        except (OSError, ValueError, KeyError, TypeError) as error:
+        except (OSError, ValueError, LookupError, TypeError, ArithmeticError, AttributeError, RecursionError) as error:
             raise InputError(
                 f"{place}: {RECORD}, {LABELS} or {MESH} cannot be used ({type(error).__name__}: {error})"
             ) from None
@@ -59,22 +59,45 @@ class LabelledFolder:
 
 
 def _bodies(record: dict[str, Any], mesh: Mesh, labels: np.ndarray) -> list[DatasetLink]:
-    """Return a link per part, Y up. Raise ValueError, KeyError or TypeError for invalid data."""
-    if labels.shape != (len(mesh.faces),):
-        raise ValueError(f"found {labels.shape} labels for {len(mesh.faces)} faces; valid is one per face")
+    """Return a link per part, Y up. Raise an error of Python's own for invalid data."""
+    if labels.shape != (len(mesh.faces),) or labels.dtype.kind not in "iu" or labels.min() != 0:
+        given = f"{labels.shape} labels of {labels.dtype} such as {labels.ravel()[:3].tolist()}"
+        raise ValueError(f"found {given} for {len(mesh.faces)} faces; valid is one integer per face, 0 for the base")
     T = UPRIGHT[tuple(record["up"])]
+    parts = np.unique(labels).tolist()
     joints = {int(j["part"]): j for j in record["joints"]}
+    if len(joints) < len(record["joints"]):
+        raise ValueError(f"found {len(record['joints'])} joints of {len(joints)} parts; valid is at most one of each")
+    parent = {part: int(joints[part]["parent_part"]) if part in joints else 0 for part in parts if part != 0}
+    _check_tree(parent)
     links = []
-    for part in np.unique(labels).tolist():
-        joint = joints.get(part)
-        motion = None if joint is None else _motion(joint)
-        parent = None if part == 0 else f"part_{joint['parent_part'] if joint else 0}"
-        links.append(moved(DatasetLink(f"part_{part}", parent, motion, (mesh.subset(labels == part),)), T))
+    for part in parts:
+        motion = None if part not in joints else _motion(joints[part])
+        over = None if part == 0 else f"part_{parent[part]}"
+        links.append(moved(DatasetLink(f"part_{part}", over, motion, (mesh.subset(labels == part),)), T))
     return links
+
+
+def _check_tree(parent: dict[int, int]) -> None:
+    """Raise ValueError unless all parts hang on part 0."""
+    for part in parent:
+        seen, at = {part}, parent[part]
+        while at != 0:
+            if at in seen or at not in parent:
+                raise ValueError(f"part {part} does not hang on part 0, through {sorted(seen)}; valid is a tree of the parts")
+            seen.add(at)
+            at = parent[at]
 
 
 def _motion(joint: dict[str, Any]) -> KnownJoint:
     kind = JointType(joint["type"])
     limits = joint["limits"] if kind is not JointType.CONTINUOUS else None
     origin, axis = np.array(joint["origin"], float), np.array(joint["axis"], float)
-    return KnownJoint(kind, origin, axis, None if limits is None else (float(limits[0]), float(limits[1])))
+    if not (np.isfinite([origin, axis]).all() and np.linalg.norm(axis) > 0):
+        raise ValueError(f"found the axis {axis.tolist()} through {origin.tolist()}; valid are finite numbers, not all 0")
+    if limits is None:
+        return KnownJoint(kind, origin, axis, None)
+    lower, upper = (float(v) for v in limits)
+    if not (np.isfinite([lower, upper]).all() and lower <= upper):
+        raise ValueError(f"found the limits {lower:g} to {upper:g}; valid are two finite numbers in order")
+    return KnownJoint(kind, origin, axis, (lower, upper))
