@@ -37,7 +37,9 @@ Memory = Annotated[
 ]
 KillAfter = Annotated[
     float | None,
-    typer.Option("--kill-after", metavar="SECONDS", help="Processor time of one object; default: 4 times --time-limit."),
+    typer.Option(
+        "--kill-after", metavar="SECONDS", help="Processor time of one object; default: 4 times --time-limit, from 60."
+    ),
 ]
 Attempts = Annotated[int, typer.Option(help="Attempts before an object that crashes, hangs or exceeds memory is quarantined.")]
 Again = Annotated[bool, typer.Option("--retry-quarantined", help="Try quarantined objects again.")]
