@@ -7,7 +7,7 @@ from collections.abc import Callable, Generator, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.util import find_spec
-from itertools import chain
+from itertools import chain, islice
 from pathlib import Path
 from typing import Any
 
@@ -115,7 +115,7 @@ def killed_after(speed: Speed, options: Mapping[str, Any]) -> float:
 
 def _begun(objects: Iterator[ObjectRequest]) -> Iterator[ObjectRequest]:
     """Return the objects once there is one, so that a mistyped INPUT leaves no ledger."""
-    return chain([next(objects)], objects)
+    return chain(list(islice(objects, 1)), objects)
 
 
 def checked(options: Mapping[str, Any]) -> str:
