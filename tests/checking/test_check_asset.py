@@ -196,11 +196,11 @@ def test_our_own_output_is_in_order_and_its_asset_json_is_read(tmp_path):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda record: record["joints"][0].update(parent="gate"), "no parts"),
-        (lambda record: record["joints"][0].update(parent=record["joints"][0]["child"]), "hangs on itself"),
+        (lambda record: record["joints"][0].update(parent="gate"), "its parents .*gate"),
+        (lambda record: record["joints"][0].update(parent=record["joints"][0]["child"]), "its parents"),
         (lambda record: record["joints"][0].update(axis=[float("nan"), 0.0, 0.0]), "NaN"),
-        (lambda record: record["joints"].append({**record["joints"][0], "name": "again"}), "valid is one of each"),
-        (lambda record: record["joints"].pop(), "2 parts without a joint"),
+        (lambda record: record["joints"].append({**record["joints"][0], "name": "again"}), "its parents"),
+        (lambda record: record["joints"].pop(), "its parents"),
         (lambda record: record["files"].update(mjcf="lost.xml"), r"lost\.xml is not there"),
     ],
 )

@@ -36,6 +36,7 @@ def faulty_calls() -> dict[str, tuple[int, list[str], str]]:
         "answerer": (2, [*make, "--answerer", "oracle"], "valid are geometry"),
         "answerer of the whole job": (2, ["articulate", *make[1:], "--answerer", "oracle"], "'oracle'"),
         "answerer of joints": (2, ["joints", "old", "--answerer", "oracle"], "'oracle'"),
+        "a port above 65535": (2, ["view", "old", "--port", "99999"], "--port"),
         "no mesh": (3, ["segment", "none.glb", "-o", "out"], "none.glb"),
         "a broken mesh": (3, ["segment", "broken.glb", "-o", "out"], "broken.glb"),
         "another format": (3, ["segment", "notes.txt", "-o", "out"], ".glb, .gltf, .obj"),
@@ -72,7 +73,7 @@ def test_an_error_is_one_line_on_stderr_and_nothing_is_written(name: str, crowde
     assert word in err
     assert (err.count("\n"), err[-1]) == (1, "\n")
     assert contents(crowded) == before
-    if arguments[0] != "fold":
+    if arguments[0] not in ("fold", "view"):
         code, out, _ = called(capfd, *arguments, "--json")
         assert json.loads(out)["exit_code"] == code == expected
         assert f"error: {json.loads(out)['error']}\n" == err

@@ -21,7 +21,7 @@ SAME = 1e-6  # tolerance between the numbers of the two files
 
 
 def check_asset_json(path: Path, robot: Robot) -> Iterator[Finding]:
-    """Check that the file follows its schema, that its files and tree are complete, and that it agrees with the description."""
+    """Check that the file follows its schema, that its files are complete, and that it agrees with the description."""
     import jsonschema
 
     try:
@@ -35,7 +35,6 @@ def check_asset_json(path: Path, robot: Robot) -> Iterator[Finding]:
         yield failure(CHECK, NAME, f"{error.json_path}: {error.message[:200]}")
     if not errors:
         yield from _agreement(record, robot)
-        yield from _tree(record)
         yield from _files(record, path.parent)
         for part in record["parts"]:
             if not (path.parent / part["faces"]).is_file():
@@ -46,26 +45,6 @@ def _finite(number: str) -> float:
     if not math.isfinite(value := float(number)):
         raise ValueError(f"found the number {number}; valid are finite numbers")
     return value
-
-
-def _tree(record: dict[str, Any]) -> Iterator[Finding]:
-    """Check that every part but one has a joint, and hangs on the one without."""
-    parts, parent = {p["name"] for p in record["parts"]}, {j["child"]: j["parent"] for j in record["joints"]}
-    unknown = sorted({name for pair in parent.items() for name in pair} - parts)
-    if unknown:
-        yield failure(CHECK, NAME, f"joints name {unknown}, which are no parts; valid are {sorted(parts)}")
-    if len(parent) < len(record["joints"]):
-        yield failure(CHECK, NAME, f"found {len(record['joints'])} joints of {len(parent)} parts; valid is one of each")
-    for name in sorted(parts):
-        seen, at = {name}, parent.get(name)
-        while at is not None and at not in seen:
-            seen.add(at)
-            at = parent.get(at)
-        if at == name:
-            yield failure(CHECK, NAME, f"part {name!r} hangs on itself, through {sorted(seen)}")
-    roots = sorted(parts - parent.keys())
-    if len(roots) != 1:
-        yield failure(CHECK, NAME, f"found {len(roots)} parts without a joint ({roots}); valid is one, the base")
 
 
 def _files(record: dict[str, Any], folder: Path) -> Iterator[Finding]:
@@ -81,14 +60,17 @@ def _files(record: dict[str, Any], folder: Path) -> Iterator[Finding]:
 
 
 def _agreement(record: dict[str, Any], robot: Robot) -> Iterator[Finding]:
+    """Check parts, joints and limits against those of the description, whose joints form a tree."""
+    joints = record["joints"]
     for word, recorded, described in (
-        ("parts", {p["name"] for p in record["parts"]}, {link.name for link in robot.links}),
-        ("joints", {j["name"] for j in record["joints"] if j["type"] != FIXED}, {j.name for j in robot.moving}),
+        ("parts", [p["name"] for p in record["parts"]], [link.name for link in robot.links]),
+        ("joints", [j["name"] for j in joints if j["type"] != FIXED], [j.name for j in robot.moving]),
+        ("parents", [(j["child"], j["parent"]) for j in joints], [(j.child, j.parent) for j in robot.joints]),
     ):
-        if recorded != described:
+        if sorted(recorded) != sorted(described):
             yield failure(CHECK, NAME, f"its {word} {sorted(recorded)} are not those of {robot.path.name}: {sorted(described)}")
     limits = {j.name: j.limits for j in robot.joints}
-    for joint in record["joints"]:
+    for joint in joints:
         other = limits.get(joint["name"])
         if joint["limits"] and other and max(abs(a - b) for a, b in zip(joint["limits"], other, strict=True)) > SAME:
             yield failure(CHECK, NAME, f"the limits of {joint['name']!r} are {joint['limits']}, in {robot.path.name} {other}")

@@ -15,7 +15,7 @@ from anymesh.loading.join import join, simple_mesh
 from anymesh.types import Mesh
 
 TRIANGLE = np.dtype([("normal", "<f4", 3), ("vertices", "<f4", (3, 3)), ("attributes", "<u2")])
-NUMBER = rb"[-+]?(?:[\d.]|nan|inf)"  # its beginning, by which a facet's words are told from a title's
+NUMBER = rb"[-+]?(?:[\d.]|nan|inf)"  # start of a number; tells a facet from words in a title
 SOLID = re.compile(rb"(?mi)^[ \t\v\f]*solid\b([^\n]*?)(?=$|\bfacet\s+normal\s+" + NUMBER + rb")")
 FACET, END = re.compile(rb"(?i)\bfacet\b"), re.compile(rb"(?i)\bendsolid\b")
 VERTEX = re.compile(rb"(?i)\bvertex" + 3 * (rb"\s+(" + NUMBER + rb"\S*)"))

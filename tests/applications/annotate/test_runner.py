@@ -14,7 +14,7 @@ from ledger_rows import column, states, trace
 
 from anymesh.applications.annotate import annotate as module
 from anymesh.applications.annotate import runner
-from anymesh.applications.annotate.annotate import Speed, annotate, collection_status
+from anymesh.applications.annotate.annotate import Speed, annotate, collection_status, killed_after
 from anymesh.applications.annotate.workers import ObjectLimits
 from anymesh.errors import InputError, OptionError, OutputError
 
@@ -240,3 +240,11 @@ def test_limits_are_checked() -> None:
     with pytest.raises(OptionError, match="--memory"):
         ObjectLimits.default(2, 0.1, 10.0)
     assert ObjectLimits.default(2, 3.0, 10.0, waits=True) == ObjectLimits(3 << 30, 10.0, 100.0)
+
+
+@pytest.mark.parametrize(
+    ("speed", "limit", "seconds"), [(Speed(), 0.01, 60.0), (Speed(), 100.0, 400.0), (Speed(kill_after=7.0), 100.0, 7.0)]
+)
+def test_an_object_is_ended_long_after_its_time_limit(speed: Speed, limit: float, seconds: float) -> None:
+    """Reading the file counts too, so that a short limit still leaves a minute."""
+    assert killed_after(speed, {"time_limit": limit}) == seconds

@@ -102,6 +102,27 @@ def test_nothing_to_be_seen_is_an_input_error(tmp_path: Path) -> None:
         assemble("empty", [DatasetLink("base"), DatasetLink("door", "base", hinge(0, 1))], tmp_path / "empty.glb")
 
 
+@pytest.mark.parametrize("motion", [None, hinge(0, 1)])
+@pytest.mark.parametrize(
+    ("parents", "words"),
+    [
+        (("knob", "door"), "door > knob > door; valid is a tree"),
+        (("door", "door"), "door > door; valid is a tree"),
+        (("wall", "door"), r"door > wall; valid is a tree of the links \['door', 'frame', 'knob'\]"),
+    ],
+)
+def test_links_that_form_no_tree_are_an_input_error(tmp_path: Path, motion, parents: tuple[str, str], words: str) -> None:
+    """Else the search for the root would not end."""
+    door, knob = (DatasetLink(n, p, motion, m) for n, p, m in zip(("door", "knob"), parents, (DOOR, HANDLE), strict=True))
+    with pytest.raises(InputError, match=words):
+        assemble("box", [DatasetLink("frame", meshes=FRAME), door, knob], tmp_path / "box.glb")
+
+
+def test_a_second_root_is_an_input_error(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="found the root link b beside the base"):
+        assemble("two", [DatasetLink("a", meshes=FRAME), DatasetLink("b", meshes=DOOR)], tmp_path / "two.glb")
+
+
 def test_looks_stay_and_names_do_not(tmp_path: Path) -> None:
     look = Material(
         "door_material", (1.0, 0.0, 0.0, 1.0), textures={"base_color": Texture(checker(), "image/png", "door_texture")}

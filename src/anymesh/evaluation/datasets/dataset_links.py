@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -38,9 +38,11 @@ def assemble(name: str, links: Sequence[DatasetLink], path: Path, category: str 
 
     An invisible link is not a part: its children are attached to the next visible link towards the root, with their own joints.
     If the root is invisible, its visible child becomes the base, or the largest of several.
-    Axes are flipped so that the positive direction is towards the larger limit. Raise InputError if nothing is visible.
+    Axes are flipped so that the positive direction is towards the larger limit. Raise InputError if the links form no tree, or
+    nothing is visible.
     """
     known = {b.name: b for b in links}
+    _check_tree(name, known)
 
     def head(name: str) -> str:
         """Return the link that a fixed link belongs to."""
@@ -72,13 +74,26 @@ def assemble(name: str, links: Sequence[DatasetLink], path: Path, category: str 
     return GroundTruth(name, path, parts, np.array([n for n, _ in pieces], np.int64)[piece], joints, category)
 
 
+def _check_tree(name: str, known: Mapping[str, DatasetLink]) -> None:
+    """Check that the parents of every link lead to a root."""
+    for link in known:
+        path, at = [link], known[link].parent
+        while at is not None:
+            if at not in known or at in path:
+                raise InputError(
+                    f"{name}: found the parents {' > '.join([*path, at])}; valid is a tree of the links {sorted(known)}"
+                )
+            path.append(at)
+            at = known[at].parent
+
+
 def _area(meshes: list[Mesh]) -> float:
     return sum(float(m.face_areas.sum()) for m in meshes)
 
 
 def _joint(child: str, parent: str, motion: KnownJoint | None) -> TrueJoint:
     if motion is None:
-        raise ValueError(f"{child} is a root beside the base; bodies need one root")
+        raise InputError(f"found the root link {child} beside the base; valid is a tree with one")
     axis, limits = motion.axis / np.linalg.norm(motion.axis), motion.limits
     if limits is not None and -limits[0] > limits[1]:
         axis, limits = -axis, (-limits[1], -limits[0])

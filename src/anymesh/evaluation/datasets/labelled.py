@@ -69,24 +69,12 @@ def _bodies(record: dict[str, Any], mesh: Mesh, labels: np.ndarray) -> list[Data
     if len(joints) < len(record["joints"]):
         raise ValueError(f"found {len(record['joints'])} joints of {len(joints)} parts; valid is at most one of each")
     parent = {part: int(joints[part]["parent_part"]) if part in joints else 0 for part in parts if part != 0}
-    _check_tree(parent)
     links = []
     for part in parts:
         motion = None if part not in joints else _motion(joints[part])
         over = None if part == 0 else f"part_{parent[part]}"
         links.append(moved(DatasetLink(f"part_{part}", over, motion, (mesh.subset(labels == part),)), T))
     return links
-
-
-def _check_tree(parent: dict[int, int]) -> None:
-    """Raise ValueError unless all parts hang on part 0."""
-    for part in parent:
-        seen, at = {part}, parent[part]
-        while at != 0:
-            if at in seen or at not in parent:
-                raise ValueError(f"part {part} does not hang on part 0, through {sorted(seen)}; valid is a tree of the parts")
-            seen.add(at)
-            at = parent[at]
 
 
 def _motion(joint: dict[str, Any]) -> KnownJoint:
