@@ -3,7 +3,7 @@
 import struct
 
 import pytest
-from assets import slanted
+from assets import cabinet, slanted
 from drawn import chest
 
 from anymesh.checking import check_asset
@@ -29,6 +29,16 @@ def test_what_is_checked_in_a_folder(tmp_path):
 def test_the_mjcf_of_our_own_output_is_in_order_too(tmp_path):
     write_asset(slanted(), tmp_path)  # with a fixed joint
     report = check_asset(tmp_path / "slanted.xml")
+    assert report.ok, "\n".join(report.lines())
+
+
+@pytest.mark.parametrize("file", ["cabinet.urdf", "cabinet.xml", "."])
+def test_a_relative_path_is_as_good_as_an_absolute_one(file, tmp_path, monkeypatch):
+    """An MJCF names its pictures relative to its own folder."""
+    (tmp_path / "out").mkdir()
+    write_asset(cabinet(), tmp_path / "out")
+    monkeypatch.chdir(tmp_path)
+    report = check_asset(f"out/{file}", engines=())
     assert report.ok, "\n".join(report.lines())
 
 

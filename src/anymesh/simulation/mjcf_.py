@@ -35,8 +35,7 @@ def read_mjcf(path: Path) -> Robot:
         raise InputError(f"MuJoCo cannot load {path}: {' '.join(str(error).split())}") from error
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    folder = path.parent / spec.texturedir
-    pictures = tuple(str(folder / t.file) for t in spec.textures if t.file)
+    pictures = tuple(str(Path(spec.texturedir) / t.file) for t in spec.textures if t.file)
     return _Reader(mujoco, model, data).robot(path, spec.modelname, pictures)
 
 
