@@ -103,7 +103,7 @@ def _in_movers(mesh: Mesh, stands: np.ndarray, here: np.ndarray, points: np.ndar
 def _outward(mesh: Mesh) -> np.ndarray:
     """Faces, those of closed components that are inside out turned round."""
     found = components(mesh.vertices, mesh.faces)
-    return np.where(found.flip[found.label][:, None], mesh.faces[:, ::-1], mesh.faces)
+    return np.where(found.flip[:, None], mesh.faces[:, ::-1], mesh.faces)
 
 
 def _free_ways(mesh: Mesh, points: np.ndarray) -> np.ndarray:

@@ -86,4 +86,5 @@ def part_triangles(asset: Asset, name: str) -> np.ndarray:
 
 def is_closed(triangles: np.ndarray) -> bool:
     corners = triangles.reshape(-1, 3)
-    return bool(components(corners, np.arange(len(corners)).reshape(-1, 3)).solid.all())
+    found = components(corners, np.arange(len(corners)).reshape(-1, 3))
+    return bool((found.solid & found.agree).all())

@@ -30,6 +30,14 @@ def test_a_box_without_a_side_is_one_sheet_with_one_border():
     assert (sheet.points[sheet.loops[0]][:, 1] == 0).all()
 
 
+@pytest.mark.parametrize("seed", range(3))
+def test_cracks_between_the_faces_of_a_sheet_are_no_borders(seed: int) -> None:
+    triangles = shell((0, 0, 0), (1, 2, 3), "-y")
+    (sheet,) = sheets_of(triangles + np.random.default_rng(seed).uniform(-2e-5, 2e-5, triangles.shape))
+    assert len(sheet.faces) == 10
+    assert [len(loop) for loop in sheet.loops] == [4]
+
+
 def test_a_whole_box_is_no_sheet_and_boxes_that_touch_in_a_point_are_two():
     vertices, faces = box((0, 0, 0), (1, 1, 1))
     assert open_sheets(vertices, faces) == []

@@ -6,7 +6,8 @@ import numpy as np
 from assets import mesh_of
 from scipy.spatial.transform import Rotation
 
-from anymesh.geometry.triangle_set import TriangleSet, mesh_surface
+from anymesh.geometry.surface import mesh_surface
+from anymesh.geometry.triangle_set import TriangleSet
 
 
 def move(seed: int, far: float = 3.0) -> np.ndarray:

@@ -16,9 +16,9 @@ from anymesh.geometry.circles import outline_about
 from anymesh.geometry.patches import DividedSurface
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.surface import mesh_surface
 from anymesh.geometry.sweep import Obstacles
 from anymesh.geometry.topology import components, edge_pairs
-from anymesh.geometry.triangle_set import mesh_surface
 from anymesh.types import JointType, Motion
 
 
@@ -28,7 +28,7 @@ def obstacles() -> Obstacles:
 
 def divided() -> DividedSurface:
     shape, none = shape_of(box((0, 0, 0), (1, 1, 1))), np.zeros(0, np.int64)
-    return DividedSurface(shape, np.zeros(12, bool), np.zeros(12, np.int64), none.reshape(0, 2), none, 1.0)
+    return DividedSurface(shape, np.arange(12), np.zeros(12, np.int64), none.reshape(0, 2), none, 1.0)
 
 
 def passage() -> Any:

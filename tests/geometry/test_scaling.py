@@ -11,7 +11,7 @@ from anymesh.config import PatchConfig
 from anymesh.geometry.boxes import box_pairs
 from anymesh.geometry.distance_ import TriangleTree, distance_to_mesh
 from anymesh.geometry.simplify_ import FEWEST, simplify
-from anymesh.geometry.triangle_set import mesh_surface
+from anymesh.geometry.surface import mesh_surface
 from anymesh.segmentation.divide import object_shape
 
 

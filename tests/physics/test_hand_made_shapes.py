@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import trimesh
 from assets import box
 from trimesh import Trimesh
 from trimesh.boolean import union
 from trimesh.creation import box as solid_box
 from trimesh.creation import cylinder, icosphere
 
+from anymesh.geometry.surface import plain_triangles
 from anymesh.physics.collision.concave import concave_planes
 from anymesh.physics.collision.contacts_ import ContactBench
 from anymesh.physics.collision.convex import MAX_CORNERS, cut, hull_of, planes, thinned, trimmed, volume
@@ -229,3 +231,20 @@ def test_a_hull_too_small_for_engines_becomes_its_box() -> None:
     assert isinstance(tiny, Box)
     assert np.allclose(as_hull(tiny).vertices.min(0), 0, atol=1e-5)
     assert tiny.size.prod() >= 1e-15 / 6
+
+
+@pytest.mark.parametrize("change", ["twice", "two sides", "wound at random", "cracked"])
+def test_a_concave_solid_is_divided_alike_however_careless_its_faces_are(change: str) -> None:
+    rng = np.random.default_rng(0)
+    solid = np.asarray(trimesh.creation.torus(1, 0.3, major_sections=12, minor_sections=8).triangles, float)
+    triangles = {
+        "twice": np.concatenate([solid, solid]),
+        "two sides": np.concatenate([solid, solid[:, ::-1]]),
+        "wound at random": np.where(rng.random(len(solid))[:, None, None] < 0.5, solid[:, ::-1], solid),
+        "cracked": solid + rng.uniform(-1e-5, 1e-5, solid.shape),
+    }[change]
+    resolution = Resolution(gap=0.05, wall=0.01, max_pieces=16)
+    (plain,), (component,) = (split_components(plain_triangles(t, 2.6)[0], 0.0) for t in (solid, triangles))
+    assert component.solid
+    assert len(component.triangles) == len(solid)
+    assert len(component_shapes(component, resolution)) == len(component_shapes(plain, resolution)) > 4

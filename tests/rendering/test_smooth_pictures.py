@@ -206,3 +206,17 @@ def test_where_strokes_meet_the_strongest_counts():
 def test_a_surface_that_no_ray_meets_leaves_the_ground_as_it_is():
     speck = painted([box((50, 50, 50), (50.001, 50.001, 50.001))], 0.5)
     np.testing.assert_allclose(picture(speck), ground(SIZE, SIZE), atol=0.51)
+
+
+def test_a_surface_with_cracks_is_shaded_like_one_without() -> None:
+    whole = sphere(12)
+    normal = smoothed(whole).corner_normal
+    corners = whole.triangles.reshape(-1, 3)
+    moved = corners + np.random.default_rng(0).uniform(-5e-6, 5e-6, corners.shape) * whole.diagonal
+    cracked = smoothed(replace(whole, vertices=moved, faces=np.arange(len(corners)).reshape(-1, 3)))
+    assert normal is not None
+    assert cracked.corner_normal is not None
+    seen = whole.face_areas > 1e-4 * whole.face_areas.max()  # at the poles are faces without area, which divide the others
+    along = (cracked.corner_normal * normal).sum(2)[seen]
+    assert along.min() > 0.98
+    assert np.median(along) > 0.9999

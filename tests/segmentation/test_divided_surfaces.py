@@ -10,7 +10,7 @@ import trimesh
 from assets import box, mesh_of
 
 from anymesh.config import PatchConfig
-from anymesh.geometry.triangle_set import mesh_surface
+from anymesh.geometry.surface import mesh_surface
 from anymesh.segmentation import divide
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.handles import SurfaceHandle, aligned, find_handles

@@ -44,7 +44,7 @@ def _shape(triangles: np.ndarray) -> TriangleSet:
     corners = triangles.reshape(-1, 3)
     surface_components = components(corners, np.arange(len(corners)).reshape(-1, 3))
     normals = normals_and_areas(triangles)[0]
-    normals = np.where(surface_components.flip[surface_components.label][:, None], -normals, normals)
+    normals = np.where(surface_components.flip[:, None], -normals, normals)
     return TriangleSet(triangles, normals, surface_components.solid[surface_components.label], np.arange(len(triangles)))
 
 

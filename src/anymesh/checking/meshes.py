@@ -55,7 +55,8 @@ def closed_share(solid: Solid) -> float:
         return 1.0
     areas = normals_and_areas(triangles)[1]
     surface_components = components(solid.mesh.vertices, solid.mesh.faces)
-    return float(areas[surface_components.solid[surface_components.label]].sum() / max(areas.sum(), 1e-300))
+    closed = (surface_components.solid & surface_components.agree)[surface_components.label]
+    return float(areas[closed].sum() / max(areas.sum(), 1e-300))
 
 
 def _closed(content: Content, link: str) -> Iterator[Finding]:

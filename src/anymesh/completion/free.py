@@ -63,10 +63,9 @@ def shape_of(triangles: Float[np.ndarray, "n 3 3"]) -> TriangleSet:
     corners = triangles.reshape(-1, 3)
     surface_components = components(corners, np.arange(len(corners)).reshape(-1, 3))
     normals = normals_and_areas(triangles)[0]
-    flip = surface_components.flip[surface_components.label]
     return TriangleSet(
         triangles,
-        np.where(flip[:, None], -normals, normals),
+        np.where(surface_components.flip[:, None], -normals, normals),
         surface_components.solid[surface_components.label],
         np.arange(len(triangles)),
     )

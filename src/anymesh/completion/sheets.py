@@ -9,7 +9,8 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.geometry.topology import EdgePairs, edge_pairs, label_connected, weld
+from anymesh.geometry.connected import label_connected
+from anymesh.geometry.topology import EdgePairs, edge_pairs, weld, without_cracks
 from anymesh.types.triangles import normals_and_areas
 
 
@@ -60,6 +61,7 @@ def open_sheets(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"
     Surfaces are cut where their winding flips, and vertices are split where surfaces only meet in a point. Faces with two
     corners in one place enclose nothing and are left out.
     """
+    vertices = without_cracks(vertices, faces)
     number = weld(vertices)
     kept = np.flatnonzero((number[faces] != np.roll(number[faces], -1, axis=1)).all(1))
     if len(kept) == 0:

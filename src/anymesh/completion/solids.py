@@ -88,7 +88,7 @@ def _still_open(mine: np.ndarray, sheets: list[Sheet], made: list[np.ndarray]) -
     """Return the closed sheets of which any face is not part of a closed, consistently wound surface."""
     corners = np.concatenate([mine, *made]).reshape(-1, 3)
     surface_components = components(corners, np.arange(len(corners)).reshape(-1, 3))
-    bad = ~surface_components.solid[surface_components.label]
+    bad = ~(surface_components.solid & surface_components.agree)[surface_components.label]
     begin = len(mine) + np.cumsum([0, *(len(new) for new in made)])
     own = (np.r_[sheet.own, begin[k] : begin[k + 1]] for k, sheet in enumerate(sheets))
     return [k for k, faces in enumerate(own) if bad[faces].any()]

@@ -31,7 +31,8 @@ def thicken(triangles: Float[np.ndarray, "F 3 3"], min_thickness: float) -> Thic
     along its thin direction about its centre.
     """
     vertices, faces = _welded(triangles)
-    closed = bool(components(vertices, faces).solid.all())
+    parts = components(vertices, faces)
+    closed = bool((parts.solid & parts.agree).all())
     points = sample_surface(triangles, SAMPLES, 0).points
     middle = points.mean(0)
     axes = np.linalg.svd(points - middle, full_matrices=False)[2]

@@ -145,8 +145,7 @@ def _joined(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     """Return the exact union of all closed components, as from a CAD export or a boolean; open ones stay unchanged."""
     mesh = sample.mesh
     mesh_components = components(mesh.vertices, mesh.faces)
-    flipped = mesh_components.flip[mesh_components.label]
-    triangles = np.where(flipped[:, None, None], mesh.triangles[:, ::-1], mesh.triangles)
+    triangles = np.where(mesh_components.flip[:, None, None], mesh.triangles[:, ::-1], mesh.triangles)
     solids = [triangles[mesh_components.label == c] for c in np.flatnonzero(mesh_components.solid)]
     open_ones = triangles[~mesh_components.solid[mesh_components.label]]
     corners = np.concatenate([joined(solids), open_ones] if solids else [open_ones]).reshape(-1, 3)

@@ -10,8 +10,8 @@ from jaxtyping import Float
 
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.geometry.kinematics import carried_links, joint_motion
+from anymesh.geometry.surface import mesh_surface
 from anymesh.geometry.sweep import Obstacles, free_amount
-from anymesh.geometry.triangle_set import mesh_surface
 from anymesh.types import JointType
 
 MOVED_SHARE = 0.5  # probability that a joint is moved
@@ -55,6 +55,7 @@ def _obstacles(sample: EvalSample, child: str) -> Obstacles:
     carried = carried_links(asset, next(j for j in asset.joints if j.child == child))
     moves = np.isin(sample.labels, [k for k, part in enumerate(sample.truth.parts) if part.name in carried])
     shape = mesh_surface(sample.mesh).shape
+    moves = moves[shape.faces]
     return Obstacles(shape.take(moves), shape.take(~moves), PENETRATION * 2 * sample.unit)
 
 

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
-from jaxtyping import Bool, Int
+from jaxtyping import Int
 
 from anymesh.config import PatchConfig
 from anymesh.geometry.simplify_ import simplify
@@ -44,43 +44,46 @@ class ObjectShape:
 class DividedSurface:
     """The faces of a mesh, oriented and divided into patches, before dense meshes are simplified.
 
-    flipped: (F,) faces whose winding the mesh has the other way round; patch, shared, inferred, diagonal: as in `ObjectShape`.
+    shape: all F faces; copy: (F,) face that each one copies, itself for most (`first_copies`); patch, shared, inferred,
+    diagonal: as in `ObjectShape`.
     """
 
     shape: TriangleSet
-    flipped: Bool[np.ndarray, " F"]
+    copy: Int[np.ndarray, " F"]
     patch: Int[np.ndarray, " F"]
     shared: Int[np.ndarray, "k 2"]
     inferred: Int[np.ndarray, " p"]
     diagonal: float
 
     def simplified(self, config: PatchConfig, labels: Int[np.ndarray, " F"] | None = None) -> ObjectShape:
-        """Simplify each patch.
+        """Leave out copies of faces and simplify each patch.
 
-        labels: (F,) parts that are kept apart.
+        labels: (F,) parts that are kept apart, each with its own copy of a face.
         """
-        group = self.patch if labels is None else self.patch * (int(labels.max()) + 1) + labels
-        shape, source = _simplified(self.shape, self.flipped, group, config)
+        label = np.zeros(len(self.patch), np.int64) if labels is None else labels
+        rows = np.flatnonzero((self.copy == np.arange(len(self.copy))) | (label != label[self.copy]))
+        group = self.patch * (int(label.max()) + 1) + label
+        shape, source = _simplified(self.shape.take(rows), group[rows], config)
+        source = rows[source]
         return ObjectShape(
             shape.prepared(), self.patch[source], source, self.patch, self.shared, self.inferred, self.diagonal
         )  # fmt: skip
 
 
 def _simplified(
-    shape: TriangleSet, flipped: Bool[np.ndarray, " F"], group: Int[np.ndarray, " F"], config: PatchConfig
+    shape: TriangleSet, group: Int[np.ndarray, " F"], config: PatchConfig
 ) -> tuple[TriangleSet, Int[np.ndarray, " R"]]:
     """Simplify each group in proportion to its faces; small groups are left unchanged."""
     count = len(group)
     if count <= config.most_faces:
-        return shape, np.arange(count)
-    triangles = np.where(flipped[:, None, None], shape.triangles[:, ::-1], shape.triangles)
+        return replace(shape, faces=np.arange(count)), np.arange(count)
     order = np.argsort(group, kind="stable")
     bounds = np.flatnonzero(np.r_[True, np.diff(group[order]) != 0, True])
     least = int(np.clip(SMALL_PATCH_FACES_RATIO * config.most_faces / (len(bounds) - 1), MIN_PATCH_FACES, config.least_faces))
     kept, source = [], []
     for a, b in pairwise(bounds):
         mine = order[a:b]
-        few = simplify(triangles[mine], max(least, int(config.most_faces * len(mine) / count)))
+        few = simplify(shape.triangles[mine], max(least, int(config.most_faces * len(mine) / count)))
         kept.append(few)
         source.append(mine if len(few) == len(mine) else np.full(len(few), mine[0]))
     reduced, where = np.concatenate(kept), np.concatenate(source)

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.spatial import KDTree
 
-from anymesh.geometry.topology import label_connected
+from anymesh.geometry.connected import label_connected
 
 AROUND = 32  # points around a point, over which positions and normals are averaged
 NEIGHBOURS = 8  # points that a point is connected to

@@ -7,11 +7,19 @@ from itertools import product
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+from scipy.spatial import KDTree
+
+from anymesh.geometry.connected import label_connected
+from anymesh.geometry.winding import outward
+from anymesh.types.triangles import bounds_of
 
 # [rad] faces at an edge with a smaller angle between them count as coplanar, to allow for imprecise exports
 MAX_COPLANAR_ANGLE_RAD = 0.05
+# of the diagonal: open edges with nearer ends are one edge; coordinates of 14 bits leave such cracks
+MAX_CRACK_RATIO = 5e-5
+MAX_CRACK_ENDS = 8  # ends of open edges that are joined with one, the nearest first
+MAX_AROUND = 1000  # faces around an edge, above which none of them bounds a solid
+MAX_COMPARED = 4_000_000  # pairs of faces around edges that are compared at once, which limits memory
 
 
 def weld(vertices: Float[np.ndarray, "V 3"]) -> Int[np.ndarray, " V"]:
@@ -58,52 +66,116 @@ class EdgePairs:
 def edge_pairs(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> EdgePairs:
     """Return all pairs of faces that meet at an edge.
 
-    If more than two faces share an edge (bodies that touch along it), each is paired with the face across the material between
-    them, so that touching solids stay separate.
+    Open edges whose ends are closer than MAX_CRACK_RATIO meet too. If more than two faces share an edge (bodies that touch
+    along it), each is paired with the face across the material between them, so that touching solids stay separate.
     """
-    welded = weld(vertices)
-    f = welded[faces]
-    a, b = f.reshape(-1), f[:, [1, 2, 0]].reshape(-1)
-    ends = np.stack([faces.reshape(-1), faces[:, [1, 2, 0]].reshape(-1)], 1)
-    third = faces[:, [2, 0, 1]].reshape(-1)
-    owner = np.repeat(np.arange(len(faces)), 3)
-    keep = a != b
-    a, b, owner, ends, third = a[keep], b[keep], owner[keep], ends[keep], third[keep]
-    key = np.minimum(a, b).astype(np.int64) * (int(welded.max()) + 1) + np.maximum(a, b)
-    order = np.argsort(key, kind="stable")
-    key, owner, ends, third, forward = key[order], owner[order], ends[order], third[order], (a < b)[order]
-    start = np.flatnonzero(np.r_[True, key[1:] != key[:-1]])
-    size = np.diff(np.r_[start, len(key)])
-    two = start[size == 2]
+    half = _welded(vertices, faces)[1]
+    two = half.start[half.size == 2]
     left, right = [two], [two + 1]
-    for count in np.unique(size[size > 2]):
-        rows = start[size == count][:, None] + np.arange(count)
-        i, j = _across_material(vertices, ends[rows], third[rows], forward[rows], owner[rows])
-        left.append(rows[i, j[0]])
-        right.append(rows[i, j[1]])
+    if (half.size > 2).any():
+        owner, forward = half.owner, half.forward
+        pairs, aligned = owner[np.stack([two, two + 1], 1)], forward[two] != forward[two + 1]
+        outer = forward ^ outward(vertices[faces], pairs, aligned)[1][owner]
+        for count in np.unique(half.size[(half.size > 2) & (half.size <= MAX_AROUND)]):
+            rows = half.start[half.size == count][:, None] + np.arange(count)
+            for some in np.array_split(rows, len(rows) * count * count // MAX_COMPARED + 1):
+                first = some[:, 0]
+                edge = np.where(forward[first, None], half.ends[first], half.ends[first, ::-1])
+                i, j = _across_material(vertices[edge], vertices[half.third[some]], outer[some], owner[some])
+                left.append(some[i, j[0]])
+                right.append(some[i, j[1]])
     i, j = np.concatenate(left), np.concatenate(right)
-    paired = np.zeros(len(key), bool)
+    paired = np.zeros(len(half.owner), bool)
     paired[i] = paired[j] = True
-    loose = np.unique(owner[~paired])
-    return EdgePairs(np.stack([owner[i], owner[j]], 1), ends[i], forward[i] != forward[j], loose)
+    loose = np.unique(half.owner[~paired])
+    return EdgePairs(
+        np.stack([half.owner[i], half.owner[j]], 1), half.ends[i], half.forward[i] != half.forward[j], loose
+    )  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class _HalfEdges:
+    """The edges of all faces, those at the same place one after another.
+
+    ends: (n, 2) vertices; third: (n,) opposite vertex; owner: (n,) face; forward: (n,) from the lower place to the higher;
+    start, size: (k,) first row and number of rows of each place.
+    """
+
+    ends: Int[np.ndarray, "n 2"]
+    third: Int[np.ndarray, " n"]
+    owner: Int[np.ndarray, " n"]
+    forward: Bool[np.ndarray, " n"]
+    start: Int[np.ndarray, " k"]
+    size: Int[np.ndarray, " k"]
+
+    @classmethod
+    def of(cls, welded: Int[np.ndarray, " V"], faces: Int[np.ndarray, "F 3"]) -> _HalfEdges:
+        """List the edges of all faces except those without a length."""
+        f = welded[faces]
+        a, b = f.reshape(-1), f[:, [1, 2, 0]].reshape(-1)
+        ends = np.stack([faces.reshape(-1), faces[:, [1, 2, 0]].reshape(-1)], 1)
+        third = faces[:, [2, 0, 1]].reshape(-1)
+        owner = np.repeat(np.arange(len(faces)), 3)
+        key = np.minimum(a, b).astype(np.int64) * (int(welded.max()) + 1) + np.maximum(a, b)
+        kept = np.flatnonzero(a != b)
+        order = kept[np.argsort(key[kept], kind="stable")]
+        key = key[order]
+        start = np.flatnonzero(np.r_[True, key[1:] != key[:-1]])
+        return cls(ends[order], third[order], owner[order], (a < b)[order], start, np.diff(np.r_[start, len(key)]))
+
+
+def without_cracks(
+    vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], reach: float | None = None
+) -> Float[np.ndarray, "V 3"]:
+    """Return the vertices with nearby ends of open edges moved to one place.
+
+    reach: distance of near ones [m], MAX_CRACK_RATIO of the diagonal of these faces by default.
+    """
+    exact, number = weld(vertices), _welded(vertices, faces, reach)[0]
+    first = np.unique(number, return_index=True)[1][number]
+    return np.where((exact != exact[first])[:, None], vertices[first], vertices)
+
+
+def _welded(
+    vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], reach: float | None = None
+) -> tuple[Int[np.ndarray, " V"], _HalfEdges]:
+    """Number the vertices as `weld`, nearby ends of open edges alike; return also the edges of all faces."""
+    welded = weld(vertices)
+    half = _HalfEdges.of(welded, faces)
+    ends = half.ends[half.start[half.size == 1]].reshape(-1)
+    if not len(ends):
+        return welded, half
+    place, first = np.unique(welded[ends], return_index=True)
+    points = vertices[ends[first]]
+    if reach is None:
+        low, high = bounds_of(vertices[faces].reshape(-1, 3))
+        reach = MAX_CRACK_RATIO * float(np.linalg.norm(high - low))
+    near = KDTree(points).query(points, MAX_CRACK_ENDS, distance_upper_bound=reach, workers=-1)[1].reshape(len(points), -1)
+    row, slot = np.nonzero((near < len(points)) & (near != np.arange(len(points))[:, None]))
+    if not len(row):
+        return welded, half
+    met = np.stack([place[row], place[near[row, slot]]], 1)
+    welded = label_connected(int(welded.max()) + 1, met)[welded]
+    return welded, _HalfEdges.of(welded, faces)
 
 
 def _across_material(
-    vertices: np.ndarray, ends: np.ndarray, third: np.ndarray, forward: np.ndarray, owner: np.ndarray
+    edge: np.ndarray, third: np.ndarray, forward: np.ndarray, owner: np.ndarray
 ) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
     """Return pairs (row, (slot, slot)) among the n faces around each of m edges.
+
+    edge: (m, 2, 3) its ends; third: (m, n, 3) the opposite corners; forward: (m, n) whether the face, wound outwards, has the
+    edge in this direction.
 
     A face is paired with the next one behind its surface. Of several in one plane (bodies that overlap), the one with the
     closest index is used.
     """
-    low = np.where(forward[:, :1, None], vertices[ends[:, :1, 0]], vertices[ends[:, :1, 1]])
-    high = np.where(forward[:, :1, None], vertices[ends[:, :1, 1]], vertices[ends[:, :1, 0]])
-    edge = high - low
-    edge /= np.maximum(np.linalg.norm(edge, axis=2, keepdims=True), 1e-300)
-    into = vertices[third] - low
-    into -= (into * edge).sum(2, keepdims=True) * edge
+    along = edge[:, 1:] - edge[:, :1]
+    along /= np.maximum(np.linalg.norm(along, axis=2, keepdims=True), 1e-300)
+    into = third - edge[:, :1]
+    into -= (into * along).sum(2, keepdims=True) * along
     u = into[:, :1] / np.maximum(np.linalg.norm(into[:, :1], axis=2, keepdims=True), 1e-300)
-    v = np.cross(edge, u)
+    v = np.cross(along, u)
     angle = np.arctan2((into * v).sum(2), (into * u).sum(2))
     turn = (angle[:, :, None] - angle[:, None, :]) % (2 * np.pi)
     turn = np.where((turn < MAX_COPLANAR_ANGLE_RAD) | (turn > 2 * np.pi - MAX_COPLANAR_ANGLE_RAD), 2 * np.pi, turn)
@@ -118,26 +190,18 @@ def _across_material(
     return row, (slot, mate[row, slot])
 
 
-def label_connected(count: int, pairs: Int[np.ndarray, "m 2"]) -> Int[np.ndarray, " n"]:
-    """Label the connected components of `count` nodes, ordered by first node."""
-    graph = coo_array((np.ones(len(pairs), np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
-    _, raw = connected_components(graph, directed=False)
-    first = np.unique(raw, return_index=True)[1]
-    rank = np.empty(len(first), np.int64)
-    rank[np.argsort(first)] = np.arange(len(first))
-    return rank[raw]
-
-
 @dataclass(frozen=True, eq=False)
 class Components:
     """Connected components of the welded mesh.
 
-    label: (F,) component of each face; solid: (count,) closed and consistently wound; flip: (count,) solid but inside out.
+    label: (F,) component of each face; solid: (count,) closed and two-sided; flip: (F,) faces to reverse so that those of a
+    component agree, and face outwards unless they enclose nothing; agree: (count,) whether they agree already.
     """
 
     label: Int[np.ndarray, " F"]
     solid: Bool[np.ndarray, " c"]
-    flip: Bool[np.ndarray, " c"]
+    flip: Bool[np.ndarray, " F"]
+    agree: Bool[np.ndarray, " c"]
     edges: EdgePairs
 
     @property
@@ -148,11 +212,9 @@ class Components:
 def components(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> Components:
     """Find the connected components of the welded mesh, and which of them enclose a volume."""
     edges = edge_pairs(vertices, faces)
-    label = label_connected(len(faces), edges.faces)
-    count = int(label.max()) + 1
-    solid = np.ones(count, bool)
+    label, flip, two_sided = outward(vertices[faces], edges.faces, edges.aligned)
+    solid = two_sided.copy()
     solid[label[edges.open_faces]] = False
-    solid[label[edges.faces[~edges.aligned, 0]]] = False
-    t = vertices[faces] - vertices[faces].mean((0, 1))
-    six_volumes = np.bincount(label, np.einsum("ij,ij->i", t[:, 0], np.cross(t[:, 1], t[:, 2])), count)
-    return Components(label, solid, solid & (six_volumes < 0), edges)
+    agree = np.ones(len(solid), bool)
+    agree[label[edges.faces[~edges.aligned, 0]]] = False
+    return Components(label, solid, flip, agree, edges)

@@ -9,11 +9,9 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.geometry.boxes import OrientedBox, fit_box
-from anymesh.geometry.distance_ import TriangleTree, winding_number
+from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.sampling import SurfacePoints, spread_points
-from anymesh.geometry.topology import Components, components, weld
-from anymesh.types import Mesh
 from anymesh.types.triangles import bounds_of, normals_and_areas
 
 SAMPLES = 3000  # surface points per triangle set; a share of 1 % is 30 points
@@ -164,45 +162,3 @@ class TriangleSet:
     def prepared(self) -> TriangleSet:
         """Return the same faces with the data that subsets share."""
         return replace(self, known=KnownFaces.of(self.triangles))
-
-
-@dataclass(frozen=True, eq=False)
-class MeshSurface:
-    """The faces of an object, and the connected components of its welded surface."""
-
-    shape: TriangleSet
-    components: Components
-    void: Bool[np.ndarray, " c"]  # components that are walls of a closed cavity in another one
-    vertices: Float[np.ndarray, "V 3"]
-    diagonal: float
-
-
-def mesh_surface(mesh: Mesh, seed: int = 0) -> MeshSurface:
-    """Orient the faces of a mesh and find its components; the mesh is not modified."""
-    parts = components(mesh.vertices, mesh.faces)
-    void = _voids(mesh, parts)
-    flip = (parts.flip & ~void)[parts.label]
-    normals = np.where(flip[:, None], -mesh.face_normals, mesh.face_normals)
-    shape = TriangleSet(mesh.triangles, normals, parts.solid[parts.label], np.arange(len(mesh.faces)), seed)
-    return MeshSurface(shape, parts, void, mesh.vertices, mesh.diagonal)
-
-
-def _voids(mesh: Mesh, parts: Components) -> Bool[np.ndarray, " c"]:
-    """Return which components are inverted and lie within a solid one: walls of its cavities."""
-    void = np.zeros(parts.count, bool)
-    solid, inverted = np.flatnonzero(parts.solid & ~parts.flip), np.flatnonzero(parts.flip)
-    if not (len(solid) and len(inverted)):
-        return void
-    order = np.argsort(parts.label, kind="stable")
-    start = np.searchsorted(parts.label[order], np.arange(parts.count + 1))
-    triangles = mesh.triangles[order]
-    low = np.minimum.reduceat(triangles.min(1), start[:-1])
-    high = np.maximum.reduceat(triangles.max(1), start[:-1])
-    points = triangles[start[inverted]].mean(1)  # one on each inverted component
-    for s in solid:
-        there = np.flatnonzero(~void[inverted] & ((points > low[s]) & (points < high[s])).all(1))
-        if len(there):
-            corners = triangles[start[s] : start[s + 1]].reshape(-1, 3)
-            _, first, index = np.unique(weld(corners), return_index=True, return_inverse=True)
-            void[inverted[there]] = winding_number(points[there], corners[first], index.reshape(-1, 3)) > 0.5
-    return void

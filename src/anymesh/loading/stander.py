@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -11,6 +11,7 @@ from jaxtyping import Float
 from scipy.spatial import ConvexHull, KDTree, QhullError
 
 from anymesh.geometry.sampling import sample_surface, spread_directions
+from anymesh.geometry.surface import mesh_surface
 from anymesh.types import Mesh
 
 POINTS = 1500  # samples of the surface
@@ -47,7 +48,8 @@ class Stander:
             scaled = (mesh.vertices - (low + high) / 2) / float(np.linalg.norm(high - low))
         if not np.isfinite(scaled[used]).all():
             return None
-        samples = sample_surface(scaled[mesh.faces], POINTS, 0)
+        outer = mesh_surface(replace(mesh, vertices=np.where(used[:, None], scaled, 0.0))).shape
+        samples = sample_surface(outer.triangles, POINTS, 0)
         try:
             hull = ConvexHull(_outermost(scaled[used]))
         except QhullError:

@@ -11,8 +11,8 @@ from scipy.spatial import KDTree
 from anymesh.config import FACING_COSINE
 from anymesh.geometry.body_obb import MAX_PROTRUSION_RATIO
 from anymesh.geometry.boxes import OrientedBox
+from anymesh.geometry.connected import label_connected
 from anymesh.geometry.levels import points_above, shares_above
-from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import Handle
 

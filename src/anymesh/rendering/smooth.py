@@ -6,7 +6,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from anymesh.geometry.topology import edge_pairs, label_connected, weld
+from anymesh.geometry.connected import label_connected
+from anymesh.geometry.topology import edge_pairs, weld, without_cracks
 from anymesh.types import Mesh
 
 CREASE_ANGLE = float(np.deg2rad(35))  # [rad] faces that meet at a larger angle form a crease; wheels of 11 sides are round
@@ -21,12 +22,13 @@ def smoothed(mesh: Mesh) -> Mesh:
     """
     if mesh.corner_normal is not None or len(mesh.faces) > SMOOTHED_FACES:
         return mesh
-    pairs = edge_pairs(mesh.vertices, mesh.faces)
+    vertices = without_cracks(mesh.vertices, mesh.faces)
+    pairs = edge_pairs(vertices, mesh.faces)
     cosine = np.einsum("ij,ij->i", mesh.face_normals[pairs.faces[:, 0]], mesh.face_normals[pairs.faces[:, 1]])
     smooth = pairs.aligned & (cosine > np.cos(CREASE_ANGLE))
     if not (smooth & (cosine < COPLANAR)).any():
         return mesh
-    welded = weld(mesh.vertices)
+    welded = weld(vertices)
     faces, ends = pairs.faces[smooth], welded[pairs.vertices[smooth]]
     corners = [3 * faces + (welded[mesh.faces][faces] == end[:, None, None]).argmax(2) for end in ends.T]
     group = label_connected(3 * len(mesh.faces), np.concatenate(corners))

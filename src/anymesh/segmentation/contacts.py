@@ -11,8 +11,8 @@ from jaxtyping import Float, Float32, Int
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.boxes import box_pairs, same_box
+from anymesh.geometry.connected import label_connected
 from anymesh.geometry.patches import ObjectShape
-from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.segmentation.dominators import NONE, immediate_dominators
 from anymesh.segmentation.patch_gaps import area_in_contact, crosses, gap_within

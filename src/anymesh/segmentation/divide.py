@@ -7,13 +7,13 @@ from jaxtyping import Bool, Int
 from scipy.spatial import KDTree
 
 from anymesh.config import SAME_SIZE, PatchConfig
+from anymesh.geometry.connected import label_connected
 from anymesh.geometry.creases import convex_regions
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.patches import DividedSurface, ObjectShape
 from anymesh.geometry.sampling import spread_points
 from anymesh.geometry.seams import divide_at_seams
-from anymesh.geometry.topology import label_connected
-from anymesh.geometry.triangle_set import MeshSurface, mesh_surface
+from anymesh.geometry.surface import MeshSurface, mesh_surface
 from anymesh.segmentation.panels import split_panels
 from anymesh.segmentation.surface_regions import region_sizes
 from anymesh.types import Mesh
@@ -39,9 +39,10 @@ def divide_surface(mesh: Mesh, seed: int, config: PatchConfig) -> DividedSurface
     patch, inferred = split_patches(surface, config)
     pairs = np.sort(patch[surface.components.edges.faces], 1)
     shared = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
-    flipped = surface.components.flip[surface.components.label] & ~surface.void[surface.components.label]
     from_handles = np.flatnonzero(np.bincount(patch, np.where(inferred, surface.shape.areas, -surface.shape.areas)) > 0)
-    return DividedSurface(surface.shape, flipped, patch, shared, from_handles, surface.diagonal)
+    return DividedSurface(
+        surface.shape.take(surface.row), surface.copy, patch[surface.row], shared, from_handles, surface.diagonal
+    )
 
 
 def split_patches(surface: MeshSurface, config: PatchConfig) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
@@ -74,11 +75,9 @@ def _soft_regions(surface: MeshSurface, component: np.ndarray, large: np.ndarray
     """Return regions bounded by soft concave creases on large and dense components; other components are one region each."""
     region = component.copy()
     count = np.bincount(component)
-    flip = surface.components.flip & ~surface.void
     for c in np.flatnonzero(large & (count > config.soft_faces)):
         mine = np.flatnonzero(component == c)
-        triangles = surface.shape.triangles[mine]
-        convex_region = convex_regions(triangles[:, ::-1] if flip[c] else triangles, surface.diagonal, config)
+        convex_region = convex_regions(surface.shape.triangles[mine], surface.diagonal, config)
         region[mine] = np.where(convex_region > 0, int(region.max()) + convex_region, c)
     return region
 

@@ -8,9 +8,9 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.geometry.boxes import OrientedBox, fit_box
+from anymesh.geometry.connected import label_connected
 from anymesh.geometry.distance_ import distance_to_mesh
-from anymesh.geometry.topology import label_connected
-from anymesh.geometry.triangle_set import MeshSurface
+from anymesh.geometry.surface import MeshSurface
 from anymesh.segmentation.surface_regions import is_main_component, region_sizes
 
 MIN_BAR_ASPECT = 2.0  # minimum length of a bar over its larger width

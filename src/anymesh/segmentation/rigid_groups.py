@@ -9,8 +9,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.config import ALONG_COSINE
+from anymesh.geometry.connected import label_connected
 from anymesh.geometry.patches import ObjectShape
-from anymesh.geometry.topology import label_connected
 from anymesh.segmentation.contacts import Contacts, coplanar, dominated_by
 from anymesh.types import Mesh
 from anymesh.vocabulary import is_fixed_name, recognize

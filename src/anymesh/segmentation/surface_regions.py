@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.geometry.patches import ObjectShape
-from anymesh.geometry.triangle_set import MeshSurface
+from anymesh.geometry.surface import MeshSurface
 from anymesh.types import Mesh
 
 MIN_WHOLE_OBJECT_SHARE = 0.8  # share of the surface above which one region is the whole object, with little beside it

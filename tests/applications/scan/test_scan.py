@@ -50,7 +50,7 @@ def test_it_is_one_closed_outward_surface(scanned) -> None:
     found = components(mesh.vertices, mesh.faces)
     assert found.count == 1
     assert found.solid[0]
-    assert not found.flip[0]
+    assert not found.flip.any()
     assert len(mesh.faces) == report.faces
     assert [h.on_floor for h in report.holes if h.area > 0.05] == [True]  # it stands on it
 

@@ -65,9 +65,8 @@ def split_components(
     """
     surface_components = components(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
     order = np.argsort(surface_components.label, kind="stable")
-    pieces = np.split(
-        triangles[order], np.cumsum(np.bincount(surface_components.label, minlength=surface_components.count))[:-1]
-    )
+    wound = np.where(surface_components.flip[:, None, None], triangles[:, ::-1], triangles)
+    pieces = np.split(wound[order], np.cumsum(np.bincount(surface_components.label, minlength=surface_components.count))[:-1])
     sizes = np.array([float(np.linalg.norm(np.ptp(piece.reshape(-1, 3), axis=0))) for piece in pieces])
     by_size = np.argsort(sizes, kind="stable")[::-1]
     large = [int(k) for k in by_size if sizes[k] >= min(min_size, sizes.max())]
@@ -79,9 +78,7 @@ def split_components(
         corners = pieces[k].reshape(-1, 3)
         if any(other.holds(corners, 1e-6 * sizes[k]) for other in around):
             continue
-        kept.append(
-            Component(pieces[k][:, ::-1] if surface_components.flip[k] else pieces[k], bool(surface_components.solid[k]))
-        )
+        kept.append(Component(pieces[k], bool(surface_components.solid[k])))
         hull = hull_of(corners) if surface_components.solid[k] and k != separate[-1] else None
         if hull is not None and len(hull.faces) <= AROUND_FACES:
             this = _Around(planes(hull), corners.min(0), corners.max(0))
@@ -142,7 +139,8 @@ def _closed(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
     """Return the vertices and faces of a closed surface with few faces; None if it is not closed."""
     for few in (simplify(triangles, SOLID_FACES), triangles):  # simplification may open a surface
         vertices, faces = solid_mesh(few)
-        if len(faces) and components(vertices, faces).solid.all():
+        parts = components(vertices, faces) if len(faces) else None
+        if parts is not None and (parts.solid & parts.agree).all():
             return vertices, faces
     return None
 
