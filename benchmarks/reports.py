@@ -22,6 +22,7 @@ from anymesh.evaluation.tables import group_table
 REPORTS = Path(__file__).parent / "reports"
 SETS = ("examples", "scene-synthesizer", "sweethome3d", "metaworld", "libero")
 HARSH = "none,turned,spun,lying,noise.0005,half-faces,unseen-gone,joined,fused,fused-coarse"
+CARELESS = "none,doubled,two-sided,inside-out,mixed,cracked"  # what careless exports do to the faces
 MOVING = ("sweethome3d", "metaworld", "libero")  # sets all of whose objects are known to move
 RUNS = {
     **{f"{name}-parts": f"{name} --protocol parts" for name in SETS},
@@ -30,6 +31,7 @@ RUNS = {
     **{f"{name}-views": f"{name} --protocol views --views 2" for name in ("examples", "scene-synthesizer", "sweethome3d")},
     "scene-synthesizer-random-parts": "scene-synthesizer --split random --protocol parts",
     "examples-robustness": f"examples --protocol end-to-end --changes {HARSH}",
+    **{f"{name}-careless": f"{name} --protocol end-to-end --changes {CARELESS}" for name in ("examples", "sweethome3d")},
     "sweethome3d-robustness": "sweethome3d --protocol parts --changes none,turned,spun,noise.0005,half-faces,unseen-gone",
 }
 TABLES = {

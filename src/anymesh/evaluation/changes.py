@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.errors import OptionError
+from anymesh.evaluation.careless import cracked, doubled, inside_out, mixed, two_sided
 from anymesh.evaluation.fused_ import joined, wrapped
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.posing import ajar
@@ -219,6 +220,11 @@ CHANGES: Mapping[str, Change] = MappingProxyType(
         "half-faces": partial(_decimated, share=0.5),
         "quarter-faces": partial(_decimated, share=0.25),
         "unseen-gone": _unseen_gone,
+        "doubled": doubled,  # every face is there twice
+        "two-sided": two_sided,
+        "inside-out": inside_out,
+        "mixed": mixed,  # about half of the faces are reversed
+        "cracked": cracked,
         "ajar": ajar,  # some joints at other positions of their ranges
         "joined": _joined,
         "fused": partial(_fused, cells=FINE),

@@ -1,0 +1,59 @@
+"""What careless exports do to the faces of a mesh, though it looks the same in a viewer that draws both sides."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from jaxtyping import Bool
+
+from anymesh.evaluation.ground_truth import EvalSample
+from anymesh.types import Mesh
+
+CRACK = 1e-5  # of the diagonal: how far the corners of two neighbouring faces are apart, as after rounding to four digits
+
+
+def doubled(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
+    """Add a copy of every face at the same place."""
+    twice = np.tile(np.arange(len(sample.mesh.faces)), 2)
+    return replace(sample, mesh=sample.mesh.subset(twice), labels=sample.labels[twice])
+
+
+def two_sided(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
+    """Add the back of every face, as modellers do whose viewer draws one side only."""
+    both = doubled(sample, rng)
+    return replace(both, mesh=_reversed(both.mesh, np.arange(len(both.labels)) >= len(sample.labels)))
+
+
+def inside_out(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
+    """Reverse every face."""
+    return replace(sample, mesh=_reversed(sample.mesh, np.ones(len(sample.labels), bool)))
+
+
+def mixed(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
+    """Reverse about half of the faces, each by chance."""
+    return replace(sample, mesh=_reversed(sample.mesh, rng.random(len(sample.labels)) < 0.5))
+
+
+def cracked(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
+    """Move every corner of every face a little, so that no two faces share a corner."""
+    mesh = sample.mesh
+    corners = mesh.triangles.reshape(-1, 3)
+    corners = corners + rng.uniform(-1, 1, corners.shape) * CRACK / 2 * mesh.diagonal
+    return replace(sample, mesh=replace(mesh, vertices=corners, faces=np.arange(len(corners)).reshape(-1, 3)))
+
+
+def _reversed(mesh: Mesh, which: Bool[np.ndarray, " F"]) -> Mesh:
+    """Return the mesh with some faces seen from behind."""
+
+    def flip(rows: np.ndarray | None) -> np.ndarray | None:
+        return None if rows is None else np.where(which.reshape(-1, *[1] * (rows.ndim - 1)), rows[:, ::-1], rows)
+
+    normal = mesh.corner_normal
+    return replace(
+        mesh,
+        faces=flip(mesh.faces),
+        corner_uv=flip(mesh.corner_uv),
+        corner_color=flip(mesh.corner_color),
+        corner_normal=None if normal is None else flip(np.where(which[:, None, None], -normal, normal)),
+    )
