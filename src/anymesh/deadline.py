@@ -11,6 +11,7 @@ from anymesh.errors import OptionError
 
 CALL_SECONDS = 120.0  # [s] default of `--timeout`, for one call of a model
 DEFAULT_SECONDS = 600.0  # [s] default of `--time-limit`
+CONTACTS = 0.2  # share after which no further contact of patches is measured
 SEGMENT, JOINTS, COMPLETION, COLLISION, PREVIEW = 0.4, 0.7, 0.7, 0.9, 0.9  # shares after which a stage is cut short
 
 

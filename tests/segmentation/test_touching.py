@@ -8,6 +8,7 @@ from geometry.rigid import shape_of
 from scipy.spatial.distance import cdist
 
 from anymesh.config import SegmentationConfig
+from anymesh.deadline import Deadline
 from anymesh.geometry.contact import connecting_area
 from anymesh.segmentation.contacts import Contacts, dominated_by, find_contacts
 from anymesh.segmentation.divide import object_shape
@@ -109,3 +110,15 @@ def test_what_reaches_the_root_only_through_a_piece_hangs_on_it() -> None:
     )
     dominated = dominated_by(found, np.arange(5), root=0)
     assert {k: sorted(v) for k, v in dominated.items()} == {0: [0, 1, 2, 3, 4], 1: [1, 2], 2: [2], 3: [3], 4: [4]}
+
+
+def test_after_the_deadline_no_contact_is_measured() -> None:
+    late = Deadline(1e-9)
+    whole = object_shape(mesh_of([BLOCK, box((1, 0, 0), (2, 1, 1)), box((2.01, 0, 0), (3, 1, 1))])[0])
+    found = find_contacts(whole, SegmentationConfig(), late)
+    assert len(found.shapes) == 3
+    assert (len(found.touch), len(found.near), found.area) == (0, 0, {})
+    assert late.warnings() == ("time limit of 1e-09 s: segmentation: some contacts were not measured",)
+    in_time = Deadline(600.0)
+    found = find_contacts(whole, SegmentationConfig(), in_time)
+    assert (found.touch.tolist(), found.near.tolist(), in_time.warnings()) == ([[0, 1]], [[1, 2]], ())

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float, Float32, Int
 
 from anymesh.config import SegmentationConfig
+from anymesh.deadline import CONTACTS, Deadline
 from anymesh.geometry.boxes import box_pairs, same_box
 from anymesh.geometry.connected import label_connected
 from anymesh.geometry.patches import ObjectShape
@@ -58,8 +59,9 @@ class Contacts:
         return np.array([s.area for s in self.shapes])
 
 
-def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
-    """Measure all pairs of patches whose boxes are near each other."""
+def find_contacts(whole: ObjectShape, config: SegmentationConfig, deadline: Deadline | None = None) -> Contacts:
+    """Measure all pairs of patches whose boxes are near each other; after the deadline further ones have no contact."""
+    deadline = deadline or Deadline()
     order = np.argsort(whole.patch, kind="stable")
     start = np.searchsorted(whole.patch[order], np.arange(int(whole.patch.max()) + 2))
     shapes = tuple(whole.of(order[a:b]) for a, b in itertools.pairwise(start))
@@ -71,25 +73,29 @@ def find_contacts(whole: ObjectShape, config: SegmentationConfig) -> Contacts:
     apart = np.maximum(np.maximum(low[i] - high[j], low[j] - high[i]), 0).max(1, initial=0)  # lower bound of the distance
     close = [pair for pair, d in zip(near, apart, strict=True) if d <= tolerance]
     beside = [(d, *pair) for pair, d in zip(near, apart, strict=True) if d > tolerance]
-    touch, measured = _measured(shapes, close, tolerance, reach)
+    touch, measured = _measured(shapes, close, tolerance, reach, deadline)
     touch = sorted(shared) + touch
     pairs = np.array(touch, np.int64).reshape(-1, 2)
     group = label_connected(len(shapes), pairs)
-    free = _neighbours(measured, beside, group, shapes, tolerance, reach)
+    free = _neighbours(measured, beside, group, shapes, (tolerance, reach), deadline)
     area = {}
     for i, j in touch:
         if (i, j) in shared and _in_one_sheet(shapes[i], shapes[j]):
             continue  # panels side by side in one surface do not support each other
+        if _late(deadline):
+            break
         area[i, j], area[j, i] = (area_in_contact(shapes[a], shapes[b], 2 * tolerance) for a, b in ((i, j), (j, i)))
     return Contacts(shapes, pairs, free, group, area)
 
 
 def _measured(
-    shapes: tuple[TriangleSet, ...], pairs: list[tuple[int, int]], tolerance: float, reach: float
+    shapes: tuple[TriangleSet, ...], pairs: list[tuple[int, int]], tolerance: float, reach: float, deadline: Deadline
 ) -> tuple[list[tuple[int, int]], list[tuple[int, int, float]]]:
     """Split pairs whose boxes meet into those that touch or cross, and those within reach, with their distance."""
     touch, near = [], []
     for i, j in pairs:
+        if _late(deadline):
+            break
         gap = gap_within(shapes[i], shapes[j], reach, tolerance)
         gap = gap if gap < tolerance else min(gap, gap_within(shapes[j], shapes[i], reach, tolerance))
         if gap < tolerance or (gap < reach and crosses(shapes[i], shapes[j])):
@@ -99,21 +105,30 @@ def _measured(
     return touch, near
 
 
+def _late(deadline: Deadline) -> bool:
+    """Return whether no further contact may be measured."""
+    if late := deadline.late(CONTACTS):
+        deadline.leave_out("segmentation: some contacts were not measured")
+    return late
+
+
 def _neighbours(
     near: list[tuple[int, int, float]],
     beside: list[tuple[float, int, int]],
     group: np.ndarray,
     shapes: tuple[TriangleSet, ...],
-    tolerance: float,
-    reach: float,
+    distances: tuple[float, float],
+    deadline: Deadline,
 ) -> np.ndarray:
     """Return the pairs of patches of two groups with a clearance that are among the nearest of the smaller group.
 
     The clearances around a fitted part differ by up to a factor of two. A group that is small compared to its nearest patch
     depends on that patch alone.
 
-    near: pairs with their distance; beside: pairs that are not yet measured, each with the lower bound of its distance first.
+    near: pairs with their distance; beside: pairs that are not yet measured, each with the lower bound of its distance first;
+    distances: tolerance of a touch, and reach of a clearance [m].
     """
+    tolerance, reach = distances
     size = [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes]
     extent = np.zeros(int(group.max()) + 1)
     np.maximum.at(extent, group, size)
@@ -129,6 +144,8 @@ def _neighbours(
         small, large = ordered(i, j)
         if group[i] == group[j] or least > MAX_CLEARANCE_FACTOR * nearest[group[small]] + tolerance:
             continue
+        if _late(deadline):
+            break
         gap = min(gap_within(shapes[i], shapes[j], reach), gap_within(shapes[j], shapes[i], reach))
         if gap < reach:
             pairs.append((gap, small, large))

@@ -43,14 +43,14 @@ def segment_parts(
 
     label_parts: stage B's test of how parts move, with "" for a part that cannot.
 
-    After the deadline no further candidate is examined.
+    After the deadline no further contact is measured and no further candidate examined.
     """
     progress("segment", "contacts", 0, 2)
     settings = config.segmentation
-    contacts = find_contacts(whole, settings)
+    deadline = deadline or Deadline()
+    contacts = find_contacts(whole, settings, deadline)
     candidates = part_candidates(mesh, whole, contacts, settings.smallest, settings.most_candidates)
     progress("segment", "candidates", 1, 2)
-    deadline = deadline or Deadline()
     examined, place, features = examine_candidates(mesh, candidates, config, progress, deadline)
     score, reasons = score_parts(examined, place, features)
     words = [shared_name(examined, k) for k in range(len(score))]
