@@ -147,3 +147,15 @@ def test_the_command_line_tells_figures_or_json(tmp_path: Path, capsys) -> None:
     assert "report.html" in capsys.readouterr().out
     assert run(["eval", "toys", "-o", str(tmp_path / "x")]) == 2
     assert "valid are examples" in capsys.readouterr().err
+
+
+def test_the_command_line_names_objects_that_failed(tmp_path: Path, capsys, monkeypatch) -> None:
+    names = tuple(f"broken{'?' * k}" for k in range(7))
+    monkeypatch.setattr(Shelf, "truth", lambda self, name, folder: (_ for _ in ()).throw(InputError(f"{name} has no faces")))
+    monkeypatch.setattr(evaluating, "open_dataset", lambda spec: Shelf(names))
+    assert run(["eval", "shelf", "-o", str(tmp_path / "out"), "--jobs", "1"]) == 0
+    told = capsys.readouterr().out
+    assert "warning: broken???: broken??? has no faces\n" in told
+    assert "warning: 2 more objects failed; the report lists all of them\n" in told
+    assert run(["eval", "shelf", "-o", str(tmp_path / "out"), "--jobs", "1", "--json"]) == 0
+    assert json.loads(capsys.readouterr().out)["errors"] == {name: f"{name} has no faces" for name in names}

@@ -10,7 +10,7 @@ import typer
 
 from anymesh.cli.from_options import OptionsOf, with_options
 from anymesh.cli.options import Json, Quiet
-from anymesh.cli.output import Shown, print_result
+from anymesh.cli.output import Shown, plain, print_result
 from anymesh.pipeline.options import AnswererOptions
 
 DatasetName = Annotated[
@@ -51,6 +51,7 @@ EvalAnswerer = Annotated[
 ]
 
 INTERACTION = "interaction"
+MAX_ERRORS = 5  # failed objects that are named; the report lists all
 SHOWN = ("change", "objects", "joints", "type", "angle", "line", "at part", "opens", "range", "part F1", "part mIoU", "runs")
 
 
@@ -91,7 +92,13 @@ def evaluate(
     rows = [dict(zip(("change", *table.head[1:]), (cell.text for cell in row), strict=True)) for row in table.rows]
     head = tuple(name for name in SHOWN if name in ("change", *table.head))
     results = {name: asdict(summarize(some)) for name, some in groups}
-    print_result({"out": str(out), "results": results}, rows, head, json_, quiet)
+    failed = {r.title: r.error for r in records if r.error}
+    if not (json_ or quiet):
+        for title, error in list(failed.items())[:MAX_ERRORS]:
+            typer.echo(plain(f"warning: {title}: {error}"))
+        if len(failed) > MAX_ERRORS:
+            typer.echo(f"warning: {len(failed) - MAX_ERRORS} more objects failed; the report lists all of them")
+    print_result({"out": str(out), "results": results, "errors": failed}, rows, head, json_, quiet)
     if not (json_ or quiet):
         typer.echo(f"wrote {out / 'report.html'}, report.md, worst.png and joints.jsonl")
 
