@@ -5,10 +5,9 @@ from __future__ import annotations
 import datetime
 import platform
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor, as_completed
+from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
 from functools import partial
-from multiprocessing import get_context
 from pathlib import Path
 from threading import Event
 from typing import Unpack
@@ -31,6 +30,7 @@ from anymesh.evaluation.report import write_report
 from anymesh.evaluation.results import ResultsFolder
 from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.training import trained_note
+from anymesh.isolation.workers import worker_processes
 from anymesh.names import legal_name, listed
 from anymesh.pipeline.answering import FILES, choose_answerer
 from anymesh.pipeline.options import GEOMETRY, Answering
@@ -213,7 +213,7 @@ def _all(
     if jobs == 1 or len(names) < 2:
         yield from ((name, work(name, answerer_for)) for name in names)
         return
-    pool: Executor = ThreadPoolExecutor(jobs) if shared else ProcessPoolExecutor(jobs, get_context("spawn"))
+    pool: Executor = ThreadPoolExecutor(jobs) if shared else worker_processes(jobs)
     lost = []
     try:
         futures = {pool.submit(work, name, answerer_for if shared else None): name for name in names}
@@ -230,7 +230,7 @@ def _all(
 
 
 def _alone(name: str, work: partial[Examined]) -> Examined:
-    with ProcessPoolExecutor(1, get_context("spawn")) as pool:
+    with worker_processes(1) as pool:
         try:
             return pool.submit(work, name).result()
         except BrokenProcessPool:
