@@ -122,3 +122,19 @@ def test_after_the_deadline_no_contact_is_measured() -> None:
     in_time = Deadline(600.0)
     found = find_contacts(whole, SegmentationConfig(), in_time)
     assert (found.touch.tolist(), found.near.tolist(), in_time.warnings()) == ([[0, 1]], [[1, 2]], ())
+
+
+def test_a_deadline_during_the_search_for_clearances_ends_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A row of boxes a hair apart, of which no two touch."""
+    measured: list[int] = []
+    monkeypatch.setattr(Deadline, "late", lambda self, share: len(measured) >= 4)
+    monkeypatch.setattr(
+        "anymesh.segmentation.contacts.gap_within", lambda *a, **k: (measured.append(1), gap_within(*a, **k))[1]
+    )
+    late = Deadline()
+    found = find_contacts(
+        object_shape(mesh_of([box((1.01 * k, 0, 0), (1.01 * k + 1, 1, 1)) for k in range(9)])[0]), SegmentationConfig(), late
+    )
+    assert len(measured) == 4
+    assert len(found.near) == 2
+    assert len(late.warnings()) == 1
