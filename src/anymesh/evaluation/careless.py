@@ -10,7 +10,7 @@ from jaxtyping import Bool
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.types import Mesh
 
-CRACK = 1e-5  # of the diagonal: how far the corners of two neighbouring faces are apart, as after rounding to four digits
+CRACK = 1e-5  # of the diagonal: how far corners of neighbouring faces are apart, as where pieces are rounded on their own
 
 
 def doubled(sample: EvalSample, rng: np.random.Generator) -> EvalSample:

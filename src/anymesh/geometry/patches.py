@@ -44,7 +44,7 @@ class ObjectShape:
 class DividedSurface:
     """The faces of a mesh, oriented and divided into patches, before dense meshes are simplified.
 
-    shape: all F faces; copy: (F,) face that each one copies, itself for most (`first_copies`); patch, shared, inferred,
+    shape: all F faces; copy: (F,) face that each one copies, itself for most (`without_copies`); patch, shared, inferred,
     diagonal: as in `ObjectShape`.
     """
 
