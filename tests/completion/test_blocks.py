@@ -20,7 +20,7 @@ def volume(triangles: np.ndarray) -> float:
 
 def sheets_of(triangles: np.ndarray):
     corners = triangles.reshape(-1, 3)
-    return open_sheets(corners, np.arange(len(corners)).reshape(-1, 3))
+    return open_sheets(corners, np.arange(len(corners)).reshape(-1, 3), 5.0)
 
 
 def test_a_box_without_a_side_is_one_sheet_with_one_border():
@@ -40,7 +40,7 @@ def test_cracks_between_the_faces_of_a_sheet_are_no_borders(seed: int) -> None:
 
 def test_a_whole_box_is_no_sheet_and_boxes_that_touch_in_a_point_are_two():
     vertices, faces = box((0, 0, 0), (1, 1, 1))
-    assert open_sheets(vertices, faces) == []
+    assert open_sheets(vertices, faces, 5.0) == []
     two = np.concatenate([shell((0, 0, 0), (1, 1, 1), "-x"), shell((1, 1, 1), (2, 2, 2), "+x")])
     assert [len(s.faces) for s in sheets_of(two)] == [10, 10]
 

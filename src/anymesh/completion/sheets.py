@@ -10,7 +10,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.geometry.connected import label_connected
-from anymesh.geometry.topology import EdgePairs, edge_pairs, weld, without_cracks
+from anymesh.geometry.surface import open_surface
+from anymesh.geometry.topology import EdgePairs, edge_pairs, weld
 from anymesh.types.triangles import normals_and_areas
 
 
@@ -55,15 +56,15 @@ class Sheet:
         return replace(self, loops=tuple(loop for k, loop in enumerate(self.loops) if k not in loops))
 
 
-def open_sheets(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> list[Sheet]:
-    """Return all sheets among some faces, in the order of their first face; closed, consistently wound surfaces are excluded.
+def open_sheets(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], diagonal: float) -> list[Sheet]:
+    """Return all sheets among some faces, in the order of their first face; closed surfaces and copies of faces are excluded.
 
-    Surfaces are cut where their winding flips, and vertices are split where surfaces only meet in a point. Faces with two
+    diagonal: of the object [m]. Surfaces are cut where their winding flips, and vertices are split where surfaces only meet in a point. Faces with two
     corners in one place enclose nothing and are left out.
     """
-    vertices = without_cracks(vertices, faces)
+    vertices, kept = open_surface(vertices, faces, diagonal)
     number = weld(vertices)
-    kept = np.flatnonzero((number[faces] != np.roll(number[faces], -1, axis=1)).all(1))
+    kept = kept[(number[faces[kept]] != np.roll(number[faces[kept]], -1, axis=1)).all(1)]
     if len(kept) == 0:
         return []
     faces, welded = faces[kept], number[faces[kept]]

@@ -67,7 +67,7 @@ def close_part(part: int, growing: Growing, config: ShapeConfig) -> bool:
     Bodies that share an edge and overlap may be inseparable; their sheets are closed again, slightly thinner.
     """
     mesh, mine, scenes = growing.scenes.asset.mesh, growing.faces(part), growing.scenes
-    unclosed = open_sheets(mesh.vertices, mesh.faces[mine])
+    unclosed = open_sheets(mesh.vertices, mesh.faces[mine], mesh.diagonal)
     sheets = [sheet_visibility(sheet, scenes, config) for sheet in unclosed if not growing.late()]
     if not config.watertight:
         sheets = [s for s in sheets if s.both or is_laid_open(s, part, scenes, config)]

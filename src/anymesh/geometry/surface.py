@@ -96,8 +96,25 @@ def plain_triangles(
 
     diagonal: of the object that they are part of [m].
     """
-    corners, faces = triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3)
-    kept = originals(without_copies(corners, faces)[0])
-    closed = without_cracks(corners, faces[kept], MAX_CRACK_RATIO * diagonal)[faces[kept]]
-    flip = components(closed.reshape(-1, 3), faces[: len(kept)]).flip
-    return np.where(flip[:, None, None], closed[:, ::-1], closed), kept
+    vertices, faces, kept, parts = _plain(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3), diagonal)
+    return vertices[np.where(parts.flip[:, None], faces[:, ::-1], faces)], kept
+
+
+def open_surface(
+    vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], diagonal: float
+) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, " K"]]:
+    """Return vertices without cracks, and the faces that are no copies and belong to no closed surface, however it is wound.
+
+    diagonal: of the object that they are part of [m].
+    """
+    closed, _, kept, parts = _plain(vertices, faces, diagonal)
+    return closed, kept[~parts.solid[parts.label]]
+
+
+def _plain(
+    vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], diagonal: float
+) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "K 3"], Int[np.ndarray, " K"], Components]:
+    """Return vertices without cracks, the faces that are no copies, their indices, and their components."""
+    kept = originals(without_copies(vertices, faces)[0])
+    vertices, faces = without_cracks(vertices, faces[kept], MAX_CRACK_RATIO * diagonal), faces[kept]
+    return vertices, faces, kept, components(vertices, faces)
