@@ -30,6 +30,23 @@ def test_a_box_without_a_side_is_one_sheet_with_one_border():
     assert (sheet.points[sheet.loops[0]][:, 1] == 0).all()
 
 
+def test_closed_solids_are_no_sheets_however_careless_their_faces_are() -> None:
+    """Otherwise boards would get skins."""
+    rng = np.random.default_rng(0)
+    boards = [vertices[faces] for vertices, faces in (box((0, 0, 0), (1, 3, 1)), box((1, 0, 0), (2, 1, 1)))]
+    frame = np.concatenate(boards)
+    by_chance = np.where(rng.random(len(frame))[:, None, None] < 0.5, frame[:, ::-1], frame)
+    for triangles in (
+        frame,
+        frame[:, ::-1],
+        by_chance,
+        np.concatenate([frame, frame]),
+        np.concatenate([frame, frame[:, ::-1]]),
+    ):
+        assert sheets_of(triangles) == []
+    assert sheets_of(boards[0] + rng.uniform(-2e-5, 2e-5, (12, 3, 3))) == []
+
+
 @pytest.mark.parametrize("seed", range(3))
 def test_cracks_between_the_faces_of_a_sheet_are_no_borders(seed: int) -> None:
     triangles = shell((0, 0, 0), (1, 2, 3), "-y")

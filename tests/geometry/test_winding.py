@@ -48,6 +48,26 @@ def test_solids_that_touch_stay_apart_inside_out(low: tuple[int, int, int], inve
     assert found.flip.tolist() == reversed_faces.tolist()
 
 
+FRAME = [box((0, 0, 0), (1, 5, 1)), box((1, 0, 0), (4, 1, 1)), box((4, 0, 0), (5, 5, 1)), box((1, 4, 0), (4, 5, 1))]
+
+
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize(
+    "solids",
+    [[box((0, 0, 0), (1, 1, 1)), box((1, 1, 0), (2, 2, 1))], [box((k, 0, 0), (k + 1, 1, 1)) for k in range(3)], FRAME],
+    ids=["edge", "sides", "frame"],
+)
+def test_solids_that_touch_stay_apart_however_each_face_is_wound(solids: list, seed: int) -> None:
+    mesh = mesh_of(solids)[0]
+    faces = some_reversed(mesh.faces, seed)
+    found = components(mesh.vertices, faces)
+    assert (found.count, found.solid.all()) == (len(solids), True)
+    wound = np.where(found.flip[:, None], faces[:, ::-1], faces)
+    t = mesh.vertices[wound]
+    volume = np.bincount(found.label, np.einsum("ij,ij->i", t[:, 0], np.cross(t[:, 1], t[:, 2])) / 6)
+    assert volume.tolist() == pytest.approx([float(np.prod(np.ptp(v, axis=0))) for v, _ in solids])
+
+
 def test_a_moebius_strip_is_one_sided() -> None:
     turn = np.linspace(0, np.pi, 12, endpoint=False)
     rim = [np.stack([(2 + s * np.cos(turn)) * np.cos(2 * turn), (2 + s * np.cos(turn)) * np.sin(2 * turn), s * np.sin(turn)], 1)

@@ -59,7 +59,9 @@ class Sheet:
 def open_sheets(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], diagonal: float) -> list[Sheet]:
     """Return all sheets among some faces, in the order of their first face; closed surfaces and copies of faces are excluded.
 
-    diagonal: of the object [m]. Surfaces are cut where their winding flips, and vertices are split where surfaces only meet in a point. Faces with two
+    diagonal: of the object [m].
+
+    Surfaces are cut where their winding flips, and vertices are split where surfaces only meet in a point. Faces with two
     corners in one place enclose nothing and are left out.
     """
     vertices, kept = open_surface(vertices, faces, diagonal)

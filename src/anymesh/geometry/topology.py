@@ -10,7 +10,7 @@ from jaxtyping import Bool, Float, Int
 from scipy.spatial import KDTree
 
 from anymesh.geometry.connected import label_connected
-from anymesh.geometry.winding import outward
+from anymesh.geometry.winding import back_to_back, outward
 from anymesh.types.triangles import bounds_of
 
 # [rad] faces at an edge with a smaller angle between them count as coplanar, to allow for imprecise exports
@@ -69,19 +69,25 @@ def edge_pairs(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
     Open edges whose ends are closer than MAX_CRACK_RATIO meet too. If more than two faces share an edge (bodies that touch
     along it), each is paired with the face across the material between them, so that touching solids stay separate.
     """
-    half = _welded(vertices, faces)[1]
+    welded, half = _welded(vertices, faces)
     two = half.start[half.size == 2]
     left, right = [two], [two + 1]
     if (half.size > 2).any():
         owner, forward = half.owner, half.forward
         pairs, aligned = owner[np.stack([two, two + 1], 1)], forward[two] != forward[two + 1]
-        outer = forward ^ outward(vertices[faces], pairs, aligned)[1][owner]
+        wound = outward(vertices[faces], pairs, aligned)
+        unsure, flip = ~(wound.sure | aligned.all()), wound.flip
+        if unsure.any():
+            paired, settled = back_to_back(vertices[faces], welded[faces], unsure)
+            unsure, flip = unsure & ~paired, np.where(paired, settled, flip)
+        outer, unsure = forward ^ flip[owner], unsure[owner]
         for count in np.unique(half.size[(half.size > 2) & (half.size <= MAX_AROUND)]):
             rows = half.start[half.size == count][:, None] + np.arange(count)
             for some in np.array_split(rows, len(rows) * count * count // MAX_COMPARED + 1):
                 first = some[:, 0]
                 edge = np.where(forward[first, None], half.ends[first], half.ends[first, ::-1])
-                i, j = _across_material(vertices[edge], vertices[half.third[some]], outer[some], owner[some])
+                ways = outer[some] | unsure[some], ~outer[some] | unsure[some]
+                i, j = _across_material(vertices[edge], vertices[half.third[some]], ways, owner[some])
                 left.append(some[i, j[0]])
                 right.append(some[i, j[1]])
     i, j = np.concatenate(left), np.concatenate(right)
@@ -160,12 +166,12 @@ def _welded(
 
 
 def _across_material(
-    edge: np.ndarray, third: np.ndarray, forward: np.ndarray, owner: np.ndarray
+    edge: np.ndarray, third: np.ndarray, ways: tuple[np.ndarray, np.ndarray], owner: np.ndarray
 ) -> tuple[np.ndarray, tuple[np.ndarray, np.ndarray]]:
     """Return pairs (row, (slot, slot)) among the n faces around each of m edges.
 
-    edge: (m, 2, 3) its ends; third: (m, n, 3) the opposite corners; forward: (m, n) whether the face, wound outwards, has the
-    edge in this direction.
+    edge: (m, 2, 3) its ends; third: (m, n, 3) the opposite corners; ways: (m, n) whether the face, wound outwards, may have the
+    edge in this direction, and in the other one.
 
     A face is paired with the next one behind its surface. Of several in one plane (bodies that overlap), the one with the
     closest index is used.
@@ -179,7 +185,7 @@ def _across_material(
     angle = np.arctan2((into * v).sum(2), (into * u).sum(2))
     turn = (angle[:, :, None] - angle[:, None, :]) % (2 * np.pi)
     turn = np.where((turn < MAX_COPLANAR_ANGLE_RAD) | (turn > 2 * np.pi - MAX_COPLANAR_ANGLE_RAD), 2 * np.pi, turn)
-    turn = np.where(forward[:, :, None] & ~forward[:, None, :], turn, np.inf)
+    turn = np.where(ways[0][:, :, None] & ways[1][:, None, :], turn, np.inf)
     apart = np.abs(owner[:, :, None] - owner[:, None, :])
     mate, back = (
         np.where(turn <= turn.min(k, keepdims=True) + MAX_COPLANAR_ANGLE_RAD, apart, np.inf).argmin(k) for k in (2, 1)
@@ -187,7 +193,18 @@ def _across_material(
     row, slot = np.nonzero(np.isfinite(turn.min(2)))
     mutual = back[row, mate[row, slot]] == slot
     row, slot = row[mutual], slot[mutual]
-    return row, (slot, mate[row, slot])
+    other = mate[row, slot]
+    once = _first_uses(row, slot, other, turn[row, slot, other], owner.shape[1])
+    return row[once], (slot[once], other[once])
+
+
+def _first_uses(row: np.ndarray, slot: np.ndarray, other: np.ndarray, turn: np.ndarray, count: int) -> np.ndarray:
+    """Return the pairs, those with the smallest turn first, without those of a face that an earlier one has at its edge."""
+    order = np.argsort(turn, kind="stable")
+    uses = np.stack([row * count + slot, row * count + other], 1)[order]
+    first = np.full(int(uses.max(initial=0)) + 1, len(order))
+    np.minimum.at(first, uses, np.arange(len(order))[:, None])
+    return np.sort(order[(first[uses] == np.arange(len(order))[:, None]).all(1)])
 
 
 @dataclass(frozen=True, eq=False)
@@ -212,9 +229,8 @@ class Components:
 def components(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> Components:
     """Find the connected components of the welded mesh, and which of them enclose a volume."""
     edges = edge_pairs(vertices, faces)
-    label, flip, two_sided = outward(vertices[faces], edges.faces, edges.aligned)
-    solid = two_sided.copy()
-    solid[label[edges.open_faces]] = False
-    agree = np.ones(len(solid), bool)
-    agree[label[edges.faces[~edges.aligned, 0]]] = False
-    return Components(label, solid, flip, agree, edges)
+    wound = outward(vertices[faces], edges.faces, edges.aligned)
+    solid, agree = wound.two_sided.copy(), np.ones(len(wound.two_sided), bool)
+    solid[wound.label[edges.open_faces]] = False
+    agree[wound.label[edges.faces[~edges.aligned, 0]]] = False
+    return Components(wound.label, solid, wound.flip, agree, edges)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.geometry.connected import label_connected
 from anymesh.geometry.sampling import spread_directions, spread_points
-from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.geometry.triangle_set import SLANTED, TriangleSet
 from anymesh.types.triangles import face_cross
 
 MIN_VOLUME_SHARE = 0.1  # of the volumes between the faces and their middle: a surface around less has no outside
@@ -15,6 +17,20 @@ FLAT = 1e-9  # of the area to the power of 1.5: a smaller volume is rounding
 LOOKING_POINTS = 1500  # points on open surfaces from which both sides look outside
 LOOKS = 8  # directions in which each point looks
 MIN_SEEN_MORE = 0.3  # share of these rays by which one side must see more than the other; less is chance
+
+
+@dataclass(frozen=True, eq=False)
+class Winding:
+    """How the faces of each component must be wound.
+
+    label: (F,) component of each face; flip: (F,) faces to reverse; two_sided: (c,) components whose faces can agree; sure:
+    (F,) faces of components that enclose a volume.
+    """
+
+    label: Int[np.ndarray, " F"]
+    flip: Bool[np.ndarray, " F"]
+    two_sided: Bool[np.ndarray, " c"]
+    sure: Bool[np.ndarray, " F"]
 
 
 def agreeing(
@@ -37,10 +53,10 @@ def agreeing(
     return label, two_sided[label] & (side[:count] != side[first][label]), two_sided
 
 
-def outward(
-    triangles: Float[np.ndarray, "F 3 3"], pairs: Int[np.ndarray, "m 2"], aligned: Bool[np.ndarray, " m"]
-) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"], Bool[np.ndarray, " c"]]:
-    """Return as `agreeing`, but the faces to reverse so that each component faces outwards.
+def outward(triangles: Float[np.ndarray, "F 3 3"], pairs: Int[np.ndarray, "m 2"], aligned: Bool[np.ndarray, " m"]) -> Winding:
+    """Return how to wind the faces so that each component faces outwards.
+
+    pairs, aligned: as in `agreeing`.
 
     A component that encloses hardly any volume, such as a flat sheet, is wound as most of its surface is, unless most of the
     other components are inside out.
@@ -58,7 +74,26 @@ def outward(
     around = np.abs(total) > np.maximum(MIN_VOLUME_SHARE * enclosed, FLAT * area**1.5)
     inside_out = (np.sign(total) * kept)[around].sum() < 0
     reverse = np.where(around, total < 0, (kept < 0) ^ inside_out) & two_sided
-    return label, flip ^ reverse[label], two_sided
+    return Winding(label, flip ^ reverse[label], two_sided, around[label])
+
+
+def back_to_back(
+    triangles: Float[np.ndarray, "F 3 3"], corner: Int[np.ndarray, "F 3"], asked: Bool[np.ndarray, " F"]
+) -> tuple[Bool[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
+    """Return which of some faces lie in pairs on each other, and which of these to reverse so that each pair is back to back.
+
+    corner: numbers of the corners. In one plane, the first faces of all pairs face the same side, so that a side on which two
+    solids lie on each other becomes a side of each.
+    """
+    rows = np.flatnonzero(asked)
+    place, count = np.unique(np.sort(corner[rows], 1), axis=0, return_inverse=True, return_counts=True)[1:]
+    place = place.reshape(-1)
+    rows, place = rows[count[place] == 2], place[count[place] == 2]
+    first, second = rows[np.argsort(place, kind="stable")].reshape(-1, 2).T
+    ahead = face_cross(triangles) @ SLANTED > 0
+    paired, flip = np.zeros(len(asked), bool), np.zeros(len(asked), bool)
+    paired[rows], flip[first], flip[second] = True, ~ahead[first], ahead[second]
+    return paired, flip
 
 
 def seen_from_behind(shape: TriangleSet, label: Int[np.ndarray, " F"], asked: Bool[np.ndarray, " F"]) -> Bool[np.ndarray, " F"]:
