@@ -104,6 +104,24 @@ def test_an_answered_stroke_goes_in_also_about_an_axis_that_points_in() -> None:
     assert limits(around, inwards, JointType.PRISMATIC, (0.0, 0.005)) == pytest.approx((0.0, 0.005))
 
 
+def test_a_sheet_that_is_pressed_in_has_a_stroke_though_it_has_no_height() -> None:
+    """Scene 71 of benchmarks/fuzz.py, with labels: the limits were 0 and 0, which no joint may have."""
+
+    def sheet() -> Scene:
+        vertices, faces = box((0.29, -0.001, 0.14), (0.31, 0, 0.16))
+        return {
+            "base": [box((0, 0, 0), (0.6, 0.4, 0.3))],
+            "key": [(vertices, faces[(vertices[faces][:, :, 1] == -0.001).all(1)])],
+        }
+
+    around, c = swept(sheet, OUT)
+    inwards = c.reversed()
+    found = limits(around, inwards, JointType.PRISMATIC)
+    assert inwards.opening_motion.axis == pytest.approx(Y)
+    assert found is not None
+    assert found[0] == 0 < found[1] < 0.01
+
+
 @pytest.mark.parametrize(("gap", "travel"), [(0.1, 0.1), (0.012, 0.3)])
 def test_an_answered_travel_ends_at_an_obstacle_unless_it_is_blocked_from_the_start(gap: float, travel: float) -> None:
     scene = drawer()

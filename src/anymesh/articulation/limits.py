@@ -170,8 +170,11 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
 
 
 def _stroke(around: PartContext, c: Candidate) -> float:
-    """Return the stroke of a part into its parent [m]: up to its own height, half of it if its mesh fills the hole."""
+    """Return the stroke of a part into its parent [m]: up to its own height, half of it if its mesh fills the hole.
+
+    A sheet has no height; it gets the least travel of a slide.
+    """
     motion = c.opening_motion
-    extent = float(np.ptp(around.part.corners @ motion.axis))
+    extent = max(float(np.ptp(around.part.corners @ motion.axis)), MIN_FREE_TRAVEL_RATIO * around.tolerance_length)
     free, _ = free_amount(around.obstacles, motion, 1, extent, 2 * around.config.fine_steps)
     return free if free > MIN_STROKE_RATIO * extent else STROKE_RATIO * extent
