@@ -18,6 +18,7 @@ MAX_COPLANAR_ANGLE_RAD = 0.05
 # of the diagonal: open edges with nearer ends are one edge; coordinates of 14 bits leave such cracks
 MAX_CRACK_RATIO = 5e-5
 MAX_CRACK_ENDS = 8  # ends of open edges that are joined with one, the nearest first
+MIN_MIXED_SHARE = 0.05  # of the edges of two faces: if more of these disagree, no winding is trusted
 MAX_AROUND = 1000  # faces around an edge, above which none of them bounds a solid
 MAX_COMPARED = 4_000_000  # pairs of faces around edges that are compared at once, which limits memory
 
@@ -76,7 +77,7 @@ def edge_pairs(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
         owner, forward = half.owner, half.forward
         pairs, aligned = owner[np.stack([two, two + 1], 1)], forward[two] != forward[two + 1]
         wound = outward(vertices[faces], pairs, aligned)
-        unsure, flip = ~(wound.sure | aligned.all()), wound.flip
+        unsure, flip = ~wound.sure & ((~aligned).sum() > MIN_MIXED_SHARE * len(aligned)), wound.flip
         if unsure.any():
             paired, settled = back_to_back(vertices[faces], welded[faces], unsure)
             unsure, flip = unsure & ~paired, np.where(paired, settled, flip)
