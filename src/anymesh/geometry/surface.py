@@ -115,6 +115,7 @@ def _plain(
     vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], diagonal: float
 ) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "K 3"], Int[np.ndarray, " K"], Components]:
     """Return vertices without cracks, the faces that are no copies, their indices, and their components."""
-    kept = originals(without_copies(vertices, faces)[0])
-    vertices, faces = without_cracks(vertices, faces[kept], MAX_CRACK_RATIO * diagonal), faces[kept]
-    return vertices, faces, kept, components(vertices, faces)
+    first, parts = without_copies(vertices, faces)
+    kept = originals(first)
+    closed, faces = without_cracks(vertices, faces[kept], MAX_CRACK_RATIO * diagonal), faces[kept]
+    return closed, faces, kept, parts if closed is vertices else components(closed, faces)

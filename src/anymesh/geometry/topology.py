@@ -75,12 +75,7 @@ def edge_pairs(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
     left, right = [two], [two + 1]
     if (half.size > 2).any():
         owner, forward = half.owner, half.forward
-        pairs, aligned = owner[np.stack([two, two + 1], 1)], forward[two] != forward[two + 1]
-        wound = outward(vertices[faces], pairs, aligned)
-        unsure, flip = ~wound.sure & ((~aligned).sum() > MIN_MIXED_SHARE * len(aligned)), wound.flip
-        if unsure.any():
-            paired, settled = back_to_back(vertices[faces], welded[faces], unsure)
-            unsure, flip = unsure & ~paired, np.where(paired, settled, flip)
+        flip, unsure = _outer_windings(vertices[faces], welded[faces], half)
         outer, unsure = forward ^ flip[owner], unsure[owner]
         for count in np.unique(half.size[(half.size > 2) & (half.size <= MAX_AROUND)]):
             rows = half.start[half.size == count][:, None] + np.arange(count)
@@ -98,6 +93,19 @@ def edge_pairs(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
     return EdgePairs(
         np.stack([half.owner[i], half.owner[j]], 1), half.ends[i], half.forward[i] != half.forward[j], loose
     )  # fmt: skip
+
+
+def _outer_windings(
+    triangles: Float[np.ndarray, "F 3 3"], corner: Int[np.ndarray, "F 3"], half: _HalfEdges
+) -> tuple[Bool[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
+    """Return the faces to reverse so that all face outwards, and those of which it is unknown, by edges of two faces alone."""
+    two = half.start[half.size == 2]
+    pairs, aligned = half.owner[np.stack([two, two + 1], 1)], half.forward[two] != half.forward[two + 1]
+    wound = outward(triangles, pairs, aligned)
+    if (~aligned).sum() <= MIN_MIXED_SHARE * len(aligned):
+        return wound.flip, np.zeros(len(triangles), bool)
+    paired, settled = back_to_back(triangles, corner, ~wound.sure)
+    return np.where(paired, settled, wound.flip), ~wound.sure & ~paired
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,13 +142,14 @@ class _HalfEdges:
 def without_cracks(
     vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], reach: float | None = None
 ) -> Float[np.ndarray, "V 3"]:
-    """Return the vertices with nearby ends of open edges moved to one place.
+    """Return the vertices with nearby ends of open edges moved to one place; the same array if there are none.
 
     reach: distance of near ones [m], MAX_CRACK_RATIO of the diagonal of these faces by default.
     """
     exact, number = weld(vertices), _welded(vertices, faces, reach)[0]
     first = np.unique(number, return_index=True)[1][number]
-    return np.where((exact != exact[first])[:, None], vertices[first], vertices)
+    moved = exact != exact[first]
+    return np.where(moved[:, None], vertices[first], vertices) if moved.any() else vertices
 
 
 def _welded(
