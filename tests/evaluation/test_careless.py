@@ -6,11 +6,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from anymesh.evaluation.careless import CRACK
+from anymesh.evaluation.careless import CRACK, OFF
 from anymesh.evaluation.changes import changed
 from anymesh.evaluation.ground_truth import EvalSample, example_truths
 from anymesh.evaluation.protocols import prepared
 from anymesh.geometry.surface import plain_triangles
+from anymesh.geometry.topology import components
 from anymesh.physics.inertia import InertiaConfig, raw_inertia
 from anymesh.pipeline.solving import solve
 
@@ -94,3 +95,12 @@ def test_the_mass_is_the_same(name: str, sample: EvalSample) -> None:
     other = raw_inertia(plain_triangles(new.mesh.triangles[new.labels == 1], diagonal)[0], InertiaConfig())
     assert other.mass == pytest.approx(mass.mass, rel=1e-3)
     assert other.tensor == pytest.approx(mass.tensor, rel=1e-2, abs=1e-3 * np.trace(mass.tensor))
+
+
+def test_what_is_placed_by_eye_moves_as_a_whole(sample: EvalSample) -> None:
+    shift = (changed("misplaced", sample).mesh.triangles - sample.mesh.triangles) / sample.mesh.diagonal
+    label = components(sample.mesh.vertices, sample.mesh.faces).label
+    each = [shift[label == k].reshape(-1, 3) for k in range(label.max() + 1)]
+    assert max(np.ptp(moves, axis=0).max() for moves in each) < 1e-12
+    assert 0.3 * OFF < np.mean([np.abs(moves[0]) for moves in each]) < 0.7 * OFF
+    assert max(np.abs(moves).max() for moves in each) <= OFF

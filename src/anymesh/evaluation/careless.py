@@ -1,4 +1,4 @@
-"""What careless exports do to the faces of a mesh, though it looks the same in a viewer that draws both sides."""
+"""What careless modelling and exports do to a mesh, though it looks the same or nearly so in a viewer that draws both sides."""
 
 from __future__ import annotations
 
@@ -8,9 +8,11 @@ import numpy as np
 from jaxtyping import Bool
 
 from anymesh.evaluation.ground_truth import EvalSample
+from anymesh.geometry.topology import components
 from anymesh.types import Mesh
 
 CRACK = 1e-5  # of the diagonal: how far corners of neighbouring faces are apart, as where pieces are rounded on their own
+OFF = 0.003  # of the diagonal: how far components that are placed by eye are off along each axis, at most
 
 
 def doubled(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
@@ -40,6 +42,15 @@ def cracked(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     mesh = sample.mesh
     corners = mesh.triangles.reshape(-1, 3)
     corners = corners + rng.uniform(-1, 1, corners.shape) * CRACK / 2 * mesh.diagonal
+    return replace(sample, mesh=replace(mesh, vertices=corners, faces=np.arange(len(corners)).reshape(-1, 3)))
+
+
+def misplaced(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
+    """Move every component a little, so that some that touched are sunk into each other and others apart."""
+    mesh = sample.mesh
+    label = components(mesh.vertices, mesh.faces).label
+    shift = rng.uniform(-OFF, OFF, (int(label.max()) + 1, 3)) * mesh.diagonal
+    corners = (mesh.triangles + shift[label][:, None]).reshape(-1, 3)
     return replace(sample, mesh=replace(mesh, vertices=corners, faces=np.arange(len(corners)).reshape(-1, 3)))
 
 

@@ -11,7 +11,8 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.errors import OptionError
-from anymesh.evaluation.careless import cracked, doubled, inside_out, mixed, two_sided
+from anymesh.evaluation.careless import cracked, doubled, inside_out, misplaced, mixed, two_sided
+from anymesh.evaluation.details import detailed, floored, furnished
 from anymesh.evaluation.fused_ import joined, wrapped
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.posing import ajar
@@ -225,6 +226,10 @@ CHANGES: Mapping[str, Change] = MappingProxyType(
         "inside-out": inside_out,
         "mixed": mixed,  # about half of the faces are reversed
         "cracked": cracked,
+        "misplaced": misplaced,  # every component a little
+        "detailed": detailed,  # with screws, labels and the like
+        "furnished": furnished,  # with loose things on it and in it
+        "floored": floored,
         "ajar": ajar,  # some joints at other positions of their ranges
         "joined": _joined,
         "fused": partial(_fused, cells=FINE),
