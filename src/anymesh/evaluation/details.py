@@ -6,12 +6,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Float, Int
 
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.sampling import SurfacePoints, sample_surface
-from anymesh.types import Mesh
 
 # lengths relative to the object's diagonal
 COUNTS = (5, 60)  # range of the number of small things, by its logarithm
@@ -23,7 +22,8 @@ LOOSE_COUNTS = (2, 16)
 LOOSE_SIDES, LOOSE_HEIGHTS = (0.02, 0.12), (0.02, 0.2)
 CORNERS = (4, 12)  # of the outlines of boxes and of round things
 TRIES = 40  # points on the surface for each thing, of which those with room for it are used
-SUNK = 0.002  # what things stand on may be this uneven
+SUNK = 0.002  # depth below a small thing within which the surface must lie
+UNEVEN = 0.1  # of its height: depth below a loose thing within which the surface must lie
 MIN_LEVEL_COSINE = 0.99  # minimum cosine between the vertical and the normal of a surface that things stand on
 
 Shape = tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "F 3"]]
@@ -33,17 +33,34 @@ def detailed(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     """Add labels, screws and the like on what is seen or a little in front of it, each a part of the link behind it."""
     mesh = sample.mesh
     s = sample_surface(mesh.triangles, TRIES * COUNTS[1], int(rng.integers(2**31)))
-    ahead, behind = (_free(mesh, s.points, way * s.normals, 2.0) for way in (1, -1))
+    scene = RayScene(mesh.vertices, mesh.faces)
+    starts = [(s.points + way * 1e-5 * mesh.diagonal, 2 * mesh.diagonal * way) for way in (s.normals, -s.normals)]
+    ahead, behind = (scene.first_hit(*start, 1.0).face < 0 for start in starts)
     outward = np.where(ahead, 1, -1)[:, None] * s.normals
-    chosen = rng.permutation(np.flatnonzero(ahead | behind))[: _count(COUNTS, rng)]
-    designs = [_thing(rng, SIDES, DEPTHS, rng.uniform(*GAPS)) for _ in range(DESIGNS)]
-    return _with(sample, s, chosen, outward, [designs[k] for k in rng.integers(DESIGNS, size=len(chosen))])
+    designs, count = [_thing(rng, SIDES, DEPTHS, rng.uniform(*GAPS)) for _ in range(DESIGNS)], _count(COUNTS, rng)
+    chosen: list[int] = []
+    shapes: list[Shape] = []
+    for k in rng.permutation(np.flatnonzero(ahead | behind)):
+        shape = designs[int(rng.integers(DESIGNS))]
+        if len(chosen) < count and _lies(sample, scene, (s.points[k], outward[k]), shape[0], int(s.faces[k])):
+            chosen.append(int(k))
+            shapes.append(shape)
+    return _with(sample, s, chosen, outward, shapes)
+
+
+def _lies(sample: EvalSample, scene: RayScene, at: tuple[np.ndarray, np.ndarray], corners: np.ndarray, face: int) -> bool:
+    """Return whether the link of a face is right below all corners of a thing. at: its place and the outward normal there."""
+    tops = at[0] + sample.mesh.diagonal * corners[len(corners) // 2 :] @ _frame(at[1])
+    reach = (float(corners[:, 2].max()) + SUNK) * sample.mesh.diagonal
+    below = scene.first_hit(tops, np.tile(-reach * at[1], (len(tops), 1)), 1.0).face
+    return bool((below >= 0).all() and (sample.labels[below] == sample.labels[face]).all())
 
 
 def furnished(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     """Stand loose things on level surfaces where there is room, inside too, each a part of the link below it."""
     mesh, count = sample.mesh, _count(LOOSE_COUNTS, rng)
     s = sample_surface(mesh.triangles, TRIES * LOOSE_COUNTS[1], int(rng.integers(2**31)))
+    scene = RayScene(mesh.vertices, mesh.faces)
     upward = np.sign(s.normals @ sample.up)[:, None] * s.normals
     chosen: list[int] = []
     shapes: list[Shape] = []
@@ -51,30 +68,24 @@ def furnished(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
         apart = all(np.linalg.norm(s.points[k] - s.points[j]) > LOOSE_SIDES[1] * mesh.diagonal for j in chosen)
         if apart and len(chosen) < count:
             shape = _thing(rng, LOOSE_SIDES, LOOSE_HEIGHTS, 0.0)
-            if _stands(mesh, s.points[k], upward[k], shape[0]):
+            if _stands(scene, s.points[k], upward[k], mesh.diagonal * shape[0]):
                 chosen.append(int(k))
                 shapes.append(shape)
-    return _with(sample, s, np.array(chosen, int), upward, shapes)
+    return _with(sample, s, chosen, upward, shapes)
 
 
-def _stands(mesh: Mesh, at: Float[np.ndarray, " 3"], up: Float[np.ndarray, " 3"], corners: Float[np.ndarray, "V 3"]) -> bool:
-    """Return whether a surface is below each lower corner of a thing, and nothing is within it."""
-    ring = mesh.diagonal * corners[: len(corners) // 2] @ _frame(up)
-    height = mesh.diagonal * float(corners[:, 2].max()) * up
+def _stands(scene: RayScene, at: Float[np.ndarray, " 3"], up: Float[np.ndarray, " 3"], corners: np.ndarray) -> bool:
+    """Return whether a surface is below each lower corner of a thing, and nothing in it. corners: relative to `at` [m]."""
+    ring = corners[: len(corners) // 2] @ _frame(up)
+    height = float(corners[:, 2].max()) * up
     levels = [at + share * height for share in (0.02, 0.5, 0.98)]
-    scene = RayScene(mesh.vertices, mesh.faces)
 
     def free(starts: np.ndarray, ways: np.ndarray) -> bool:
         return bool((scene.first_hit(starts, ways, 1.0).face < 0).all())
 
-    around = all(
-        free(np.tile(level, (len(ring), 1)), ring) and free(level + ring, np.roll(ring, -1, 0) - ring) for level in levels
-    )
+    around = all(free(np.tile(p, (len(ring), 1)), ring) and free(p + ring, np.roll(ring, -1, 0) - ring) for p in levels)
     upright = free(levels[0] + ring, np.tile(height, (len(ring), 1)))
-    below = (
-        scene.first_hit(levels[0] + ring, np.tile(-2 * SUNK * mesh.diagonal * up - 0.02 * height, (len(ring), 1)), 1.0).face
-        >= 0
-    )
+    below = scene.first_hit(levels[0] + ring, np.tile(-UNEVEN * height, (len(ring), 1)), 1.0).face >= 0
     return around and upright and bool(below.all())
 
 
@@ -86,17 +97,11 @@ def floored(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     middle = np.append((local.min(0)[:2] + local.max(0)[:2]) / 2, local[:, 2].min())
     slab = _prism(min(CORNERS), np.full(2, np.sqrt(0.5) * rng.uniform(*FLOOR_SIDES)), -FLOOR_DEPTH, 0.0)
     under = SurfacePoints(middle[None] @ frame, sample.up[None], np.flatnonzero(sample.labels == 0)[:1])
-    return _with(sample, under, np.zeros(1, int), sample.up[None], [slab])
+    return _with(sample, under, [0], sample.up[None], [slab])
 
 
 def _count(span: tuple[int, int], rng: np.random.Generator) -> int:
     return round(float(np.exp(rng.uniform(*np.log(span)))))
-
-
-def _free(mesh: Mesh, points: np.ndarray, ways: np.ndarray, reach: float) -> Bool[np.ndarray, " n"]:
-    """Return for which points nothing lies ahead within a reach, relative to the diagonal."""
-    start = points + 1e-5 * mesh.diagonal * ways
-    return RayScene(mesh.vertices, mesh.faces).first_hit(start, reach * mesh.diagonal * ways, 1.0).face < 0
 
 
 def _frame(z: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "3 3"]:
@@ -107,7 +112,7 @@ def _frame(z: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "3 3"]:
 
 
 def _with(
-    sample: EvalSample, s: SurfacePoints, chosen: Int[np.ndarray, " n"], normals: np.ndarray, shapes: Sequence[Shape]
+    sample: EvalSample, s: SurfacePoints, chosen: Sequence[int], normals: np.ndarray, shapes: Sequence[Shape]
 ) -> EvalSample:
     """Add one shape at each chosen point, with the link, node and material of the face there."""
     mesh = sample.mesh
