@@ -10,6 +10,10 @@ FOLDER: rows as `benchmarks/part_rows.py` writes them. Needs lightgbm and torch.
     python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds --change fused --most 180
     python benchmarks/part_rows.py FOLDER labelled:INFINIGEN@infinigen --change fused --most 53
     python benchmarks/part_rows.py FOLDER sweethome3d --change fused --most 12
+    python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds --change C --most N  with N = 240 for C = detailed and misplaced,
+        80 for furnished and floored
+    python benchmarks/part_rows.py FOLDER sweethome3d labelled:INFINIGEN@infinigen static:KINDS@kinds --change C --most 32
+        for these four
 """
 
 from __future__ import annotations
