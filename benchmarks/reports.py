@@ -23,6 +23,7 @@ REPORTS = Path(__file__).parent / "reports"
 SETS = ("examples", "scene-synthesizer", "sweethome3d", "metaworld", "libero")
 HARSH = "none,turned,spun,lying,noise.0005,half-faces,unseen-gone,joined,fused,fused-coarse"
 CARELESS = "none,doubled,two-sided,inside-out,mixed,cracked"  # what careless exports do to the faces
+ADDED = "none,detailed,furnished,floored,misplaced"  # what artists add or place by eye
 MOVING = ("sweethome3d", "metaworld", "libero")  # sets all of whose objects are known to move
 RUNS = {
     **{f"{name}-parts": f"{name} --protocol parts" for name in SETS},
@@ -31,7 +32,11 @@ RUNS = {
     **{f"{name}-views": f"{name} --protocol views --views 2" for name in ("examples", "scene-synthesizer", "sweethome3d")},
     "scene-synthesizer-random-parts": "scene-synthesizer --split random --protocol parts",
     "examples-robustness": f"examples --protocol end-to-end --changes {HARSH}",
-    **{f"{name}-careless": f"{name} --protocol end-to-end --changes {CARELESS}" for name in ("examples", "sweethome3d")},
+    **{
+        f"{name}-{what}": f"{name} --protocol end-to-end --changes {changes}"
+        for what, changes in (("careless", CARELESS), ("added", ADDED))
+        for name in ("examples", "sweethome3d")
+    },
     "sweethome3d-robustness": "sweethome3d --protocol parts --changes none,turned,spun,noise.0005,half-faces,unseen-gone",
 }
 TABLES = {

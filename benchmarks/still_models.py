@@ -58,7 +58,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Parts that are found where nothing moves.")
     parser.add_argument("work", type=Path, metavar="WORK")
     work = parser.parse_args().work
-    text = page(measure(work, write_objects(work / "real"), "end-to-end", "static:real"))
+    text = page(measure(work, write_objects(work / "real"), "end-to-end", dataset="static:real"))
     (HERE / "still_models.md").write_text(text)
     print(text)
 
