@@ -20,12 +20,12 @@ CALLED = {
     "laptop": ["lid"],
     "laptop_fused": ["lid"],
     "storage_box": ["lid"],
-    "microwave_fused": ["door", "door", "door"],
+    "microwave_fused": ["door", "door"],
     "cabinet": ["door", "door", "drawer", "drawer", "drawer"],
     "valve": ["wheel"],
 }
 WRONG_WAY = {("drill", "trigger")}  # small, deep in its guide, no handle: said to be pulled out like a drawer (docs/method.md)
-EXTRA = {"microwave_fused": 2}  # the panel of controls at a confidence of .58, and its display at .56 (docs/method.md)
+EXTRA = {"microwave_fused": 1}  # the panel of controls (docs/method.md)
 # of half the diagonal; the barrels of the laptop's hinge are found as parts of the base, and the line is that of the contact
 MAX_LINE_DISTANCE = {"laptop": 0.06}
 LONG = {"toy_car", "cabinet_fused", "stove_fused"}  # `pytest -m slow tests/test_examples.py`

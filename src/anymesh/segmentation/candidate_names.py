@@ -22,7 +22,7 @@ class NameClass(IntEnum):
 
 
 # [log-odds] added to the score for the class of a name
-NAME_SCORE = {NameClass.NONE: 0.0, NameClass.MOVABLE: MIN_SCORE + 4, NameClass.FIXED: MIN_SCORE - 4, NameClass.HANDLE: 0.3}
+NAME_SCORE = {NameClass.NONE: 0.0, NameClass.MOVABLE: MIN_SCORE + 5, NameClass.FIXED: MIN_SCORE - 5, NameClass.HANDLE: 0.3}
 
 
 def name_class(name: str) -> NameClass:
