@@ -15,11 +15,11 @@ from anymesh.geometry.sampling import SurfacePoints, sample_surface
 # lengths relative to the object's diagonal
 COUNTS = (5, 60)  # range of the number of small things, by its logarithm
 DESIGNS = 4  # shapes of these on an object
-SIDES, DEPTHS = (0.003, 0.03), (0.0005, 0.004)  # ranges of their sides
+SIDES, DEPTHS = (0.003, 0.03), (0.0005, 0.004)  # ranges of their sides and thicknesses
 GAPS = (-0.0005, 0.003)  # range of their distances from the surface; below 0 they are sunk into it
-FLOOR_SIDES, FLOOR_DEPTH = (1.0, 2.0), 0.01
-LOOSE_COUNTS = (2, 16)
-LOOSE_SIDES, LOOSE_HEIGHTS = (0.02, 0.12), (0.02, 0.2)
+FLOOR_SIDES, FLOOR_DEPTH = (1.0, 2.0), 0.01  # range of its sides, and its thickness
+LOOSE_COUNTS = (2, 16)  # range of the number of loose things, by its logarithm
+LOOSE_SIDES, LOOSE_HEIGHTS = (0.02, 0.12), (0.02, 0.2)  # ranges of their sides and heights
 CORNERS = (4, 12)  # of the outlines of boxes and of round things
 TRIES = 40  # points on the surface for each thing, of which those with room for it are used
 SUNK = 0.002  # depth below a small thing within which the surface must lie
@@ -96,8 +96,9 @@ def floored(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     local = mesh.vertices @ frame.T
     middle = np.append((local.min(0)[:2] + local.max(0)[:2]) / 2, local[:, 2].min())
     slab = _prism(min(CORNERS), np.full(2, np.sqrt(0.5) * rng.uniform(*FLOOR_SIDES)), -FLOOR_DEPTH, 0.0)
-    under = SurfacePoints(middle[None] @ frame, sample.up[None], np.flatnonzero(sample.labels == 0)[:1])
-    return _with(sample, under, [0], sample.up[None], [slab])
+    under = SurfacePoints(middle[None] @ frame, sample.up[None], np.zeros(1, np.int64))
+    made = _with(sample, under, [0], sample.up[None], [slab])
+    return replace(made, labels=np.where(np.arange(len(made.labels)) < len(sample.labels), made.labels, 0))
 
 
 def _count(span: tuple[int, int], rng: np.random.Generator) -> int:
