@@ -41,7 +41,7 @@ from anymesh.segmentation.part_classifier import combined, is_cut
 
 MODELS = (Model(150, 0), Model(250, 1, True), Model(150, 2), Model(250, 3, True))
 EPOCHS, SEEDS = 16, 3  # of the networks
-HELD_OUT_SEEDS = 1  # of the networks that are trained without what is left out, to save time; one network finds a little less
+HELD_OUT_SEEDS = 1  # of the networks that are trained without what is left out, to save time
 WRONG, RIGHT = 0.35, 0.95  # IoU below which a candidate is no part, and from which it is one; between, it is partly right
 OBJECT, SOURCE = 0.5, 0.3  # powers by which candidates of an object, and objects of a source, count less the more they are
 ADDED = ("detailed", "furnished", "floored", "misplaced")  # changes that are trained on, besides fused surfaces

@@ -77,6 +77,8 @@ def test_loose_things_stand_on_their_link_and_cross_nothing(sample: EvalSample) 
         assert np.ptp(corners[:, :2], axis=0).max() <= LOOSE_SIDES[1] * mesh.diagonal
         foot = corners[height < 0.5 * height.max()]
         assert _distance(mesh, foot).max() <= UNEVEN * height.max()
+        link = mesh.subset(sample.labels == new.labels[faces[0]])
+        assert _distance(link, foot.mean(0)[None]).max() <= UNEVEN * height.max()
         middle, top = corners.mean(0), corners[height > 0.5 * height.max()]
         assert (scene.first_hit(np.tile(middle, (len(top), 1)), 0.95 * (top - middle), 1.0).face < 0).all()
 

@@ -41,8 +41,10 @@ def detailed(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     chosen: list[int] = []
     shapes: list[Shape] = []
     for k in rng.permutation(np.flatnonzero(ahead | behind)):
+        if len(chosen) == count:
+            break
         shape = designs[int(rng.integers(DESIGNS))]
-        if len(chosen) < count and _lies(sample, scene, (s.points[k], outward[k]), shape[0], int(s.faces[k])):
+        if _lies(sample, scene, (s.points[k], outward[k]), shape[0], int(s.faces[k])):
             chosen.append(int(k))
             shapes.append(shape)
     return _with(sample, s, chosen, outward, shapes)
@@ -65,8 +67,9 @@ def furnished(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     chosen: list[int] = []
     shapes: list[Shape] = []
     for k in rng.permutation(np.flatnonzero(upward @ sample.up > MIN_LEVEL_COSINE)):
-        apart = all(np.linalg.norm(s.points[k] - s.points[j]) > LOOSE_SIDES[1] * mesh.diagonal for j in chosen)
-        if apart and len(chosen) < count:
+        if len(chosen) == count:
+            break
+        if all(np.linalg.norm(s.points[k] - s.points[j]) > LOOSE_SIDES[1] * mesh.diagonal for j in chosen):
             shape = _thing(rng, LOOSE_SIDES, LOOSE_HEIGHTS, 0.0)
             if _stands(scene, s.points[k], upward[k], mesh.diagonal * shape[0]):
                 chosen.append(int(k))
