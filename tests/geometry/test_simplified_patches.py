@@ -86,7 +86,7 @@ def test_a_flat_sheet_keeps_its_area_and_place_at_any_scale(scale: float) -> Non
 def divided(triangles: np.ndarray, patch: np.ndarray, copy: np.ndarray | None = None) -> DividedSurface:
     rows = np.arange(len(triangles))
     shape = TriangleSet(triangles, normals_and_areas(triangles)[0], np.zeros(len(triangles), bool), rows, 7)
-    return DividedSurface(shape, rows if copy is None else copy, patch, np.array([[0, 1]]), np.array([1]), 2.0)
+    return DividedSurface(shape, rows if copy is None else copy, patch, np.array([[0, 1]]), 2.0)
 
 
 def test_parts_of_a_patch_are_simplified_apart() -> None:
@@ -98,7 +98,7 @@ def test_parts_of_a_patch_are_simplified_apart() -> None:
     assert found.shape.triangles[part == 0][:, :, 0].max() <= 0.5 + 1e-6
     assert found.shape.triangles[part == 1][:, :, 0].min() >= 0.5 - 1e-6
     assert found.patch.tolist() == [0] * len(found.patch)
-    assert (found.shared.tolist(), found.inferred.tolist(), found.diagonal) == ([[0, 1]], [1], 2.0)
+    assert (found.shared.tolist(), found.diagonal) == ([[0, 1]], 2.0)
     assert found.shape.seed == 7
     assert found.shape.known is not None
 

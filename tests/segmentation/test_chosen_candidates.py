@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import trimesh
 from assets import box, mesh_of
-from test_panels import FRONT, bar, front_boxes, solid
+from test_panels import FRONT, bar, front_boxes, panels, solid
 
 from anymesh.config import Config, SegmentationConfig
 from anymesh.scoring.classifier import confidence_of
@@ -17,11 +17,11 @@ from anymesh.segmentation import segment
 from anymesh.segmentation.candidate_names import NAME_SCORE, NameClass, name_class, shared_name
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
+from anymesh.segmentation.merge_tree import merged_groups
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import MIN_SCORE
-from anymesh.segmentation.part_candidates import PartCandidates, _merges, part_candidates
+from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
 from anymesh.segmentation.part_classifier import Reasons
-from anymesh.segmentation.rigid_groups import rigid_groups
 from anymesh.types import Mesh, Node, Segmentation
 
 CONFIG = SegmentationConfig()
@@ -36,7 +36,7 @@ def merges(*boxes) -> list[set[int]]:
     """Return the groups of a component in the order in which they are merged."""
     mesh = mesh_of(boxes)[0]
     whole = object_shape(mesh)
-    return [set(group) for group in _merges(rigid_groups(mesh, whole, find_contacts(whole, CONFIG), 0))]
+    return [set(group) for group in merged_groups(find_contacts(whole, CONFIG), np.arange(len(boxes)))]
 
 
 def row(*lengths: float, height: float = 1.0) -> list:
@@ -171,8 +171,8 @@ def knob(x: float, z: float, side: float = 0.06) -> tuple[list[float], list[floa
     return [x, FRONT - 0.02, z], [side, 0.06, side]
 
 
-def panels(*handles, **options) -> int:
-    return len(front_boxes(object_shape(solid(*handles, **options))))
+def panels_of(*handles) -> int:
+    return len(panels(object_shape(solid(*handles))))
 
 
 def test_knobs_on_a_large_upright_face_make_panels() -> None:
@@ -183,9 +183,9 @@ def test_knobs_on_a_large_upright_face_make_panels() -> None:
 
 
 def test_knobs_on_top_and_beside_bars_are_none_and_so_are_large_ones() -> None:
-    assert panels(([-0.1, 0.0, 0.62], [0.06, 0.06, 0.06]), ([0.1, 0.0, 0.62], [0.06, 0.06, 0.06])) == 0
-    assert panels(bar(-0.08, 0.0, 2), bar(0.08, 0.0, 2), knob(0.3, 0.5)) == 2
-    assert panels(knob(-0.2, 0.0, 0.2), knob(0.2, 0.0, 0.2)) == 0  # of more than 8 % of the diagonal
+    assert panels_of(([-0.1, 0.0, 0.62], [0.06, 0.06, 0.06]), ([0.1, 0.0, 0.62], [0.06, 0.06, 0.06])) == 0
+    assert panels_of(bar(-0.08, 0.0, 2), bar(0.08, 0.0, 2), knob(0.3, 0.5)) == 2
+    assert panels_of(knob(-0.2, 0.0, 0.2), knob(0.2, 0.0, 0.2)) == 0  # of more than 8 % of the diagonal
 
 
 def test_bars_above_each_other_are_drawers() -> None:
@@ -198,4 +198,4 @@ def test_panels_are_not_made_where_triangles_are_too_coarse_to_show_their_border
     boxes = [([0.0, 0, 0], [1.0, 0.6, 1.2]), bar(-0.08, 0, 2), bar(0.08, 0, 2)]
     coarse = trimesh.boolean.union([trimesh.creation.box(sides).apply_translation(center) for center, sides in boxes])
     mesh = mesh_of([(np.asarray(coarse.vertices, float), np.asarray(coarse.faces))])[0]
-    assert len(object_shape(mesh).inferred) == 0
+    assert panels(object_shape(mesh)) == []

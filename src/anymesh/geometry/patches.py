@@ -23,8 +23,7 @@ class ObjectShape:
     """The object as both stages use it. Dense meshes are simplified, each patch separately.
 
     shape: R faces; patch: (R,) patch of each face, numbered from 0; source: (R,) for each face a mesh face in the same
-    patch; mesh_patch: (F,) patch of every mesh face; shared: (k, 2) patches that share edges; inferred: patches with
-    borders that are no creases; diagonal [m].
+    patch; mesh_patch: (F,) patch of every mesh face; shared: (k, 2) patches that share edges; diagonal [m].
     """
 
     shape: TriangleSet
@@ -32,7 +31,6 @@ class ObjectShape:
     source: Int[np.ndarray, " R"]
     mesh_patch: Int[np.ndarray, " F"]
     shared: Int[np.ndarray, "k 2"]
-    inferred: Int[np.ndarray, " p"]
     diagonal: float
 
     def of(self, faces: Int[np.ndarray, " n"]) -> TriangleSet:
@@ -44,15 +42,14 @@ class ObjectShape:
 class DividedSurface:
     """The faces of a mesh, oriented and divided into patches, before dense meshes are simplified.
 
-    shape: all F faces; copy: (F,) face that each one copies, itself for most (`without_copies`); patch, shared, inferred,
-    diagonal: as in `ObjectShape`.
+    shape: all F faces; copy: (F,) face that each one copies, itself for most (`without_copies`); patch, shared, diagonal: as
+    in `ObjectShape`.
     """
 
     shape: TriangleSet
     copy: Int[np.ndarray, " F"]
     patch: Int[np.ndarray, " F"]
     shared: Int[np.ndarray, "k 2"]
-    inferred: Int[np.ndarray, " p"]
     diagonal: float
 
     def simplified(self, config: PatchConfig, labels: Int[np.ndarray, " F"] | None = None) -> ObjectShape:
@@ -65,9 +62,7 @@ class DividedSurface:
         group = self.patch * (int(label.max()) + 1) + label
         shape, source = _simplified(self.shape.take(rows), group[rows], config)
         source = rows[source]
-        return ObjectShape(
-            shape.prepared(), self.patch[source], source, self.patch, self.shared, self.inferred, self.diagonal
-        )  # fmt: skip
+        return ObjectShape(shape.prepared(), self.patch[source], source, self.patch, self.shared, self.diagonal)
 
 
 def _simplified(

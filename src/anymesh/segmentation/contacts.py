@@ -11,18 +11,14 @@ from jaxtyping import Float, Float32, Int
 
 from anymesh.config import SegmentationConfig
 from anymesh.deadline import CONTACTS, Deadline
-from anymesh.geometry.boxes import box_pairs, same_box
+from anymesh.geometry.boxes import box_pairs
 from anymesh.geometry.connected import label_connected
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.segmentation.dominators import NONE, immediate_dominators
 from anymesh.segmentation.patch_gaps import area_in_contact, crosses, gap_within
 
-MIN_SHEET_FLATNESS = 0.6  # minimum length of the mean unit normal of a flat sheet with its handle; 1 is plane
-MIN_PLATE_ASPECT = 0.3  # minimum width over length of a plate; planks are narrower
-MIN_ALIGNED_COSINE = 0.95  # minimum cosine between the normals of sheets that face the same way
 MAX_CLEARANCE_FACTOR = 2.0  # neighbours of a set of touching patches lie within this many times its smallest clearance
-MAX_SMALL_CLEARANCE_FACTOR = 1.3  # the same for a set that is small compared to its nearest patch
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,8 +33,7 @@ class Contacts:
     touch: Int[np.ndarray, "m 2"]
     near: Int[np.ndarray, "k 2"]
     touching_group: Int[np.ndarray, " P"]
-    # contact area of the first patch on the second [m^2]; no entry between parts of one flat surface
-    area: dict[tuple[int, int], float]
+    area: dict[tuple[int, int], float]  # contact area of the first patch on the second [m^2]
 
     @cached_property
     def patch_bounds(self) -> Float[np.ndarray, "P 2 3"]:
@@ -80,8 +75,6 @@ def find_contacts(whole: ObjectShape, config: SegmentationConfig, deadline: Dead
     free = _neighbours(measured, beside, group, shapes, (tolerance, reach), deadline)
     area = {}
     for i, j in touch:
-        if (i, j) in shared and _in_one_sheet(shapes[i], shapes[j]):
-            continue  # panels side by side in one surface do not support each other
         if _late(deadline):
             break
         area[i, j], area[j, i] = (area_in_contact(shapes[a], shapes[b], 2 * tolerance) for a, b in ((i, j), (j, i)))
@@ -122,16 +115,14 @@ def _neighbours(
 ) -> np.ndarray:
     """Return the pairs of patches of two groups with a clearance that are among the nearest of the smaller group.
 
-    The clearances around a fitted part differ by up to a factor of two. A group that is small compared to its nearest patch
-    depends on that patch alone.
+    The clearances around a fitted part differ by up to a factor of two.
 
     near: pairs with their distance; beside: pairs that are not yet measured, each with the lower bound of its distance first;
     distances: tolerance of a touch, and reach of a clearance [m].
     """
     tolerance, reach = distances
-    size = [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes]
     extent = np.zeros(int(group.max()) + 1)
-    np.maximum.at(extent, group, size)
+    np.maximum.at(extent, group, [float(np.linalg.norm(s.bounds[1] - s.bounds[0])) for s in shapes])
 
     def ordered(i: int, j: int) -> tuple[int, int]:
         first, second = sorted((i, j), key=lambda p: (extent[group[p]], group[p]))
@@ -150,41 +141,8 @@ def _neighbours(
         if gap < reach:
             pairs.append((gap, small, large))
             nearest[group[small]] = min(nearest[group[small]], gap)
-    most: dict[int, float] = {}
-    kept = []
-    for gap, small, large in sorted(pairs):
-        factor = MAX_SMALL_CLEARANCE_FACTOR if extent[group[small]] < 0.5 * size[large] else MAX_CLEARANCE_FACTOR
-        if gap <= most.setdefault(int(group[small]), factor * gap) + tolerance:
-            kept.append((min(small, large), max(small, large)))
+    kept = [sorted((i, j)) for gap, i, j in pairs if gap <= MAX_CLEARANCE_FACTOR * nearest[group[i]] + tolerance]
     return np.array(sorted(kept), np.int64).reshape(-1, 2)
-
-
-def _in_one_sheet(a: TriangleSet, b: TriangleSet) -> bool:
-    """Return whether both are sheets that face the same way."""
-    mean = [s.areas @ s.normals / max(s.area, 1e-300) for s in (a, b)]
-    length = [float(np.linalg.norm(m)) for m in mean]
-    return min(length) > MIN_SHEET_FLATNESS and bool(mean[0] @ mean[1] > MIN_ALIGNED_COSINE * length[0] * length[1])
-
-
-def coplanar(contacts: Contacts, whole: ObjectShape, tolerance: float) -> list[tuple[int, int]]:
-    """Return pairs of touching plates of the same thickness in one plane, such as the boards of a framed door.
-
-    Excludes patches that only a crease separates (drawers of a fused cabinet), and two equal panels side by side.
-    """
-    parted = {(int(a), int(b)) for a, b in whole.shared}
-    pairs = []
-    for i, j in contacts.touch:
-        if (int(i), int(j)) in parted:
-            continue
-        a, b = contacts.shapes[i].box, contacts.shapes[j].box
-        if max(a.half[2] / max(a.half[1], 1e-12), b.half[2] / max(b.half[1], 1e-12)) > 0.5:
-            continue
-        level = abs(float((a.center - b.center) @ a.axes[2]))
-        if min(s.half[1] / max(s.half[0], 1e-12) for s in (a, b)) > MIN_PLATE_ASPECT and same_box(a, b):
-            continue  # two sashes of a window
-        if abs(float(a.axes[2] @ b.axes[2])) > 0.9995 and level < tolerance and abs(a.half[2] - b.half[2]) < tolerance:
-            pairs.append((int(i), int(j)))
-    return pairs
 
 
 def dominated_by(contacts: Contacts, group: Int[np.ndarray, " P"], root: int) -> dict[int, list[int]]:

@@ -36,19 +36,14 @@ def object_shape(
 def divide_surface(mesh: Mesh, seed: int, config: PatchConfig) -> DividedSurface:
     """Orient a mesh and divide it into patches; the mesh is not modified."""
     surface = mesh_surface(mesh, seed)
-    patch, inferred = split_patches(surface, config)
+    patch = split_patches(surface, config)
     pairs = np.sort(patch[surface.components.edges.faces], 1)
     shared = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
-    from_handles = np.flatnonzero(np.bincount(patch, np.where(inferred, surface.shape.areas, -surface.shape.areas)) > 0)
-    return DividedSurface(
-        surface.shape.take(surface.row), surface.copy, patch[surface.row], shared, from_handles, surface.diagonal
-    )
+    return DividedSurface(surface.shape.take(surface.row), surface.copy, patch[surface.row], shared, surface.diagonal)
 
 
-def split_patches(surface: MeshSurface, config: PatchConfig) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
-    """Return a patch index per face, and which faces are on panels inferred from handles alone.
-
-    Patches are numbered from 0 in the order of their first faces.
+def split_patches(surface: MeshSurface, config: PatchConfig) -> Int[np.ndarray, " F"]:
+    """Return a patch index per face, from 0.
 
     Components that are large enough to contain a fused part are cut along their concave creases, sharp or soft, and with
     `config.seams` at creases that are closed in places. Crumbs left by the cut join the neighbour with the longest common edge.
@@ -60,7 +55,7 @@ def split_patches(surface: MeshSurface, config: PatchConfig) -> tuple[Int[np.nda
     concave = _concave(surface, config.crease)
     soft = _soft_regions(surface, component, large, config)
     cut = (concave & edges.aligned & large[component[pairs[:, 0]]]) | (soft[pairs[:, 0]] != soft[pairs[:, 1]])
-    region, inferred = split_panels(surface, label_connected(len(component), pairs[~cut]))
+    region = split_panels(surface, label_connected(len(component), pairs[~cut]))
     if config.seams:
         region = _split_at_seams(surface, region, large & (np.bincount(component) > config.soft_faces))
     cut |= region[pairs[:, 0]] != region[pairs[:, 1]]
@@ -68,7 +63,7 @@ def split_patches(surface: MeshSurface, config: PatchConfig) -> tuple[Int[np.nda
     region = _absorb_crumbs(surface, region, pairs[cut], length[cut], config)
     region = _fill_voids(surface, region)
     region = _limit_count(surface, region, config.most_patches)
-    return _limit_pairs(surface, region, config.most_pairs), inferred
+    return _limit_pairs(surface, region, config.most_pairs)
 
 
 def _soft_regions(surface: MeshSurface, component: np.ndarray, large: np.ndarray, config: PatchConfig) -> np.ndarray:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
+from anymesh.config import SAME_AXIS_COSINE
 from anymesh.geometry.boxes import OrientedBox, fit_box
 from anymesh.geometry.connected import label_connected
 from anymesh.geometry.distance_ import distance_to_mesh
@@ -22,7 +23,6 @@ MIN_HEIGHT_WIDTH_RATIO = 0.4  # of the covered width: minimum height of a handle
 # length of its mean normal above which a protrusion is a strip; 1/2 for half a ball, 1/3 for a bar on a face
 MAX_HANDLE_FLATNESS = 0.6
 MIN_FOOT_FLATNESS = 0.5  # minimum length of the mean normal around the foot of a handle; 1 is plane
-MIN_PARALLEL_COSINE = 0.94  # minimum cosine between equal directions
 MAX_HANDLE_GAP_RATIO = 0.02  # of the diagonal: maximum distance of a handle from its host
 TOUCH = 0.003  # of the diagonal: the foot of a separate handle is within this distance of its closest point
 MAX_CORNERS = 2000  # corners of a handle used to fit its box
@@ -125,11 +125,11 @@ def _surface_handle(surface: MeshSurface, faces: np.ndarray, host: int, foot: np
 
 def _is_bar(box: OrientedBox, normal: np.ndarray) -> bool:
     """Return whether a handle is long and parallel to the face that it is on."""
-    return bool(box.half[0] >= MIN_BAR_ASPECT * box.half[1] and abs(box.axes[0] @ normal) < np.sqrt(1 - MIN_PARALLEL_COSINE**2))
+    return bool(box.half[0] >= MIN_BAR_ASPECT * box.half[1] and abs(box.axes[0] @ normal) < np.sqrt(1 - SAME_AXIS_COSINE**2))
 
 
 def aligned(a: SurfaceHandle, b: SurfaceHandle) -> bool:
     """Return whether both are knobs, or parallel or perpendicular bars."""
     if a.axis is None or b.axis is None:
         return a.axis is b.axis
-    return bool(max(abs(a.axis @ b.axis), abs(a.axis @ np.cross(b.normal, b.axis))) > MIN_PARALLEL_COSINE)
+    return bool(max(abs(a.axis @ b.axis), abs(a.axis @ np.cross(b.normal, b.axis))) > SAME_AXIS_COSINE)

@@ -14,7 +14,6 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy import ndimage
 
-OFF_CENTER_WEIGHT = 0.25  # weight of an offset from the middle across the handle, relative to one along it
 MAX_PANEL_ASPECT = 5.0  # maximum aspect ratio of a panel; a longer one belongs to a row of controls
 GRID = 32  # cells along each side of a face, for finding the rectangle that it fills
 MIN_FILL_RATIO = 0.9  # minimum share of filled cells
@@ -100,7 +99,7 @@ def _layout_cost(panel: PanelRectangle, handle: np.ndarray, along: int) -> float
     off = np.abs(handle.mean(0) - (low + high) / 2) / sides  # 0 in the middle, 0.5 at the edge
     if along < 0:
         return float(min(off.sum(), 1 - 2 * off.max()))
-    return float(min(2 * off[along] + OFF_CENTER_WEIGHT * off[1 - along], 1 - 2 * off[1 - along]))
+    return float(min(2 * off[along] + off[1 - along], 1 - 2 * off[1 - along]))
 
 
 def _cuts(

@@ -3,32 +3,27 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Float, Int
 from scipy.spatial import ConvexHull
 
-from anymesh.config import FACING_COSINE
+from anymesh.config import FACING_COSINE, SAME_AXIS_COSINE
 from anymesh.geometry.connected import label_connected
 from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.surface import MeshSurface
-from anymesh.segmentation.handles import MIN_PARALLEL_COSINE, SurfaceHandle, aligned, find_handles
+from anymesh.segmentation.handles import SurfaceHandle, aligned, find_handles
 from anymesh.segmentation.layout import filled, tile
 from anymesh.segmentation.surface_regions import is_main_component, region_sizes
 
 MAX_BEND_DEG = 40.0  # [deg] maximum bend of a face
-MAX_FACE_BULGE_RATIO = 0.06  # of the diagonal: maximum bulge of a face
 # minimum length of the mean normal of a face; 0.92 is a part of a cylinder with the maximum bend, 1 is plane
 MIN_FACE_FLATNESS = 0.96
-PLANE_FITS = 3  # iterations of the fit of a face's plane
-MIN_KNOB_FACE_RATIO = 0.3  # of a side of the object: minimum size of a face that has panels with knobs
+SAMPLES = 20_000  # sample points on a face, for finding the rectangle that it fills
 MAX_PANEL_THICKNESS_RATIO = 0.35  # maximum thickness over smaller side of a region that is already a panel
 MAX_TRIANGLE_RATIO = 0.25  # maximum area of the largest triangle over the smallest panel; coarser faces cannot show the borders
-# of the panel's area: maximum area of a cut-off region that joins the panel; a larger one is a side of the cabinet
-MAX_CUT_OFF_RATIO = 0.5
-SAMPLES = 20_000  # sample points on a face, for finding the rectangle that it fills
 
 
-def split_panels(surface: MeshSurface, region: Int[np.ndarray, " F"]) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
-    """Split regions into panels by their handles; return the new regions, and which faces belong to such a panel.
+def split_panels(surface: MeshSurface, region: Int[np.ndarray, " F"]) -> Int[np.ndarray, " F"]:
+    """Return the regions, from 0, with those that have handles split into panels.
 
     A region is split if its handles imply several panels, or one panel on a region that is no panel itself.
     """
@@ -38,7 +33,7 @@ def split_panels(surface: MeshSurface, region: Int[np.ndarray, " F"]) -> tuple[I
         if (new_region[faces] < count).all():
             _divide(surface, new_region, faces, handles)
             _through(surface, new_region, new)
-    return np.unique(new_region, return_inverse=True)[1].reshape(-1), new_region >= count
+    return np.unique(new_region, return_inverse=True)[1].reshape(-1)
 
 
 def _faces_with_handles(surface: MeshSurface, region: np.ndarray) -> list[tuple[Int[np.ndarray, " n"], list[SurfaceHandle]]]:
@@ -57,8 +52,8 @@ def _faces_with_handles(surface: MeshSurface, region: np.ndarray) -> list[tuple[
 def _of_a_kind(surface: MeshSurface, faces: np.ndarray, handles: list[SurfaceHandle]) -> list[SurfaceHandle]:
     """Return the handles that imply panels: bars that are parallel or perpendicular to each other, otherwise knobs.
 
-    Knobs count only on a large upright face without bars. Beside bars and on small panels, knobs are controls, and under an
-    object they are feet. Round surfaces have none.
+    Knobs count only on an upright face without bars. Beside bars, knobs are controls, and under an object they are feet. Round
+    surfaces have none.
     """
     normal = surface.shape.areas[faces] @ surface.shape.normals[faces]
     if np.linalg.norm(normal) < MIN_FACE_FLATNESS * surface.shape.areas[faces].sum():
@@ -66,34 +61,17 @@ def _of_a_kind(surface: MeshSurface, faces: np.ndarray, handles: list[SurfaceHan
     bars = [g for g in handles if g.axis is not None]
     if bars:
         return [g for g in bars if aligned(bars[0], g)]
-    across = np.ptp(surface.shape.triangles.reshape(-1, 3), axis=0)
-    side = across.prod() / across * np.abs(normal) / max(float(np.linalg.norm(normal)), 1e-300)
-    upright = abs(normal[2]) < FACING_COSINE * np.linalg.norm(normal)
-    return handles if upright and np.linalg.norm(normal) > MIN_KNOB_FACE_RATIO * side.sum() else []
+    return handles if abs(normal[2]) < FACING_COSINE * np.linalg.norm(normal) else []
 
 
 def _face_of(surface: MeshSurface, region: np.ndarray, handle: SurfaceHandle) -> Int[np.ndarray, " n"]:
-    """Return the connected faces of the handle's region that lie roughly in one plane with its foot.
-
-    The plane is that of the foot first, then that of the faces found.
-    """
+    """Return the connected faces of the handle's region that face nearly as its foot does."""
     pairs = surface.components.edges.faces
-    centers, areas = surface.shape.triangles.mean(1), surface.shape.areas
-    normal, level = handle.normal, handle.level
-    face = np.zeros(0, np.int64)
-    for _ in range(PLANE_FITS):
-        flat = (surface.shape.normals @ normal > np.cos(np.deg2rad(MAX_BEND_DEG))) & (region == handle.region)
-        flat &= np.abs(centers @ normal - level) < MAX_FACE_BULGE_RATIO * surface.diagonal
-        label = label_connected(len(flat), pairs[flat[pairs].all(1)])
-        area = np.bincount(label, np.where(flat, areas, 0))
-        mine = np.unique(label[handle.foot])
-        face = np.flatnonzero(flat & (label == mine[area[mine].argmax()]))
-        if len(face) == 0:
-            break
-        mean = areas[face] @ surface.shape.normals[face]
-        normal = mean / max(float(np.linalg.norm(mean)), 1e-300)
-        level = float(np.average(centers[face] @ normal, weights=areas[face]))
-    return face
+    alike = (surface.shape.normals @ handle.normal > np.cos(np.deg2rad(MAX_BEND_DEG))) & (region == handle.region)
+    label = label_connected(len(alike), pairs[alike[pairs].all(1)])
+    area = np.bincount(label, np.where(alike, surface.shape.areas, 0))
+    mine = np.unique(label[handle.foot])
+    return np.flatnonzero(alike & (label == mine[area[mine].argmax()]))
 
 
 def _smallest_frame(points: Float[np.ndarray, "n 2"]) -> Float[np.ndarray, "2 2"]:
@@ -161,7 +139,7 @@ def _through(surface: MeshSurface, region: np.ndarray, new: int) -> None:
     hits = surface.shape.scene.first_hit(start, rays, float(thin.max()))
     seen = np.flatnonzero(hits.face >= 0)
     panel = region[hits.face[seen]] - new
-    facing = np.einsum("ij,ij->i", surface.shape.normals[hits.face[seen]], rays[seen]) > MIN_PARALLEL_COSINE
+    facing = np.einsum("ij,ij->i", surface.shape.normals[hits.face[seen]], rays[seen]) > SAME_AXIS_COSINE
     mine = (panel >= 0) & facing & (hits.distance[seen] < thin[np.maximum(panel, 0)])
     region[back[seen[mine]]] = panel[mine] + new
 
@@ -184,6 +162,4 @@ def _hand_over(surface: MeshSurface, region: np.ndarray, host: int, new: int) ->
     for c in np.unique(label[region == -1]):
         at = np.flatnonzero(label == c)
         beside = np.r_[side[np.isin(pairs[:, 0], at), 1], side[np.isin(pairs[:, 1], at), 0]]
-        panel = int(np.bincount(beside[beside >= new]).argmax())
-        own = surface.shape.areas[at].sum() < MAX_CUT_OFF_RATIO * surface.shape.areas[region == panel].sum()
-        region[at] = panel if own else host
+        region[at] = np.bincount(beside[beside >= new]).argmax()

@@ -1,13 +1,14 @@
 """Part candidates: groups of patches that may move together.
 
-Candidates are each rigid group of patches alone, with all that is attached only through it, and with the rest of its surface,
-for each of the likeliest bases; the same for single patches; and the groups of a tree that merges those with the
-most contact. Candidates overlap. `part_assignment.py` decides for all at once which of them are parts.
+Candidates are the nodes of trees over the patches: of the tree that merges those with the most contact, from single patches
+on, and for each of the largest patches as base, of the tree of what is attached to it only through what (the dominator tree
+of the contacts). Candidates overlap. `part_assignment.py` decides for all at once which of them are parts.
 """
 
 from __future__ import annotations
 
-import heapq
+import itertools
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -16,14 +17,14 @@ from jaxtyping import Bool, Float
 
 from anymesh.config import SAME_SIZE
 from anymesh.geometry.patches import ObjectShape
-from anymesh.segmentation.contacts import Contacts
-from anymesh.segmentation.rigid_groups import RigidGroups, rigid_groups, root_ranking, with_supported
+from anymesh.segmentation.contacts import Contacts, dominated_by
+from anymesh.segmentation.merge_tree import merged_groups
+from anymesh.segmentation.patch_names import named_groups
 from anymesh.types import Mesh
 
-BASES = 3  # number of base patches for which candidates are listed
+BASES = 3  # number of the largest patches that may be the base
 MIN_NESTED_SHARE = 0.98  # minimum shared part of the smaller candidate for it to lie within the larger one
 MAX_DISJOINT_SHARE = 1e-3  # maximum shared part of the smaller candidate for two candidates to be disjoint
-MIN_AREA_RATIO = 1e-12  # share of the surface used as the area of patches without area
 
 
 @dataclass(frozen=True, eq=False)
@@ -101,26 +102,18 @@ def part_candidates(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size
     min_size: minimum diagonal of a group, as a share of the object's; max_candidates: maximum number of groups, of which the
     largest are kept.
     """
-    masks: dict[bytes, Bool[np.ndarray, " P"]] = {}
+    bases = np.argsort(-contacts.patch_area, kind="stable")[:BASES]
+    group, names = named_groups(mesh, whole)
+    attached = (below for base in bases for below in dominated_by(contacts, group, int(group[base])).values())
+    single = ([u] for u in range(int(group.max()) + 1))
+    masks = (np.isin(group, chosen) for chosen in itertools.chain(single, attached, merged_groups(contacts, group)))
+    members, size = _largest(whole, contacts, _distinct(masks), min_size, max_candidates)
+    return PartCandidates(whole, contacts, members, size, names)
 
-    def add(mask: Bool[np.ndarray, " P"]) -> None:
-        if not mask.all():
-            masks.setdefault(np.packbits(mask).tobytes(), mask)
 
-    ranking = root_ranking(whole, contacts)
-    joined = [rigid_groups(mesh, whole, contacts, base) for base in ranking[:BASES]]
-    divided = rigid_groups(mesh, whole, contacts, ranking[0], divided=True)
-    names = [divided.names[g] for g in divided.group]
-    for groups in (*joined, divided):
-        for u in sorted(groups.dominated):
-            if u != groups.root:
-                for chosen in ([u], groups.dominated[u], with_supported(groups, u)):
-                    add(np.isin(groups.group, chosen))
-    for groups in (joined[0], divided):
-        for merged in _merges(groups):
-            add(np.isin(groups.group, merged))
-    members, size = _largest(whole, contacts, list(masks.values()), min_size, max_candidates)
-    return PartCandidates(whole, contacts, members, size, tuple(names))
+def _distinct(masks: Iterable[Bool[np.ndarray, " P"]]) -> list[Bool[np.ndarray, " P"]]:
+    """Return the masks without duplicates and without that of the whole object."""
+    return list({np.packbits(mask).tobytes(): mask for mask in masks if not mask.all()}.values())
 
 
 def _largest(
@@ -139,60 +132,3 @@ def _largest(
 def _bounds(patches: Float[np.ndarray, "P 2 3"], members: Bool[np.ndarray, " P"]) -> Float[np.ndarray, "2 3"]:
     mine = patches[members]
     return np.array([mine[:, 0].min(0), mine[:, 1].max(0)])
-
-
-def _merges(groups: RigidGroups) -> list[list[int]]:
-    """Merge neighbours until one group is left; return all intermediate groups.
-
-    The pair whose smaller group shares the largest part of its contact with the other merges first. Small groups merge before
-    large ones.
-    """
-    count = len(groups.names)
-    area = np.maximum(
-        np.bincount(groups.group, groups.contacts.patch_area, count), MIN_AREA_RATIO * groups.contacts.patch_area.sum()
-    )
-    area = dict(enumerate(area / area.sum()))
-    contact: dict[int, dict[int, float]] = {}
-    for (i, j), amount in sorted(groups.contacts.area.items()):
-        a, b = int(groups.group[i]), int(groups.group[j])
-        if a != b:
-            for x, y in ((a, b), (b, a)):
-                row = contact.setdefault(x, {})
-                row[y] = row.get(y, 0.0) + max(amount, MIN_AREA_RATIO)
-    members = {k: [k] for k in range(count)}
-
-    def strength(i: int, j: int) -> float:
-        small = min((area[i], i), (area[j], j))[1]
-        return contact[i][j] / sum(contact[small].values()) / float(np.sqrt(area[small]))
-
-    queue = [(-strength(i, j), i, j) for i in sorted(contact) for j in sorted(contact[i]) if i < j]
-    heapq.heapify(queue)
-    merged_groups, alive = [], set(range(count))
-    while queue:
-        value, i, j = heapq.heappop(queue)
-        if i not in alive or j not in alive:
-            continue
-        if (now := -strength(i, j)) > value + 1e-12:
-            heapq.heappush(queue, (now, i, j))
-            continue
-        new = len(members)
-        members[new], area[new] = members[i] + members[j], area[i] + area[j]
-        alive = alive - {i, j} | {new}
-        merged_groups.append(members[new])
-        contact[new] = _joined(contact, i, j)
-        for other, amount in contact[new].items():
-            contact[other].pop(i, None)
-            contact[other].pop(j, None)
-            contact[other][new] = amount
-        for other in sorted(contact[new]):
-            heapq.heappush(queue, (-strength(other, new), other, new))
-    return merged_groups
-
-
-def _joined(contact: dict[int, dict[int, float]], i: int, j: int) -> dict[int, float]:
-    row: dict[int, float] = {}
-    for one in (i, j):
-        for other, amount in contact[one].items():
-            if other not in (i, j):
-                row[other] = row.get(other, 0.0) + amount
-    return row

@@ -12,9 +12,9 @@ from anymesh.motion.part_context import PartContext
 from anymesh.segmentation.part_candidates import PartCandidates
 from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, on_axis, touching, two_pivots
 from anymesh.segmentation.part_freedom import blocked_shares, exposure, space_behind
-from anymesh.segmentation.rigid_groups import AT_BORDER
 from anymesh.types import Mesh
 
+AT_BORDER = 0.02  # of the diagonal: what is this close to a side of the object's bounds reaches it
 MIN_OFFSET = 0.1  # of the half extent: below this offset from the middle of the face, the side of a contact is chance
 MAX_RATIO = 8.0  # upper limit of ratios of lengths
 

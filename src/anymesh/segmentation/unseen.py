@@ -99,7 +99,7 @@ def _supported_by(contacts: Contacts, part: np.ndarray, together: bool, reach: f
 def _largest_contact(contacts: Contacts, group: np.ndarray, part: np.ndarray) -> Int[np.ndarray, " P"]:
     """Assign unseen groups to the part that they touch more than all others, such as a drawer's box on a runner.
 
-    Four rounds resolve chains. Unlike in `with_supported`, an unseen group may be larger than the part: a box behind its panel.
+    Four rounds resolve chains. An unseen group may be larger than the part: a box behind its panel.
     """
     assigned_part = part.copy()
     for _ in range(4):

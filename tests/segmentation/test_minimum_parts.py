@@ -1,4 +1,4 @@
-"""Test rigid groups: panels stay separate, a creased surface moves as one; and the minimum number of parts."""
+"""Test which candidates become parts: those that can move, and at least a minimum number."""
 
 import numpy as np
 import pytest
@@ -8,12 +8,10 @@ from anymesh.config import Config, SegmentationConfig
 from anymesh.errors import OptionError
 from anymesh.pipeline.solving import Solver
 from anymesh.segmentation import segment
-from anymesh.segmentation.contacts import coplanar, find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_assignment import MIN_SCORE
 from anymesh.segmentation.part_candidates import Overlap, PartCandidates
 from anymesh.segmentation.part_classifier import Reasons
-from anymesh.segmentation.rigid_groups import RigidGroups, with_supported
 from anymesh.types import Segmentation
 
 BODY = box((0, 0.02, 0), (1, 0.5, 1))
@@ -21,25 +19,6 @@ BODY = box((0, 0.02, 0), (1, 0.5, 1))
 
 def parts(pieces, **settings) -> Segmentation:
     return Solver(mesh_of(pieces)[0], Config(segmentation=SegmentationConfig(**settings))).parts().segmentation
-
-
-@pytest.mark.parametrize(("width", "joined"), [(0.4, False), (0.12, True)])
-def test_leaves_that_meet_are_two_and_planks_are_one(width: float, joined: bool) -> None:
-    whole = object_shape(mesh_of([box((0, 0, 0), (width, 0.02, 0.9)), box((width, 0, 0), (2 * width, 0.02, 0.9)), BODY])[0])
-    found = coplanar(find_contacts(whole, SegmentationConfig()), whole, 1e-3)
-    assert ((0, 1) in found) is joined
-
-
-def units(surface: list[int]) -> RigidGroups:
-    """Return groups of a base, a panel, a tray on a shelf of its own that touches the panel along a line."""
-    pieces = [BODY, box((0, -0.02, 0), (1, 0, 0.4)), box((0.1, 0, 0.1), (0.9, 0.3, 0.3)), box((0.1, 0, 0.08), (0.9, 0.3, 0.1))]
-    contacts = find_contacts(object_shape(mesh_of(pieces)[0]), SegmentationConfig())
-    return RigidGroups(contacts, np.arange(4), [""] * 4, 0, {k: [k] for k in range(4)}, np.array(surface))
-
-
-def test_a_surface_that_creases_part_moves_as_one_but_not_with_the_root() -> None:
-    assert with_supported(units([0, 1, 1, 3]), 1) == [1, 2]
-    assert 0 not in with_supported(units([0, 0, 2, 3]), 1)
 
 
 def no_part(tree: PartCandidates, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:

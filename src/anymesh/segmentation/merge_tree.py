@@ -1,0 +1,69 @@
+"""The tree that merges the patches with the most contact: small groups before large ones, until one group is left."""
+
+from __future__ import annotations
+
+import heapq
+
+import numpy as np
+from jaxtyping import Int
+
+from anymesh.segmentation.contacts import Contacts
+
+MIN_AREA_RATIO = 1e-12  # share of the surface used as the area of patches without area
+
+
+def merged_groups(contacts: Contacts, group: Int[np.ndarray, " P"]) -> list[list[int]]:
+    """Merge neighbours until one group is left; return all groups that are merged.
+
+    group: the number of the group that each patch begins in, from 0.
+
+    The pair whose smaller group shares the largest part of its contact with the other merges first. Small groups merge before
+    large ones.
+    """
+    area = np.maximum(np.bincount(group, contacts.patch_area), MIN_AREA_RATIO * contacts.patch_area.sum())
+    area = dict(enumerate(area / area.sum()))
+    contact: dict[int, dict[int, float]] = {}
+    for (i, j), amount in sorted(contacts.area.items()):
+        a, b = int(group[i]), int(group[j])
+        if a != b:
+            for x, y in ((a, b), (b, a)):
+                row = contact.setdefault(x, {})
+                row[y] = row.get(y, 0.0) + max(amount, MIN_AREA_RATIO)
+    members = {k: [k] for k in area}
+
+    def strength(i: int, j: int) -> float:
+        small = min((area[i], i), (area[j], j))[1]
+        return contact[i][j] / sum(contact[small].values()) / float(np.sqrt(area[small]))
+
+    queue = [(-strength(i, j), i, j) for i in sorted(contact) for j in sorted(contact[i]) if i < j]
+    heapq.heapify(queue)
+    merged, alive = [], set(area)
+    while queue:
+        value, i, j = heapq.heappop(queue)
+        if i not in alive or j not in alive:
+            continue
+        if (now := -strength(i, j)) > value + 1e-12:
+            heapq.heappush(queue, (now, i, j))
+            continue
+        new = len(members)
+        members[new], area[new] = members[i] + members[j], area[i] + area[j]
+        alive -= {i, j}
+        alive.add(new)
+        merged.append(members[new])
+        contact[new] = _joined(contact, i, j)
+        for other, amount in contact[new].items():
+            contact[other].pop(i, None)
+            contact[other].pop(j, None)
+            contact[other][new] = amount
+        for other in sorted(contact[new]):
+            heapq.heappush(queue, (-strength(other, new), other, new))
+    return merged
+
+
+def _joined(contact: dict[int, dict[int, float]], i: int, j: int) -> dict[int, float]:
+    row: dict[int, float] = {}
+    for one in (i, j):
+        for other, amount in contact[one].items():
+            if other not in (i, j):
+                row[other] = row.get(other, 0.0) + amount
+    return row
