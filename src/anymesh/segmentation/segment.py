@@ -32,7 +32,7 @@ from anymesh.vocabulary import recognize
 LabelParts = Callable[[Segmentation], Sequence[str]]  # label per part except the base from its motion, "" if it cannot move
 MAX_ASSIGNMENTS = 3  # maximum number of assignments, each without the candidates that turned out to be fixed
 # calibration of the log-odds of a confidence, fitted to kinds left out of training (benchmarks/train_parts.py)
-CALIBRATION_SLOPE, CALIBRATION_OFFSET = 1.07, 0.06
+CALIBRATION_SLOPE, CALIBRATION_OFFSET = 1.02, 0.07
 
 
 def segment_parts(
