@@ -162,7 +162,6 @@ def on_a_slab(low, high, slab=((-0.5, 0, -0.6), (0.5, 0.5, 0.6))) -> list[Surfac
 def test_bars_and_knobs_in_front_of_a_slab_are_handles(low, high, axis) -> None:
     (found,) = on_a_slab(low, high)
     assert found.normal == pytest.approx(-Y)
-    assert found.level == pytest.approx(0, abs=1e-6)
     assert (found.axis is None) == (axis is None)
     if axis is not None and found.axis is not None:
         assert abs(found.axis @ axis) == pytest.approx(1)
@@ -198,7 +197,7 @@ def test_a_separate_handle_needs_a_body_that_is_most_of_the_object() -> None:
 def test_handles_are_alike_if_both_are_knobs_or_their_bars_are_parallel_or_perpendicular() -> None:
     def handle(axis: np.ndarray | None) -> SurfaceHandle:
         none = np.zeros(0, np.int64)
-        return SurfaceHandle(0, -Y, 0.0, axis, np.zeros((1, 3)), none, none)
+        return SurfaceHandle(0, -Y, axis, np.zeros((1, 3)), none, none)
 
     def at(degrees: float) -> np.ndarray:
         return np.cos(np.deg2rad(degrees)) * X + np.sin(np.deg2rad(degrees)) * Z

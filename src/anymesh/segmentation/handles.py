@@ -32,13 +32,12 @@ MAX_CORNERS = 2000  # corners of a handle used to fit its box
 class SurfaceHandle:
     """A handle on a region of the surface.
 
-    normal, level: plane that it stands on; axis: direction of a bar, None for a knob; points: its corners [m]; faces: of the
+    normal: of the plane that it stands on; axis: direction of a bar, None for a knob; points: its corners [m]; faces: of the
     handle; foot: faces of the region beside it.
     """
 
     region: int
     normal: Float[np.ndarray, " 3"]
-    level: float
     axis: Float[np.ndarray, " 3"] | None
     points: Float[np.ndarray, "n 3"]
     faces: Int[np.ndarray, " k"]
@@ -120,7 +119,7 @@ def _surface_handle(surface: MeshSurface, faces: np.ndarray, host: int, foot: np
     width = float(np.ptp(points @ np.cross(box.axes[0], normal))) if bar else 2 * float(box.half[1])
     if 2 * box.half[1] < MIN_HANDLE_SIZE_RATIO * surface.diagonal or out < MIN_HEIGHT_WIDTH_RATIO * width:
         return None
-    return SurfaceHandle(host, normal, level, box.axes[0] if bar else None, points, faces, foot)
+    return SurfaceHandle(host, normal, box.axes[0] if bar else None, points, faces, foot)
 
 
 def _is_bar(box: OrientedBox, normal: np.ndarray) -> bool:
