@@ -188,6 +188,14 @@ def test_knobs_on_top_and_beside_bars_are_none_and_so_are_large_ones() -> None:
     assert panels_of(knob(-0.2, 0.0, 0.2), knob(0.2, 0.0, 0.2)) == 0  # of more than 8 % of the diagonal
 
 
+def test_knobs_on_a_small_panel_are_controls() -> None:
+    """The strip below a cook top is less than three tenths of the front, and its knobs make no panels."""
+    strip = ([0.0, FRONT - 0.02, 0.4], [1.0, 0.04, 0.2])
+    knobs = [([x, FRONT - 0.06, 0.4], [0.06, 0.06, 0.06]) for x in (-0.3, -0.1, 0.1, 0.3)]
+    whole = object_shape(solid(strip, *knobs))
+    assert len(set(whole.patch.tolist())) == len(set(object_shape(solid(strip)).patch.tolist())) + len(knobs)
+
+
 def test_bars_above_each_other_are_drawers() -> None:
     boxes = front_boxes(object_shape(solid(bar(0.0, -0.4, 0), bar(0.0, 0.0, 0), bar(0.0, 0.4, 0))))
     assert len(boxes) == 3
