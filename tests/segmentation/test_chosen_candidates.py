@@ -189,10 +189,10 @@ def test_knobs_on_top_and_beside_bars_are_none_and_so_are_large_ones() -> None:
 
 
 def test_knobs_on_a_small_panel_are_controls() -> None:
-    """The strip below a cook top is less than three tenths of the front, and its knobs make no panels."""
-    strip = ([0.0, FRONT - 0.02, 0.4], [1.0, 0.04, 0.2])
-    knobs = [([x, FRONT - 0.06, 0.4], [0.06, 0.06, 0.06]) for x in (-0.3, -0.1, 0.1, 0.3)]
-    whole = object_shape(solid(strip, *knobs))
+    """Above a door, a quarter of the front is left for knobs."""
+    door = ([0.0, FRONT - 0.02, -0.15], [1.0, 0.04, 0.9])
+    knobs = [([x, FRONT - 0.02, 0.45], [0.06, 0.06, 0.06]) for x in (-0.3, -0.1, 0.1, 0.3)]
+    whole = object_shape(solid(door, *knobs))
     bounds = [whole.of(np.flatnonzero(whole.patch == p)).bounds for p in np.unique(whole.patch)]
     assert sum(np.ptp(b, axis=0).max() < 0.1 for b in bounds) == len(knobs)
 
