@@ -27,8 +27,8 @@ def obstacles() -> Obstacles:
 
 
 def divided() -> DividedSurface:
-    shape, none = shape_of(box((0, 0, 0), (1, 1, 1))), np.zeros(0, np.int64)
-    return DividedSurface(shape, np.arange(12), np.zeros(12, np.int64), none.reshape(0, 2), none, 1.0)
+    shape = shape_of(box((0, 0, 0), (1, 1, 1)))
+    return DividedSurface(shape, np.arange(12), np.zeros(12, np.int64), np.zeros((0, 2), np.int64), 1.0)
 
 
 def passage() -> Any:
