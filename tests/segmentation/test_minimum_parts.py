@@ -1,5 +1,7 @@
 """Test which candidates become parts: those that can move, and at least a minimum number."""
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from assets import box, mesh_of
@@ -31,6 +33,16 @@ def all_parts(tree: PartCandidates, place: np.ndarray, features: list[dict[str, 
     return np.array([1 - row["size"] / 10 for row in features]), lambda chosen: ["all"] * len(chosen)
 
 
+def parts_below(largest: float) -> Callable[..., tuple[np.ndarray, Reasons]]:
+    """Return a score by which small candidates are parts, and the others are not, large ones least."""
+
+    def score(tree: PartCandidates, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
+        scores = [1.0 if row["size"] < largest else MIN_SCORE - row["size"] for row in features]
+        return np.array(scores), lambda chosen: ["size"] * len(chosen)
+
+    return score
+
+
 @pytest.mark.parametrize("gap", [0.0, 0.01])
 def test_something_stays_where_every_candidate_is_a_part(monkeypatch: pytest.MonkeyPatch, gap: float) -> None:
     monkeypatch.setattr(segment, "score_parts", all_parts)
@@ -57,17 +69,13 @@ def test_a_candidate_that_is_held_makes_room_for_the_next(monkeypatch: pytest.Mo
     """A board nailed through the case scores highest but cannot move; then the box on top is chosen."""
     nail, top = box((0.48, -0.2, 0.48), (0.52, 0.02, 0.52)), box((0.2, 0.1, 1.0), (0.8, 0.4, 1.2))
 
-    def by_size(tree: PartCandidates, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
-        scores = [1.0 if row["size"] < 0.3 else MIN_SCORE - row["size"] for row in features]
-        return np.array(scores), lambda chosen: ["size"] * len(chosen)
-
     asked: list[int] = []
 
     def labels(found: Segmentation) -> list[str]:
         asked.append(len(found.parts))
         return ["" if found.faces(k).min() < 24 else "box" for k in range(1, len(found.parts))]
 
-    monkeypatch.setattr(segment, "score_parts", by_size)
+    monkeypatch.setattr(segment, "score_parts", parts_below(0.3))
     mesh, _ = mesh_of([BODY, nail, top])
     config = Config(segmentation=SegmentationConfig(at_least=1))
     found = segment.segment_parts(mesh, object_shape(mesh, 0, config.patches), labels, config)
@@ -80,10 +88,6 @@ def test_candidates_that_never_move_leave_the_base_alone(monkeypatch: pytest.Mon
     """After the last assignment, its parts join the base too, although more candidates are left."""
     tops = [box((0.2 * k, 0.1, 1.0), (0.2 * k + 0.1, 0.4, 1.1 + 0.1 * k)) for k in range(5)]
 
-    def by_size(tree: PartCandidates, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
-        scores = [1.0 if row["size"] < 0.5 else MIN_SCORE - row["size"] for row in features]
-        return np.array(scores), lambda chosen: ["size"] * len(chosen)
-
     asked: list[int] = []
 
     def none(found: Segmentation) -> list[str]:
@@ -93,7 +97,7 @@ def test_candidates_that_never_move_leave_the_base_alone(monkeypatch: pytest.Mon
     def one(overlap: Overlap, score: np.ndarray) -> list[int]:
         return [int(score.argmax())]
 
-    monkeypatch.setattr(segment, "score_parts", by_size)
+    monkeypatch.setattr(segment, "score_parts", parts_below(0.5))
     monkeypatch.setattr(segment, "assign_parts", one)
     mesh, _ = mesh_of([BODY, *tops])
     config = Config()
