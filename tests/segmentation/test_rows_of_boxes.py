@@ -103,6 +103,18 @@ def test_candidates_are_patches_and_what_is_attached_only_through_them() -> None
     assert frozenset({1, 2}) in candidates(case, door, grip, knob)
 
 
+def test_what_has_a_clearance_to_one_patch_alone_is_attached_to_it() -> None:
+    """A plate hangs 1 cm in front of a door and touches nothing, so that no merge joins the two."""
+    case, door, front = box((0, 0, 0), (1, 1, 1)), box((1, 0, 0), (1.1, 1, 1)), box((1.11, 0, 0), (1.2, 1, 1))
+    assert frozenset({1, 2}) in candidates(case, door, front)
+
+
+def test_patches_that_mostly_touch_each_other_are_a_candidate() -> None:
+    """Two boards that stand side by side on end at a case; neither is attached only through the other."""
+    case = box((0, 0, 0), (1, 1, 1))
+    assert frozenset({1, 2}) in candidates(case, box((1, 0, 0), (2, 0.05, 1)), box((1, 0.05, 0), (2, 0.1, 1)))
+
+
 def test_patches_with_most_of_their_contact_merge_first() -> None:
     """A row of three: the thin plate between two blocks shares all of its contact, and joins one of them first."""
     found = candidates(box((0, 0, 0), (1, 1, 1)), box((1, 0, 0), (1.05, 1, 1)), box((1.05, 0, 0), (2, 1, 1)))
