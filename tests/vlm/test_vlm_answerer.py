@@ -7,7 +7,10 @@ from typing import Any
 import pytest
 from asked import ASKED, picks
 
+from anymesh import deadline
 from anymesh.errors import BudgetError, ModelError
+from anymesh.pipeline.answering import choose_answerer
+from anymesh.vlm import connect
 from anymesh.vlm.asking import VisualAnswerer
 from anymesh.vlm.budget import Budgeted
 from anymesh.vlm.cache import Cached, request_key
@@ -156,3 +159,20 @@ def test_a_model_is_given_up_after_three_bad_answers_in_a_row_and_that_is_said_o
     assert sum("given up" in told for told in (*first.warnings, *second.warnings)) == 1
     assert [e.skipped for e in second.exchanges] == [False, True, True]
     assert all(e.given_up for e in second.exchanges)
+
+
+def test_the_time_of_an_answer_does_not_count_towards_the_limit_of_a_run(monkeypatch) -> None:
+    now = [100.0]
+
+    def slow(_) -> dict[str, Any]:
+        now[0] += 5000.0
+        return GOOD
+
+    monkeypatch.setattr(deadline.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(connect, "open_model", lambda *given, **options: ScriptedModel(slow))
+    limit = deadline.Deadline(10.0)
+    factory = choose_answerer({"answerer": "openai-compatible:http://localhost/v1#m"}, deadline=limit).factory
+    assert factory is not None
+    assert factory(Other()).ask(ARROWS) == (3,)
+    assert now[0] == 5100.0
+    assert not limit.late(0.01)

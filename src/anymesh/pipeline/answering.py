@@ -76,8 +76,8 @@ def choose_answerer(
 ) -> AnswererSetup:
     """Return the answerer that the options choose.
 
-    about, deadline, stop: for answers in files, the object's name, the deadline that is paused while waiting for an answer,
-    and the event that ends the waiting.
+    deadline: paused while waiting for an answer; about, stop: for answers in files, the object's name, and the event that ends
+    the waiting.
 
     Raise OptionError for options that are not valid, ModelError if a model cannot be asked at all (no key).
     """
@@ -86,13 +86,13 @@ def choose_answerer(
         raise OptionError(f"found the options {unknown}; valid are {', '.join(Answering.__annotations__)}")
     chosen = AnswererOptions(**options)
     name, _ = resolve_auto(chosen.answerer)
-    config = _config(chosen)
+    config, limit = _config(chosen), deadline or Deadline()
     if name == GEOMETRY:
         if config.parts_list:
             raise OptionError("--parts-list: geometry cannot find parts by name; choose a model or files with --answerer")
         return AnswererSetup(config, name, None)
     if name.startswith(FILES):
-        return _from_files(config, name, chosen, about, deadline or Deadline(), stop)
+        return _from_files(config, name, chosen, about, limit, stop)
     from anymesh.vlm.connect import open_model  # import on use: only runs with a model need these modules
     from anymesh.vlm.vlm_answerer import VlmAnswerer
 
@@ -107,7 +107,7 @@ def choose_answerer(
     )
 
     def renewed() -> RecordingFactory:
-        return RecordingFactory(lambda fallback, patience: VlmAnswerer(model, fallback, patience))
+        return RecordingFactory(lambda fallback, patience: VlmAnswerer(model, fallback, patience, limit.paused))
 
     asked = renewed()
     return AnswererSetup(config, name, asked, exchanges=asked.exchanges, new_factory=renewed)

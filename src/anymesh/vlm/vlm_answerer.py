@@ -5,6 +5,8 @@ The model is asked once more after a bad answer. Then geometry answers that ques
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
 
 from anymesh.types import Exchange
@@ -25,11 +27,18 @@ SYSTEM = (
 class VlmAnswerer:
     """Answerer that asks a model; if its answers are not valid, `fallback` answers, with a warning.
 
-    patience: shared by the answerers of one run; once it is lost, the model is not asked again.
+    patience: shared by the answerers of one run; once it is lost, the model is not asked again; paused: context entered while
+    the model is asked, so that a time limit does not count it.
     """
 
-    def __init__(self, model: VisionModel, fallback: VisualAnswerer, patience: Patience | None = None) -> None:
-        self.name = model.name
+    def __init__(
+        self,
+        model: VisionModel,
+        fallback: VisualAnswerer,
+        patience: Patience | None = None,
+        paused: Callable[[], AbstractContextManager[None]] = nullcontext,
+    ) -> None:
+        self.name, self._paused = model.name, paused
         self._model, self._fallback, self._patience = model, fallback, patience or Patience()
         self._exchanges: list[Exchange] = []
         self._warnings: list[str] = []
@@ -73,7 +82,8 @@ class VlmAnswerer:
         self._exchanges[-1] = replace(self._exchanges[-1], verdict=f"not valid: {why}; {other} {FALLBACK_VERDICT}")
 
     def _try(self, request: Request, question: Question[Answer]) -> Answer | BadAnswerError:
-        reply = self._model.ask(request)
+        with self._paused():
+            reply = self._model.ask(request)
         try:
             answer: Answer | BadAnswerError = question.parse(reply_object(reply.text, request.schema))
             verdict = "accepted"
