@@ -110,6 +110,16 @@ def test_a_lid_on_a_pot_covers_its_opening_however_thick_it_is(height: float) ->
     assert values["log2 height over width"] == 0
 
 
+def test_the_free_rim_does_not_depend_on_the_order_of_faces() -> None:
+    """A wheel with a wall beside a part of its rim."""
+    ((corners, faces),) = upright(prism(0.2, (-0.02, 0.02), 0.0, 0.0, 64))
+    wall = [box((0.22, -1, -1), (0.3, 1, 1))]
+    first = np.argsort(corners[faces].mean(1)[:, 0], kind="stable")
+    shares = [part_values(context([(corners, faces[order])], wall), NONE)["free rim"] for order in (first, first[::-1])]
+    assert 0.1 < shares[0] < 0.9
+    assert shares[0] == pytest.approx(shares[1], abs=0.1)
+
+
 def test_a_disc_in_a_hole_has_no_free_rim_and_an_oval_one_is_no_body_of_revolution() -> None:
     ring = annulus(0.21, 0.4, 0.1, sections=64)
     hole = [(np.asarray(ring.vertices), np.asarray(ring.faces))]

@@ -77,6 +77,23 @@ def test_an_endless_rotation_is_about_the_axis_of_the_round_outline_that_is_the_
     assert (stopped.ranking[0], stopped.type) == (0, JointType.REVOLUTE)
 
 
+@pytest.mark.parametrize("scores", [[0.0, 1e-9], [1e-9, 0.0]])
+@pytest.mark.parametrize("first", [1, -1])
+def test_an_endless_rotation_has_its_axis_as_proposed(scores: list[float], first: int) -> None:
+    """Wheels on one axle turn alike: noise in the scores of the two directions does not decide."""
+    both = [replace(ROUND, opening_sign=first), replace(ROUND, opening_sign=-first)]
+    assert both[asked(PLATE, both, scores).ranking[0]].opening_sign == 1
+
+
+def test_a_label_that_may_be_made_from_the_motion_adds_no_confidence() -> None:
+    without = asked(PLATE, [EDGE, PULL], [1.0, 0.0])
+    labelled = asked(replace(PLATE, label="door"), [EDGE, PULL], [1.0, 0.0])
+    against = asked(replace(PLATE, label="drawer"), [EDGE, PULL], [1.0, 0.0])
+    assert (labelled.type, labelled.confidence) == (without.type, without.confidence)
+    assert against.type is JointType.PRISMATIC
+    assert against.confidence < 0.5
+
+
 def test_what_cannot_move_is_fixed() -> None:
     stuck = [replace(c, opening=0.0, closing=0.0) for c in (EDGE, PULL)]
     assert asked(PLATE, stuck, [0.0, 1.0]).type is JointType.FIXED

@@ -103,7 +103,7 @@ def test_a_barrel_is_near_its_own_axis() -> None:
     assert (near["barrel near"], far["barrel near"]) == (1, 0)
 
 
-@pytest.mark.parametrize(("above", "alike"), [(1.0, True), (0.0, True), (-0.01, False)])
+@pytest.mark.parametrize(("above", "alike"), [(1.0, True), (0.0, True), (-1e-5, True), (-0.1, False)])
 def test_copies_hinged_at_one_level_move_alike(above: float, alike: bool) -> None:
     def level(h: float) -> ScoredMotions:
         names = ("prismatic", "balance", "vertical", "outward", "above")

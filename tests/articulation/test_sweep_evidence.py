@@ -105,6 +105,18 @@ def test_a_wall_beside_a_door_stops_it() -> None:
     assert high / DEG == pytest.approx(round(high / DEG))  # whole degrees
 
 
+def test_the_limits_of_a_small_part_are_within_the_free_range_of_its_candidate() -> None:
+    """A lever of 5 mm in front of a large block strikes it with its corners, as steps of 1 degree do not notice."""
+    lever = [box((-0.001, -0.005, 0), (0.001, 0, 0.004))]
+    around = context(lever, [box((-0.3, 0.0003, 0), (0.3, 0.4, 0.6))])
+    c = outward(around, "edge", turn(Z))
+    low, high = limits(around, c, JointType.REVOLUTE)
+    assert min(c.opening, c.closing) > 12 * DEG
+    assert max(c.opening, c.closing) < 30 * DEG
+    assert high <= c.opening
+    assert -low <= c.closing
+
+
 def test_a_door_that_is_modelled_ajar_closes_as_well() -> None:
     """The panel stands at a right angle to its block, and opens by 110 degrees from where it is closed."""
     ajar = [box((-0.3, -0.6, 0), (-0.28, 0, 0.6))]

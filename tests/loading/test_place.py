@@ -5,7 +5,8 @@ import pytest
 from assets import CUBE_FACES, box, mesh_of
 
 from anymesh.errors import OptionError
-from anymesh.loading import LoadedMesh, load_mesh, place_mesh
+from anymesh.loading import LoadedMesh, load_mesh, place, place_mesh
+from anymesh.loading.upright import up_of
 from anymesh.types import Mesh
 
 LOW, HIGH = np.array([1.0, 2, 3]), np.array([1.4, 2.5, 3.9])  # 0.4 x 0.5 x 0.9
@@ -42,6 +43,22 @@ def test_placing_is_a_rotation_a_factor_and_a_shift(up, scale) -> None:
         np.einsum("fc,fc->f", placed.mesh.face_normals, placed.mesh.triangles.mean(1) - placed.mesh.bounds.mean(0)) > 0
     ).all()
     stands(placed.mesh)
+
+
+@pytest.mark.parametrize(("unit", "warned"), [(1.0, False), (90.0, False), (300.0, True)])
+def test_a_large_object_in_the_unit_of_its_file_gets_a_warning(unit: float, warned: bool) -> None:
+    """A diagonal of 1.1 units, thus of 330 m."""
+    placed = place_mesh(loaded(unit=unit), up="z")
+    assert placed.metric
+    assert any("--scale" in w for w in placed.warnings) == warned
+
+
+@pytest.mark.parametrize(("probability", "warned"), [(0.5, True), (0.7, False), (None, False)])
+def test_an_up_axis_that_is_hardly_likely_gets_a_warning(monkeypatch, probability: float | None, warned: bool) -> None:
+    monkeypatch.setattr(place, "infer_up", lambda mesh, usual: up_of(np.array([0.0, -1, 0]), probability))
+    placed = place_mesh(loaded())
+    assert placed.up == "-y"
+    assert any("--up" in w for w in placed.warnings) == warned
 
 
 @pytest.mark.parametrize(("axis", "length"), [("x", 0.4), ("y", 0.9), ("z", 0.5), ("longest", 0.9), ("diagonal", 1.104536)])

@@ -122,7 +122,7 @@ def test_the_view_is_from_the_side_of_the_moving_part():
 
 def test_a_joint_is_told_in_its_units():
     hinge, slide, turn = cabinet().joints
-    assert preview.describe(hinge) == "door: revolute 0..109 deg, confidence 0.90"
+    assert preview.describe(hinge, 1.0) == "door: revolute 0..109 deg, confidence 0.90"
     assert preview.extent(slide) == "0.0..30.0 cm"
     assert preview.extent(turn) == "endless"
     assert preview.extent(slanted().joints[3]) == ""

@@ -5,11 +5,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from assets import QUAD_UV, box, checker, mesh_of
+from scipy.ndimage import binary_erosion
 
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.drawing import BRIGHTNESS, draw, face_colors, ground, light_on, material_colors, render_target
 from anymesh.rendering.materials import texels_per_pixel
 from anymesh.rendering.outlines import stroke
+from anymesh.rendering.render import KEY_LIGHT
 from anymesh.rendering.samples import GRID, Window, sample
 from anymesh.rendering.smooth import CREASE_ANGLE, smoothed
 from anymesh.types import Material, Mesh, Texture
@@ -66,6 +68,17 @@ def sphere(rings: int) -> Mesh:
 
 def creased_rays(mesh: Mesh) -> int:
     return int((samples_of(mesh).steps.crease > 0).sum())
+
+
+def test_white_is_not_darker_where_the_light_is_strongest() -> None:
+    """The light on a surface that faces the lamp is more than 1."""
+    mesh = replace(sphere(24), materials=(Material("white", (1.0, 1.0, 1.0, 1.0)),))
+    from_the_lamp = Camera.looking_at(3 * KEY_LIGHT, np.zeros(3), 0.5, SIZE, SIZE)
+    samples = samples_of(mesh, from_the_lamp)
+    seen = RayScene(mesh.vertices, mesh.faces).first_hit(*from_the_lamp.rays()).face.reshape(SIZE, SIZE) >= 0
+    assert light_on(samples).max() > 1
+    drawn = draw(samples, material_colors(mesh, samples), light_on(samples), ground(SIZE, SIZE))
+    assert drawn[binary_erosion(seen, iterations=3)].min() > 100
 
 
 @pytest.mark.parametrize("grey", [0.0, 0.2, 0.6, 1.0])

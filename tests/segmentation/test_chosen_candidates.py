@@ -108,8 +108,14 @@ def test_the_name_of_a_candidate_is_what_the_names_of_its_patches_begin_with() -
 LOOSE = [box((0, 0, 0), (1, 1, 1)), box((2, 0, 0), (2.6, 0.6, 0.6)), box((2, 2, 0), (2.5, 2.5, 0.5))]
 
 
-def segmented(monkeypatch: pytest.MonkeyPatch, scores: list[float], names: tuple[str, ...] = ("a", "b", "c"), **settings):
-    """Return the parts of three loose cubes, if those after the first have given scores."""
+def segmented(
+    monkeypatch: pytest.MonkeyPatch,
+    scores: list[float],
+    names: tuple[str, ...] = ("a", "b", "c"),
+    moves: str = "it",
+    **settings,
+):
+    """Return the parts of three loose cubes, if those after the first have given scores. moves: label, "" if none can move."""
     mesh, piece = mesh_of(LOOSE)
     mesh = replace(mesh, face_node=piece, nodes=tuple(map(Node, names)))
 
@@ -121,7 +127,7 @@ def segmented(monkeypatch: pytest.MonkeyPatch, scores: list[float], names: tuple
 
     monkeypatch.setattr(segment, "score_parts", score_parts)
     config = Config(segmentation=replace(CONFIG, **settings))
-    found = segment.segment_parts(mesh, object_shape(mesh), lambda s: ["it"] * (len(s.parts) - 1), config)
+    found = segment.segment_parts(mesh, object_shape(mesh), lambda s: [moves] * (len(s.parts) - 1), config)
     return {int(piece[found.face_part == k][0]): p for k, p in enumerate(found.parts) if k > 0}
 
 
@@ -150,6 +156,15 @@ def test_calibration_changes_a_probability_by_less_than_a_tenth(monkeypatch: pyt
 @pytest.mark.parametrize(("at_least", "parts"), [(0, []), (1, [2]), (2, [1, 2])])
 def test_the_best_candidates_are_added_up_to_a_number(monkeypatch: pytest.MonkeyPatch, at_least: int, parts: list[int]) -> None:
     assert sorted(segmented(monkeypatch, [-3.0, -2.0], at_least=at_least)) == parts
+
+
+@pytest.mark.parametrize(("at_least", "parts"), [(0, []), (1, [1]), (2, [1, 2]), (3, [1, 2])])
+def test_parts_that_cannot_move_stay_if_so_many_are_asked_for(
+    monkeypatch: pytest.MonkeyPatch, at_least: int, parts: list[int]
+) -> None:
+    found = segmented(monkeypatch, [2.0, 1.0], moves="", at_least=at_least)
+    assert sorted(found) == parts
+    assert {p.label for p in found.values()} <= {"part"}
 
 
 def test_names_change_what_is_a_part_and_are_given_as_reason(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -17,7 +17,7 @@ from anymesh.articulation.motion_classifier import PartMotionScores, likeliest
 from anymesh.articulation.motion_features import swept_features, unswept_features
 from anymesh.articulation.motion_question import BOX_RIM_ROLES, Candidate, MotionAnswer, MotionQuestion
 from anymesh.articulation.part_contexts import part_context
-from anymesh.articulation.rank_motions import rank_motions
+from anymesh.articulation.rank_motions import described, rank_motions
 from anymesh.articulation.repeated_parts import in_a_row, same_size, share_opening_directions
 from anymesh.articulation.tree import parents
 from anymesh.config import ArticulationConfig, Config
@@ -143,7 +143,12 @@ def estimate_joint(around: PartContext, name: str, parent: str, question: Motion
     """Estimate the joint of one part."""
     answer, best = choose_motion(around, question)
     if answer.type is not JointType.FIXED:
-        return joint_of(around, name, parent, best, answer.type, answer.confidence, answer.reason)
+        opened = away_from_closed(around, best)
+        same = (
+            k for k, c in enumerate(question.candidates) if (c.motion, c.opening_sign) == (opened.motion, opened.opening_sign)
+        )
+        why = described(question, next(same, answer.ranking[0]))
+        return joint_of(around, name, parent, opened, answer.type, answer.confidence, why)
     # the part is known to move, so a fixed answer is replaced by the best motion
     return joint_of(
         around, name, parent, best, best.motion.kind, answer.confidence, f"{answer.reason}; most likely: {best.motion.source}"

@@ -9,7 +9,7 @@ from anymesh.articulation.motion_question import MIN_FREE_ANGLE_RAD, MIN_FREE_TR
 from anymesh.config import ALONG_COSINE
 from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
-from anymesh.types import JointType
+from anymesh.types import JointType, Motion
 from anymesh.types.recognition import RecognizedLabel
 
 MIN_DRAWER_DEPTH_RATIO = 0.35  # of the parent's depth: a slide that is less deep is only a panel
@@ -122,18 +122,25 @@ def _free_within(around: PartContext, c: Candidate, lower: float, upper: float, 
 def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
     config, motion = around.config, c.opening_motion
     most = np.deg2rad(config.door_most if c.vertical > ALONG_COSINE else config.flap_most)
-    steps = config.fine_steps * 3
-    closing, obstacles = closing_angle(around, c), around.obstacles_of(motion)
-    upper, clear = free_amount(obstacles, motion, 1, max(most - (closing or 0.0), 0.0), steps)
-    if not clear:
-        upper = _whole_degrees(upper)
-    lower = 0.0
-    if closing != 0:
-        lower, _ = free_amount(obstacles, motion, -1, closing or most, steps)
-        lower = _whole_degrees(lower) if lower >= MIN_CLOSING_ANGLE_RAD else 0.0
+    closing = closing_angle(around, c)
+    upper = _free_angle(around, motion, 1, max(most - (closing or 0.0), 0.0), c.opening)
+    lower = 0.0 if closing == 0 else _free_angle(around, motion, -1, closing or most, c.closing)
+    lower = _whole_degrees(lower) if lower >= MIN_CLOSING_ANGLE_RAD else 0.0
     if upper < MIN_HINGE_RANGE_RAD:
-        upper = most if lower == 0 else 0.0
+        upper = min(most, c.opening) if c.opening >= MIN_FREE_ANGLE_RAD else most
+        upper = upper if lower == 0 else 0.0
     return (0.0 - lower, upper)
+
+
+def _free_angle(around: PartContext, motion: Motion, sign: int, most: float, swept: float) -> float:
+    """Return the free angle up to `most`, in whole degrees where something stops it [rad].
+
+    swept: the free angle found by coarse steps. Fine steps may be too short for a stop to be noticed, so they only shorten it,
+    unless it is that of a blocked motion.
+    """
+    far = min(most, swept) if swept >= MIN_FREE_ANGLE_RAD else most
+    angle, clear = free_amount(around.obstacles_of(motion), motion, sign, far, 3 * around.config.fine_steps)
+    return angle if clear and far == most else _whole_degrees(angle)
 
 
 def _whole_degrees(angle: float) -> float:

@@ -14,6 +14,7 @@ from anymesh.types import JointType, Motion
 ASYMMETRY_ANGLES_DEG = (37, 90, 141, 200, 285)
 MAX_LENGTH_RATIO = 4.0  # upper limit of ratios of lengths, of a part and of its motions
 MAX_HEIGHT_OVER_RADIUS = 8.0
+RIM_RAYS = 300  # rays from the rim of a round part
 ROUND_RIM_RATIO = 0.85  # of the radius: samples farther from the axis belong to the rim of a round part
 
 
@@ -79,7 +80,8 @@ def _free_rim(around: PartContext) -> float:
     arm = points - outline.center
     arm -= (arm @ outline.axis)[:, None] * outline.axis
     radius = np.linalg.norm(arm, axis=1)
-    rim = np.flatnonzero(radius > ROUND_RIM_RATIO * outline.radius)[:300]
+    rim = np.flatnonzero(radius > ROUND_RIM_RATIO * outline.radius)
+    rim = rim[:: max(1, len(rim) // RIM_RAYS)]
     if len(rim) < 3:
         return 0.0
     away = arm[rim] / radius[rim, None]

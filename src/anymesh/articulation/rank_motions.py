@@ -28,26 +28,42 @@ LABEL_PRIOR = {  # [log-odds] added by a label to a hinge, to a rotation about t
 def rank_motions(question: MotionQuestion) -> MotionAnswer:
     """Rank the candidates by score.
 
-    An endless rotation is about the axis of the round outline, if that is the same joint to a user. The confidence comes from
-    the probability of the candidates that a user sees as the best one.
+    An endless rotation is about the axis of the round outline, if that is the same joint to a user; it has no opening side, so
+    its axis keeps the sign that it is proposed with. The confidence comes from the probability of the candidates that a user
+    sees as the best one, without the label, which may be made from the motion.
     """
     scores = motion_scores(question)
     order = [int(i) for i in np.argsort(-scores, kind="stable")]
     same = same_joints(question.part, question.candidates, order[0])
     if question.candidates[order[0]].is_endless:
-        order.sort(key=lambda k: not (same[k] and joint_type(question.candidates[k]) is JointType.CONTINUOUS))
+        order.sort(key=lambda k: _endless_last(question.candidates[k], same=bool(same[k])))
     ranking, best = tuple(order), question.candidates[order[0]]
     if not best.is_free:
         return MotionAnswer(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "no candidate motion is free and plausible")
-    share = np.clip(share_of_best(scores, same), 1e-6, 1 - 1e-6)
+    share = np.clip(share_of_best(_scores_by_geometry(question), same), 1e-6, 1 - 1e-6)
     confidence = confidence_of(float(np.log(share / (1 - share))), CALIBRATION_SLOPE, CALIBRATION_OFFSET)
-    why = f"{reason(question.part, best)}; {question.reason(ranking[0])}"
-    return MotionAnswer(ranking, joint_type(best), confidence, why)
+    return MotionAnswer(ranking, joint_type(best), confidence, described(question, ranking[0]))
+
+
+def _endless_last(c: Candidate, *, same: bool) -> tuple[bool, bool]:
+    """Order candidates: first the same joint about the axis of the round outline, along this axis before against it."""
+    continuous = same and joint_type(c) is JointType.CONTINUOUS
+    return not continuous, continuous and c.opening_sign < 0
+
+
+def described(question: MotionQuestion, k: int) -> str:
+    """Describe candidate k and the features that raised its score the most."""
+    return f"{reason(question.part, question.candidates[k])}; {question.reason(k)}"
+
+
+def _scores_by_geometry(question: MotionQuestion) -> Float[np.ndarray, " k"]:
+    """Return the log-odds of each candidate, with a penalty for blocked motions."""
+    return question.scores + np.array([0.0 if c.is_free else BLOCKED_SCORE for c in question.candidates])
 
 
 def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
     """Return the log-odds of each candidate, with a penalty for blocked motions and a prior from the label."""
-    scores = question.scores + np.array([0.0 if c.is_free else BLOCKED_SCORE for c in question.candidates])
+    scores = _scores_by_geometry(question)
     prior = LABEL_PRIOR.get(typical) if (typical := typical_motion(question.part.label)) else None
     if prior is None:
         return scores

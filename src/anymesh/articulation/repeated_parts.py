@@ -21,7 +21,7 @@ from anymesh.motion.part_context import PartContext
 # maximum component of the offset along the opening direction, over its length, between parts in a row
 MAX_ROW_OFFSET_RATIO = 0.25
 SAME_BALANCE = 0.2  # maximum difference of the feature "balance" of axes in a similar position: through the center, or at a rim
-MIN_SAME_SIDE_PRODUCT = -0.05  # minimum product of the cosines with the opening directions of two motions to the same side
+MIN_SAME_SIDE_PRODUCT = -0.05  # minimum product of two directions or offsets to the same side; 0 is on no side
 UNMATCHED_LOSS = 3.0  # [log-odds] a copy that cannot move in a manner counts as this much below the worst motion of the part
 
 
@@ -113,4 +113,5 @@ def in_one_manner(a: ScoredMotions, b: ScoredMotions) -> Bool[np.ndarray, "n m"]
     same &= a.values["outward"][:, None] * b.values["outward"][None] >= MIN_SAME_SIDE_PRODUCT
     same &= slides | (np.abs(a.values["balance"][:, None] - b.values["balance"][None]) < SAME_BALANCE)
     upright = a.values["vertical"][:, None] > SAME_AXIS_COSINE
-    return same & (slides | upright | (a.values["above"][:, None] * b.values["above"][None] >= 0))
+    level = a.values["above"][:, None] * b.values["above"][None] >= MIN_SAME_SIDE_PRODUCT
+    return same & (slides | upright | level)

@@ -47,8 +47,9 @@ def _broken(path: Path) -> str | None:
 
 
 def _unused(folder: Path) -> Iterator[Finding]:
-    libraries = "\n".join(p.read_text(encoding="utf-8", errors="replace") for p in sorted(folder.glob("*.mtl")))
-    used = {Path(name).name for name in re.findall(r"\S+\.\w+\s*$", libraries, re.M)}
+    """Report pictures that neither a material library nor a description (MJCF needs PNG) names."""
+    naming = [*sorted(folder.glob("*.mtl")), *sorted(folder.parent.glob("*.xml"))]
+    text = "\n".join(p.read_text(encoding="utf-8", errors="replace") for p in naming)
     for path in sorted(folder.iterdir()) if folder.is_dir() else ():
-        if path.suffix.lower() in PICTURES and path.name not in {name.strip() for name in used}:
+        if path.suffix.lower() in PICTURES and not re.search(rf"(?<![\w.-]){re.escape(path.name)}(?![\w.-])", text):
             yield warning(CHECK, path.name, "no material uses this picture")

@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from anymesh.types import Asset, Joint
 
 JOINT_COLUMNS = ("name", "type", "parent", "range", "confidence", "reason")
+ASSET_COLUMNS = ("name", "type", "parent", "range", "part", "confidence", "reason")  # part: confidence that the child is a part
 FILE_WIDTH = 140  # [characters] width of a table that is not printed to a terminal; the default of 80 breaks its cells
 
 
@@ -42,7 +43,8 @@ def joint_row(joint: Joint) -> dict[str, Any]:
 def print_asset(asset: Asset, out: Path, json_: bool, quiet: bool) -> None:
     from anymesh.export.asset_json import usage
 
-    rows = [joint_row(j) for j in asset.joints]
+    part = {p.name: p.confidence for p in asset.segmentation.parts}
+    rows = [{**joint_row(j), "part": part[j.child]} for j in asset.joints]
     record = {
         "name": asset.name,
         "out": str(out),
@@ -59,7 +61,7 @@ def print_asset(asset: Asset, out: Path, json_: bool, quiet: bool) -> None:
     if not (json_ or quiet):
         for line in (*(f"warning: {w}" for w in asset.warnings), *asset.source.notes, *asset.notes):
             typer.echo(plain(line))
-    print_result(record, rows, JOINT_COLUMNS, json_, quiet)
+    print_result(record, rows, ASSET_COLUMNS, json_, quiet)
     if not (json_ or quiet):
         if asset.exchanges:
             typer.echo(_spent(record["usage"], out))

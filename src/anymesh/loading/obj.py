@@ -52,6 +52,8 @@ def read_obj(data: bytes, folder: Folder) -> Mesh:
     materials = _materials(folder, lines.libraries)
     used, order = _numbered([label[2] for label in labels])
     known = [key for key in order if key in materials]
+    if materials and (missing := [key for key in order if key and key not in materials]):
+        folder.warn(f"material {missing[0]!r} is in no material library; its faces have none")
     number = np.array([known.index(key) if key in materials else -1 for key in order], np.int64)
     normal = unit(np.array(lines.vn).reshape(-1, 3)) if lines.vn else None
     return Mesh(

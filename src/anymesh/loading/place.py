@@ -15,6 +15,8 @@ from anymesh.loading.upright import AUTO, AXES, INFER, Up, infer_up, read_up, up
 from anymesh.types import Mesh
 
 PLAUSIBLE = (0.02, 12.0)  # [m] diagonals of typical objects, from a knob to a van
+MAX_EXPECTED = 100.0  # [m] a larger diagonal in the unit of the file gets a warning
+MIN_UP_PROBABILITY = 0.6  # an up axis inferred with less gets a warning
 ABSURD = (0.001, 1000.0)  # [m] a format's unit is ignored beyond these diagonals
 GIVEN = (1e-6, 1e6)  # [m] beyond these diagonals, masses and inertias in an output would be lost in rounding, or overflow
 UNITS = (("millimetres", 0.001), ("centimetres", 0.01), ("inches", 0.0254))
@@ -44,6 +46,8 @@ def place_mesh(loaded: LoadedMesh, *, up: str = "auto", scale: str = "auto", cat
     Raise OptionError for an up or a scale that is not valid.
     """
     direction, up_note = _up(loaded, up)
+    unsure = f"{up_note}: please check, and state it with --up if it is another"
+    doubts = (unsure,) if direction.probability is not None and direction.probability < MIN_UP_PROBABILITY else ()
     R = direction.to_z
     used = np.zeros(len(loaded.mesh.vertices), bool)
     used[loaded.mesh.faces] = True
@@ -55,7 +59,7 @@ def place_mesh(loaded: LoadedMesh, *, up: str = "auto", scale: str = "auto", cat
     low, high = factor * low, factor * high
     T[:3, 3] = -np.array([(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, low[2]])
     metric = factor == loaded.unit_in_metres
-    return PlacedMesh(loaded.mesh.transformed(T), T, direction.name, (up_note, scale_note), warnings, metric)
+    return PlacedMesh(loaded.mesh.transformed(T), T, direction.name, (up_note, scale_note), (*doubts, *warnings), metric)
 
 
 def _up(loaded: LoadedMesh, text: str) -> tuple[Up, str]:
@@ -85,7 +89,8 @@ def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str, category: str | 
         return _scale_of_kind(extents, unit, *prior)
     if unit is not None:
         if ABSURD[0] <= diagonal * unit <= ABSURD[1]:
-            return unit, f"scale {unit:g} (the file's unit)", ()
+            large = f"the file's unit makes the object {diagonal * unit:.3g} m large; if that is wrong, state it with --scale"
+            return unit, f"scale {unit:g} (the file's unit)", (large,) if diagonal * unit > MAX_EXPECTED else ()
         warning = f"the file's unit makes the object {diagonal * unit:.3g} m large; it was scaled to a diagonal of 1 m"
         return 1 / diagonal, f"scale {1 / diagonal:g} (normalised)", (warning,)
     if PLAUSIBLE[0] <= diagonal <= PLAUSIBLE[1]:
@@ -100,13 +105,14 @@ def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str, category: str | 
 def _scale_of_kind(extents: np.ndarray, unit: float | None, kind: str, usual: float) -> tuple[float, str, tuple[str, ...]]:
     """Return the file's unit, or a common one, that gives the object a plausible size for its kind; else the usual size."""
     longest, kind = float(extents.max()), kind.replace("_", " ")
+    a_kind = f"{'an' if kind[:1] in 'aeiou' else 'a'} {kind}"
     units = [("the file's unit", unit)] if unit is not None else [("metres", 1.0), *UNITS]
     for name, factor in units:
         if is_near(longest * factor, usual):
-            return factor, f"scale {factor:g} ({name}; plausible for a {kind})", ()
+            return factor, f"scale {factor:g} ({name}; plausible for {a_kind})", ()
     factor, (name, first) = usual / longest, units[0]
     warning = f"{name} would make the {kind} {longest * first:.3g} m long; it was scaled to {usual:g} m"
-    return factor, f"scale {factor:g} (size prior: a {kind} is about {usual:g} m long)", (warning,)
+    return factor, f"scale {factor:g} (size prior: {a_kind} is about {usual:g} m long)", (warning,)
 
 
 def _given_scale(extents: np.ndarray, scale: str) -> tuple[float, str]:

@@ -12,7 +12,7 @@ from anymesh import pipeline
 from anymesh.errors import AnymeshError, BudgetError, InputError, MissingExtraError, OpenQuestionError, OptionError, OutputError
 from anymesh.files import read_json
 from anymesh.loading.checks import FORMATS
-from anymesh.pipeline.answering import FILES
+from anymesh.pipeline.answering import FILES, resolve_auto
 from anymesh.pipeline.options import GEOMETRY
 from anymesh.progress import Progress, silent
 from anymesh.vlm.budget import Spent
@@ -47,7 +47,7 @@ def articulate_many(
     Raise OptionError for meshes with the same name, BudgetError if the common budget is exceeded.
     """
     files = mesh_files(meshes)
-    answerer, spent = str(options.pop("answerer", GEOMETRY)), Spent()
+    answerer, spent = resolve_auto(str(options.pop("answerer", GEOMETRY)))[0], Spent()
     outcomes = []
     for number, (name, path) in enumerate(files.items()):
         progress("batch", name, number, len(files))

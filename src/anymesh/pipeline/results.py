@@ -11,7 +11,7 @@ from anymesh.types import Exchange, Joint, Mesh, Segmentation, Source
 from anymesh.types.recognition import Recognition
 
 Record = dict[str, Any]  # a JSON object
-LOW_CONFIDENCE = 0.4  # warnings name joints below this confidence
+LOW_CONFIDENCE = 0.4  # warnings name parts and joints below this confidence
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,9 +104,14 @@ class CorrectionResult:
 def segmentation_result(
     segmentation: Segmentation, answerer: str, warnings: tuple[str, ...] = (), exchanges: tuple[Exchange, ...] = ()
 ) -> SegmentationResult:
-    """Return the result of Stage A, with a warning if there is no part but the base."""
+    """Return the result of Stage A, with a warning for each part of low confidence, and if there is none but the base."""
     none = ("no moving part was found",) if len(segmentation.parts) == 1 else ()
-    return SegmentationResult(segmentation, answerer, (*warnings, *none), exchanges)
+    unsure = tuple(
+        f"part {p.name}: low confidence ({p.confidence:.2f}) that it moves by itself, please check"
+        for p in segmentation.parts[1:]
+        if p.confidence < LOW_CONFIDENCE
+    )
+    return SegmentationResult(segmentation, answerer, (*warnings, *none, *unsure), exchanges)
 
 
 def joint_result(

@@ -87,6 +87,7 @@ def draw(
     """Shade the surfaces, draw the lines, and put the result over the background `behind`."""
     color = base + (SHEEN - SHEEN / 255 * np.maximum(np.maximum(base[:, 0], base[:, 1]), base[:, 2]))[:, None]
     color *= light[:, None]
+    np.minimum(color, 255, out=color)
     nothing = np.flatnonzero(samples.hits.face < 0)
     pixel = samples.split[(nothing - len(samples.plain)) // GRID**2]
     color[nothing] = behind.reshape(-1, 3)[pixel]

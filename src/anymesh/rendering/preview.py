@@ -134,14 +134,16 @@ def extent(joint: Joint) -> str:
     return f"{np.degrees(joint.limits[0]):.0f}..{np.degrees(joint.limits[1]):.0f} deg"
 
 
-def describe(joint: Joint) -> str:
-    """Describe a joint in one line: type, range, confidence."""
-    return f"{joint.child}: {joint.type.value} {extent(joint)}, confidence {joint.confidence:.2f}"
+def describe(joint: Joint, part: float) -> str:
+    """Describe a joint in one line: type, range, confidence. part: confidence that its child is a part, 1 if that is given."""
+    sure = f"confidence {joint.confidence:.2f}" if part == 1 else f"part {part:.2f}, joint {joint.confidence:.2f}"
+    return f"{joint.child}: {joint.type.value} {extent(joint)}, {sure}"
 
 
 def _legend(asset: Asset, width: int) -> UInt8[np.ndarray, "h W 3"]:
     letters = font(LETTERS)
-    lines = [describe(j) for j in asset.joints[:MAX_LEGEND_JOINTS]]
+    part = {p.name: p.confidence for p in asset.segmentation.parts}
+    lines = [describe(j, part[j.child]) for j in asset.joints[:MAX_LEGEND_JOINTS]]
     if len(asset.joints) > MAX_LEGEND_JOINTS:
         lines.append(f"and {len(asset.joints) - MAX_LEGEND_JOINTS} more")
     rows = (max(len(lines), 1) + 2) // 3

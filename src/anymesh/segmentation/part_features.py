@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Float
 
 from anymesh.config import FACING_COSINE, Config
 from anymesh.motion.part_context import PartContext
@@ -23,17 +23,20 @@ MAX_RATIO = 8.0  # upper limit of ratios of lengths
 class FeatureInputs:
     """What the features of all candidates of an object are computed from.
 
-    material: (R,) material of each face of `candidates.whole`.
+    material: (P, M) area of each material, or of none, on each patch [m^2].
     """
 
     candidates: PartCandidates
     config: Config
-    material: Int[np.ndarray, " R"]
+    material: Float[np.ndarray, "P M"]
 
     @classmethod
     def of(cls, mesh: Mesh, candidates: PartCandidates, config: Config) -> FeatureInputs:
         """Build the data of a mesh and its candidates."""
-        return cls(candidates, config, mesh.face_material[candidates.whole.source])
+        patch, material = candidates.whole.mesh_patch, mesh.face_material + 1
+        shape = int(patch.max()) + 1, int(material.max()) + 1
+        area = np.bincount(patch * shape[1] + material, mesh.face_areas, shape[0] * shape[1])
+        return cls(candidates, config, area.reshape(shape))
 
 
 def candidate_context(inputs: FeatureInputs, candidate: int) -> PartContext | None:
@@ -188,14 +191,12 @@ def _copies(inputs: FeatureInputs, candidate: int, around: PartContext) -> dict[
 
 def _material(inputs: FeatureInputs, candidate: int, around: PartContext) -> dict[str, float]:
     """Return how well the part's most frequent material separates it from the rest."""
-    whole, count = inputs.candidates.whole, int(inputs.material.max()) + 2
-    moving = inputs.candidates.members[candidate][whole.patch]
-    mine = np.bincount(inputs.material[moving] + 1, whole.shape.areas[moving], count)
-    rest = np.bincount(inputs.material[~moving] + 1, whole.shape.areas[~moving], count)
+    total = inputs.material.sum(0)
+    mine = inputs.candidates.members[candidate] @ inputs.material
     k = int(mine.argmax())
     return {
-        "materials": float(np.log1p(((mine + rest) > 0).sum())),
-        "material of its own": float(mine[k] / max(mine[k] + rest[k], 1e-300)),
+        "materials": float(np.log1p((total > 0).sum())),
+        "material of its own": float(mine[k] / max(total[k], 1e-300)),
     }
 
 

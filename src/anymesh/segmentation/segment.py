@@ -55,22 +55,29 @@ def segment_parts(
     score, reasons = score_parts(examined, place, features)
     words = [shared_name(examined, k) for k in range(len(score))]
     score = score + np.array([NAME_SCORE[name_class(word)] for word in words])
-    for _ in range(MAX_ASSIGNMENTS):
-        chosen = _chosen_at_least(examined, score, assign_parts(examined.overlap, score), settings.at_least)
-        face_part, order = _face_part(mesh, examined, chosen)
-        while order and face_part.all():  # something must remain: the largest part becomes the base
-            face_part, order = _face_part(mesh, examined, [k for k in order if k != order[0]])
-        known = [word.label if (word := recognize(words[k])) else "" for k in order]
+    known = [word.label if (word := recognize(w)) else "" for w in words]
+
+    def segmentation(face_part: Int[np.ndarray, " F"], order: list[int], labels: list[str]) -> Segmentation:
         confidence = [confidence_of(float(score[k]), CALIBRATION_SLOPE, CALIBRATION_OFFSET) for k in order]
         why = [_reason(learned, words[k], score[k]) for k, learned in zip(order, reasons(order), strict=True)]
-        labels = label_parts(named_parts(face_part, [label or "part" for label in known], mesh.face_areas, confidence, why))
-        still = [n for n, label in enumerate(labels, start=1) if not label]
-        if not still or deadline.late(SEGMENT):
+        return named_parts(face_part, [known[k] or label for k, label in zip(order, labels, strict=True)], mesh.face_areas,
+                           confidence, why)  # fmt: skip
+
+    free = score.copy()  # -inf for candidates that turned out to be fixed
+    for _ in range(MAX_ASSIGNMENTS):
+        chosen = _filled(examined, free, assign_parts(examined.overlap, free), settings.at_least)
+        face_part, order = _face_part(mesh, examined, chosen)
+        labels = list(label_parts(segmentation(face_part, order, ["part"] * len(order))))
+        fixed = [k for k, label in zip(order, labels, strict=True) if not label]
+        if not fixed or deadline.late(SEGMENT):
             break
-        score[[order[n - 1] for n in still]] = -np.inf  # the same part with its handle, or another one, may move
-    face_part = np.where(np.isin(face_part, still), 0, face_part)
-    labels = [named or label for named, label in zip(known, labels, strict=True)]
-    return named_parts(face_part, labels, mesh.face_areas, confidence, why)
+        free[fixed] = -np.inf  # the same part with its handle, or another one, may move
+    moving = {k: label for k, label in zip(order, labels, strict=True) if label}
+    if len(moving) < settings.at_least:
+        face_part, order = _face_part(mesh, examined, _filled(examined, score, list(moving), settings.at_least))
+        labels = [moving.get(k, "part") for k in order]
+    still = [n for n, label in enumerate(labels, start=1) if not label]
+    return segmentation(np.where(np.isin(face_part, still), 0, face_part), order, labels)
 
 
 def examine_candidates(
@@ -104,7 +111,7 @@ def _reason(learned: str, name: str, score: float) -> str:
     return "; ".join([*reasons, learned])
 
 
-def _chosen_at_least(candidates: PartCandidates, score: Float[np.ndarray, " n"], chosen: list[int], count: int) -> list[int]:
+def _filled(candidates: PartCandidates, score: Float[np.ndarray, " n"], chosen: list[int], count: int) -> list[int]:
     """Add the best other candidates without conflicts until there are at least `count`."""
     if len(chosen) >= count:
         return chosen
@@ -118,7 +125,8 @@ def _chosen_at_least(candidates: PartCandidates, score: Float[np.ndarray, " n"],
 def _face_part(mesh: Mesh, candidates: PartCandidates, chosen: list[int]) -> tuple[Int[np.ndarray, " F"], list[int]]:
     """Return a part index per face, 0 for the base, and the candidates in part order.
 
-    The largest come first, without the faces of parts that they carry. Candidates without faces of their own are left out.
+    The largest come first, without the faces of parts that they carry. Candidates without faces of their own are left out, and
+    the largest becomes the base if nothing else is left for it.
     """
     owner = np.full(len(candidates.contacts.shapes), -1)
     for k in sorted(chosen, key=lambda k: (-candidates.area[k], k)):
@@ -129,4 +137,7 @@ def _face_part(mesh: Mesh, candidates: PartCandidates, chosen: list[int]) -> tup
     order.sort(key=lambda k: (-area[k], k))
     number = np.zeros(len(candidates.members) + 1, np.int64)
     number[np.array(order, np.int64) + 1] = np.arange(1, len(order) + 1)
-    return number[of_face + 1], order
+    face_part = number[of_face + 1]
+    if order and face_part.all():
+        return _face_part(mesh, candidates, order[1:])
+    return face_part, order

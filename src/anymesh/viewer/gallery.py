@@ -45,7 +45,7 @@ class Filter(StrEnum):
 
 @dataclass(frozen=True)
 class Item:
-    """An output. key: its path below the folder; confidence: of its least confident joint, 0 if nothing moves."""
+    """An output. key: its path below the folder; confidence: of its least confident part or joint, 0 if nothing moves."""
 
     key: str
     folder: Path
@@ -135,6 +135,7 @@ def _item(folder: Path, path: Path) -> Item | None:
     if record is None:
         return None
     sure = [float(j["confidence"]) for j in record.get("joints", ())]
+    sure += [float(p.get("confidence", 1.0)) for p in record.get("parts", ())[1:]] if sure else []
     digest = hashlib.sha256((path / "asset.json").read_bytes()).hexdigest()[:16]
     key = path.relative_to(folder).as_posix()
     return Item(
