@@ -13,7 +13,7 @@ import torch
 from jaxtyping import Float
 from torch import nn
 
-from anymesh.scoring.set_network import HEADS, SetNetwork, place_pairs, place_tokens, scaled
+from anymesh.scoring.set_network import HEADS, SetNetwork, place_pairs, place_tokens, scaled, turned
 
 WIDTH, HIDDEN, PAIR_HIDDEN, LAYERS = 48, 96, 24, 3
 KNOTS, KNOT_ROWS = 33, 60  # quantiles of a feature, and candidates of an object that they are taken over
@@ -69,19 +69,6 @@ class Network(nn.Module):
         return self.score(self.norm(state))[:, 0]
 
 
-def turned(place: Float[np.ndarray, "n 12"], rng: np.random.Generator) -> Float[np.ndarray, "n 12"]:
-    """Turn an object by quarter turns about the upright axis, and mirror it half of the time."""
-    vectors = place.reshape(-1, 4, 3).copy()
-    for _ in range(int(rng.integers(4))):
-        vectors[..., 0], vectors[..., 1] = -vectors[..., 1], vectors[..., 0].copy()
-    if rng.random() < 0.5:
-        vectors[..., 0] *= -1
-    vectors[:, 1] = np.abs(vectors[:, 1])  # extents
-    largest = np.take_along_axis(vectors[:, 3], np.abs(vectors[:, 3]).argmax(1)[:, None], 1)
-    vectors[:, 3] *= np.sign(largest)
-    return vectors.reshape(-1, 12)
-
-
 def knots_of(sets: Sequence[CandidateSet]) -> Float[np.ndarray, "q k"]:
     """Return the quantiles of each own feature."""
     some = np.concatenate([s.own[:: max(1, len(s.own) // KNOT_ROWS)] for s in sets])
@@ -108,7 +95,7 @@ def train(sets: Sequence[CandidateSet], epochs: int, seed: int) -> SetNetwork:
                 s, count = sets[k], len(own[k])
                 share = rng.uniform(LEAST_SHARE, 1)
                 some = np.sort(rng.permutation(count)[: min(MOST, max(1, round(count * share)))])
-                place = turned(s.place[some], rng)
+                place = turned(s.place[some], int(rng.integers(4)), mirrored=rng.random() < 0.5)
                 pairs = np.concatenate([s.relations[np.ix_(some, some)], place_pairs(place)], 2, dtype=np.float32)
                 tokens = np.concatenate([own[k][some], place_tokens(place)], 1, dtype=np.float32)
                 score = network(torch.from_numpy(tokens), torch.from_numpy(pairs))

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from anymesh.scoring.set_network import HEADS, SetNetwork, place_pairs, scaled
+from anymesh.scoring.set_network import HEADS, SetNetwork, place_pairs, scaled, turned
 
 WIDTH, HIDDEN, PAIR_HIDDEN, OWN, RELATIONS = 8, 6, 5, 3, 2
 
@@ -69,6 +69,14 @@ def test_arrays_are_read_as_they_were_written() -> None:
     again = SetNetwork.from_arrays("network1", once.arrays("network1"))
     assert once.score(*some).tolist() == again.score(*some).tolist()
     np.testing.assert_allclose(once.score(*some), written.score(*some), atol=0.02)  # in half precision
+
+
+def test_places_turn_with_the_object() -> None:
+    """Center, half extents, opening direction and thin axis, whose largest component is positive."""
+    place = np.array([[0.1, 0.2, 0.3, 1, 2, 3, 0, -1, 0, 0.6, 0, 0.8]])
+    assert turned(place, 1).tolist() == [[-0.2, 0.1, 0.3, 2, 1, 3, 1, 0, 0, 0, 0.6, 0.8]]
+    assert turned(place, 1, mirrored=True).tolist() == [[0.2, 0.1, 0.3, 2, 1, 3, -1, 0, 0, 0, 0.6, 0.8]]
+    np.testing.assert_array_equal(turned(place, 4), place)
 
 
 def test_features_are_scaled_by_their_quantiles() -> None:

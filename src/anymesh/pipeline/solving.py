@@ -6,9 +6,12 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
+import numpy as np
+
 from anymesh.config import Config
 from anymesh.deadline import Deadline
 from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.yaw import straightening
 from anymesh.pipeline.geometry_stages import GeometryStages
 from anymesh.pipeline.prompted_stages import PromptedStages
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, segmentation_result
@@ -52,8 +55,8 @@ class StageAnswerer(Protocol):
 class Solver:
     """Stage A and Stage B for one placed mesh [m, Z up].
 
-    `answerer_factory` makes the visual answerer; without it geometry answers. The warnings of each stage include what was left
-    out after the deadline.
+    `answerer_factory` makes the visual answerer; without it geometry answers, in a frame that is turned about the vertical so
+    that the object is straight. The warnings of each stage include what was left out after the deadline.
     """
 
     def __init__(
@@ -66,14 +69,17 @@ class Solver:
         config = config or Config()
         if answerer_factory is not None:  # the geometry answerer finds no more with finer patches (docs/decisions.md)
             config = replace(config, patches=replace(config.patches, seams=True))
-        self.mesh, self.geometry = mesh, GeometryStages(mesh, config, deadline or Deadline())
+        self.mesh = mesh
+        self._T_straight = np.eye(4) if answerer_factory is not None else straightening(mesh.face_normals, mesh.face_areas)
+        straight = mesh if (self._T_straight == np.eye(4)).all() else mesh.transformed(self._T_straight)
+        self.geometry = GeometryStages(straight, config, deadline or Deadline())
         self.answers: StageAnswerer = (
             self.geometry if answerer_factory is None else PromptedStages(self.geometry, answerer_factory)
         )
 
     @property
     def whole(self) -> ObjectShape:
-        """Return the object as both stages use it."""
+        """Return the object as both stages use it, in their frame."""
         return self.geometry.whole
 
     def recognize(self, *, sized: bool = False, metric: bool = False) -> RecognitionResult:
@@ -101,7 +107,10 @@ class Solver:
         grounded: bool = False,
     ) -> JointResult:
         """Run Stage B, see `StageAnswerer`."""
-        return self.answers.estimate_joints(segmentation, recognition, progress, grounded)
+        found, R = self.answers.estimate_joints(segmentation, recognition, progress, grounded), self._T_straight[:3, :3]
+        if (np.eye(3) == R).all():
+            return found
+        return replace(found, joints=tuple(replace(j, origin=j.origin @ R, axis=j.axis @ R) for j in found.joints))
 
 
 def solve(

@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.scoring.boosted_trees import BoostedTrees
-from anymesh.scoring.set_network import SetNetwork
+from anymesh.scoring.set_network import SetNetwork, turned
 
 REASONS = 3  # number of features named in a reason
 MIN_CONFIDENCE, MAX_CONFIDENCE = 0.05, 0.99  # range of confidences
@@ -54,11 +54,12 @@ class Classifier:
     def score_together(
         self, own: Float[np.ndarray, "n k"], place: Float[np.ndarray, "n 12"], relations: Float[np.ndarray, "n n r"]
     ) -> Float[np.ndarray, " n"]:
-        """Return the log-odds of each candidate among all of its object, by the networks.
+        """Return the log-odds of each candidate among all of its object, by the networks, whichever way the object faces.
 
         place: as from `PartContext.place`; relations: features of each pair.
         """
-        return np.mean([network.score(own, place, relations) for network in self.networks], axis=0)
+        ways = [turned(place, quarters) for quarters in range(4)]
+        return np.mean([network.score(own, way, relations) for network in self.networks for way in ways], axis=0)
 
     def reasons(self, own: Float[np.ndarray, "n k"]) -> list[str]:
         """Return the names of the features that raised each score by the trees the most."""

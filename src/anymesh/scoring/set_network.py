@@ -98,6 +98,19 @@ def scaled(own: Float[np.ndarray, "n k"], knots: Float[np.ndarray, "q k"]) -> Fl
     return np.stack(columns, 1).astype(np.float32)
 
 
+def turned(place: Float[np.ndarray, "n 12"], quarters: int, *, mirrored: bool = False) -> Float[np.ndarray, "n 12"]:
+    """Return the places in an object that is turned by quarter turns about the upright axis, then mirrored along x."""
+    vectors = place.reshape(-1, 4, 3).copy()
+    for _ in range(quarters):
+        vectors[..., 0], vectors[..., 1] = -vectors[..., 1], vectors[..., 0].copy()
+    if mirrored:
+        vectors[..., 0] *= -1
+    vectors[:, 1] = np.abs(vectors[:, 1])  # extents
+    largest = np.take_along_axis(vectors[:, 3], np.abs(vectors[:, 3]).argmax(1)[:, None], 1)
+    vectors[:, 3] *= np.where(largest < 0, -1, 1)
+    return vectors.reshape(-1, 12)
+
+
 def place_tokens(place: Float[np.ndarray, "n 12"]) -> Float[np.ndarray, "n 12"]:
     """Return the place of each candidate as inputs of similar size."""
     return place * np.repeat(PLACE_SCALES, 3)

@@ -1,0 +1,31 @@
+"""Test that parts and joints without a model do not depend on the yaw of the object."""
+
+import numpy as np
+import pytest
+from assets import box, mesh_of
+
+from anymesh.evaluation.changes import rotation
+from anymesh.pipeline.solving import solve
+
+# a case with two doors in front of it
+WALLS = [((0, 0, 0), (0.02, 0.4, 0.8)), ((0.78, 0, 0), (0.8, 0.4, 0.8)), ((0, 0.38, 0), (0.8, 0.4, 0.8))]
+ENDS = [((0, 0, 0), (0.8, 0.4, 0.02)), ((0, 0, 0.78), (0.8, 0.4, 0.8)), ((0, 0, 0.4), (0.8, 0.4, 0.42))]
+DOORS = [((0.003, -0.022, 0.003), (0.398, -0.002, 0.797)), ((0.402, -0.022, 0.003), (0.797, -0.002, 0.797))]
+KNOBS = [((0.36, -0.05, 0.5), (0.375, -0.022, 0.53)), ((0.425, -0.05, 0.5), (0.44, -0.022, 0.53))]
+CUPBOARD = mesh_of([box(*corners) for corners in (*WALLS, *ENDS, *DOORS, *KNOBS)])[0]
+
+
+@pytest.mark.parametrize("degrees", [17, 90, 133])
+def test_a_cupboard_has_the_same_doors_whichever_way_it_faces(degrees: float) -> None:
+    R = rotation(np.array([0.0, 0, 1]), np.deg2rad(degrees))
+    parts, joints = solve(CUPBOARD)
+    turned_parts, turned_joints = solve(CUPBOARD.transformed(R))
+    assert len(parts.parts) == 3
+    same = {number: int(turned_parts.face_part[parts.faces(number)[0]]) for number in (1, 2)}  # equal doors in any order
+    np.testing.assert_array_equal(np.array([0, same[1], same[2]])[parts.face_part], turned_parts.face_part)
+    for number, joint in enumerate(joints, start=1):
+        turned = turned_joints[same[number] - 1]
+        assert turned.type is joint.type
+        np.testing.assert_allclose(turned.axis, R[:3, :3] @ joint.axis, atol=1e-6)
+        np.testing.assert_allclose(turned.origin, R[:3, :3] @ joint.origin, atol=2e-3)
+        assert turned.limits == pytest.approx(joint.limits, abs=0.04)
