@@ -20,7 +20,7 @@ from anymesh.articulation.part_contexts import part_context
 from anymesh.articulation.rank_motions import described, rank_motions
 from anymesh.articulation.repeated_parts import in_a_row, same_size, share_opening_directions
 from anymesh.articulation.tree import parents
-from anymesh.config import ArticulationConfig, Config
+from anymesh.config import SAME_AXIS_COSINE, ArticulationConfig, Config
 from anymesh.deadline import JOINTS, Deadline
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.sweep import free_amount
@@ -29,8 +29,6 @@ from anymesh.types import Joint, JointType, Motion, Segmentation
 
 MIN_RIM_THICKNESS_RATIO = 0.01  # of the tolerance length: minimum thickness of a rim
 MAX_RIM_THICKNESSES = 1.5  # hinge lines within this multiple of the rim's thickness are at one rim
-WIDE_OPENING_RAD = np.deg2rad(110)  # [rad] larger openings are not compared
-MIN_RIM_COSINE = 0.999  # minimum cosine between the axes of such lines
 TIGHT_PENETRATION_SCALE = 0.2  # penetration scale for the clearance to neighbours, which is a few millimetres
 MAX_COPIES = 8  # maximum number of copies whose motions are compared with those of a part
 MIN_OPENING_GAIN_RAD = np.deg2rad(5)  # [rad] minimum gain in opening angle
@@ -121,20 +119,21 @@ def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Can
     if best.role not in BOX_RIM_ROLES or not around.other_parts:
         return best
     near = replace(around.obstacles_with_others, tolerance=TIGHT_PENETRATION_SCALE * around.penetration)
+    widest = float(np.deg2rad(around.config.door_most))
     thickness = max(2 * float(around.body_obb.half[2]), MIN_RIM_THICKNESS_RATIO * around.tolerance_length)
 
     def opens(c: Candidate) -> float:
-        return free_amount(near, c.opening_motion, 1, min(c.opening, WIDE_OPENING_RAD), around.config.sweep_steps)[0]
+        return free_amount(near, c.opening_motion, 1, min(c.opening, widest), around.config.sweep_steps)[0]
 
     alike = [c for c in candidates if c is best or (c.role in BOX_RIM_ROLES and c.outward * best.outward > 0)]
     alternatives = [c for c in alike if _at_one_rim(best, c, thickness)]
     free = {id(c): opens(c) for c in alternatives}
-    widest = max(free.values())
-    return best if free[id(best)] > widest - MIN_OPENING_GAIN_RAD else next(c for c in alternatives if free[id(c)] == widest)
+    most = max(free.values())
+    return best if free[id(best)] > most - MIN_OPENING_GAIN_RAD else next(c for c in alternatives if free[id(c)] == most)
 
 
 def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
-    if abs(float(a.motion.axis @ b.motion.axis)) < MIN_RIM_COSINE:
+    if abs(float(a.motion.axis @ b.motion.axis)) < SAME_AXIS_COSINE:
         return False
     return bool(a.motion.distance(b.motion.origin[None])[0] < MAX_RIM_THICKNESSES * thickness)
 

@@ -20,9 +20,8 @@ from anymesh.geometry.revolution import fit_revolution
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 
-# near-duplicates of a motion: minimum cosine between the axes, maximum distance of the lines over the tolerance length
-DUPLICATE_COSINE, DUPLICATE_LINE_RATIO = np.cos(np.deg2rad(1.0)), 0.004
-DUPLICATE_FITTED_COSINE, DUPLICATE_FITTED_LINE_RATIO = np.cos(np.deg2rad(2.0)), 0.008  # the same of axes fitted to a contact
+# near-duplicates of a motion: maximum angle between the axes, maximum distance of the lines over the tolerance length
+DUPLICATE_ANGLE_RAD, DUPLICATE_LINE_RATIO = np.deg2rad(1.0), 0.004
 MIN_PIVOTS_APART_RATIO = 0.36  # of the part's diagonal: minimum distance of two pivots
 MAX_PIVOT_WIDTH_RATIO = 0.35  # of their distance: maximum width of the contact at a pivot
 MIN_REVOLUTION = 0.25  # of the surfaces in contact: least share that turns in place about their axis
@@ -123,7 +122,7 @@ def barrels(around: PartContext) -> list[ProposedMotion]:
     axes = []
     for component in around.barrel_candidates:
         seen = outline_about(np.concatenate([component.corners, component.samples.points]), component.box.axes[0])
-        if seen.roundness > 0.85 and seen.height > 2 * seen.radius:
+        if seen.roundness > 0.85:
             axes.append(("barrel", hinge_about(seen.axis, seen.center, "axis of a hinge barrel")))
     return axes
 
@@ -157,9 +156,8 @@ def distinct(candidates: Iterable[ProposedMotion], tolerance_length: float) -> l
     """
     kept: list[ProposedMotion] = []
     for role, motion in candidates:
-        fitted = role == "surface"
-        cosine = DUPLICATE_FITTED_COSINE if fitted else DUPLICATE_COSINE
-        distance = (DUPLICATE_FITTED_LINE_RATIO if fitted else DUPLICATE_LINE_RATIO) * tolerance_length
+        factor = 2 if role == "surface" else 1  # a fit is less exact
+        cosine, distance = np.cos(factor * DUPLICATE_ANGLE_RAD), factor * DUPLICATE_LINE_RATIO * tolerance_length
         if not any(_same(motion, other, cosine, distance) for _, other in kept):
             kept.append((role, motion))
     return kept

@@ -39,11 +39,8 @@ def merged_groups(contacts: Contacts, group: Int[np.ndarray, " P"]) -> list[list
     heapq.heapify(queue)
     merged, alive = [], set(area)
     while queue:
-        value, i, j = heapq.heappop(queue)
+        _, i, j = heapq.heappop(queue)
         if i not in alive or j not in alive:
-            continue
-        if (now := -strength(i, j)) > value + 1e-12:
-            heapq.heappush(queue, (now, i, j))
             continue
         new = len(members)
         members[new], area[new] = members[i] + members[j], area[i] + area[j]
