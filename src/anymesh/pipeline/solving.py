@@ -107,10 +107,10 @@ class Solver:
         grounded: bool = False,
     ) -> JointResult:
         """Run Stage B, see `StageAnswerer`."""
-        found, R = self.answers.estimate_joints(segmentation, recognition, progress, grounded), self._T_straight[:3, :3]
+        result, R = self.answers.estimate_joints(segmentation, recognition, progress, grounded), self._T_straight[:3, :3]
         if (np.eye(3) == R).all():
-            return found
-        return replace(found, joints=tuple(replace(j, origin=j.origin @ R, axis=j.axis @ R) for j in found.joints))
+            return result
+        return replace(result, joints=tuple(replace(j, origin=j.origin @ R, axis=j.axis @ R) for j in result.joints))
 
 
 def solve(
