@@ -149,3 +149,12 @@ def test_a_knob_is_of_the_body_if_it_is_wide_or_has_much_surface_or_is_low(side:
     """Above 12 % of the surface across its axis, a quarter of the whole surface, or below a hundredth of the diagonal."""
     found = body_obb(plate_with_knob(2, 1, side, height))
     assert 8 * found.half.prod() == pytest.approx(0.08 if cut else 0.8 * (0.1 + height), abs=1e-6)
+
+
+@pytest.mark.parametrize("thickness", [0.0, 0.01])
+def test_the_box_of_a_sheet_leaves_out_its_knob_as_that_of_a_board_does(thickness: float) -> None:
+    """A door of 0.6 x 1 m of one sheet, or of a board, with a knob of 4 cm."""
+    sheet = np.array([[0.0, 0, 0], [0.6, 0, 0], [0.6, 0, 1], [0, 0, 1]]), np.array([[0, 1, 2], [0, 2, 3]])
+    leaf = box((0, -thickness, 0), (0.6, 0, 1)) if thickness else sheet
+    found = body_obb(shape_of(leaf, box((0.5, -0.05 - thickness, 0.5), (0.54, -0.01 - thickness, 0.54))))
+    assert found.half == pytest.approx([0.5, 0.3, thickness / 2], abs=1e-6)

@@ -31,8 +31,6 @@ def body_obb(shape: TriangleSet) -> OrientedBox:
             beyond = points_above(local, heights, level + tolerance / 2)
             if 0 < share < MAX_PROTRUSION_RATIO and _is_narrow(beyond, corners, axis):
                 edge[axis] = sign * level
-    if (high - low < 1e-9).any():
-        return shape.box
     ends = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
     return box_in_frame(ends @ frame, frame)
 
