@@ -143,15 +143,18 @@ def estimate_joint(around: PartContext, name: str, parent: str, question: Motion
     answer, best = choose_motion(around, question)
     if answer.type is not JointType.FIXED:
         opened = away_from_closed(around, best)
-        same = (
-            k for k, c in enumerate(question.candidates) if (c.motion, c.opening_sign) == (opened.motion, opened.opening_sign)
-        )
-        why = described(question, next(same, answer.ranking[0]))
+        why = described(question, _index_of(opened, question.candidates, answer.ranking[0]))
         return joint_of(around, name, parent, opened, answer.type, answer.confidence, why)
     # the part is known to move, so a fixed answer is replaced by the best motion
     return joint_of(
         around, name, parent, best, best.motion.kind, answer.confidence, f"{answer.reason}; most likely: {best.motion.source}"
     )
+
+
+def _index_of(c: Candidate, candidates: tuple[Candidate, ...], otherwise: int) -> int:
+    """Return the index of the candidate with the motion and the opening direction of `c`."""
+    same = (k for k, other in enumerate(candidates) if other.motion is c.motion and other.opening_sign == c.opening_sign)
+    return next(same, otherwise)
 
 
 def joint_of(

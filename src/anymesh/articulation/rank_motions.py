@@ -36,7 +36,7 @@ def rank_motions(question: MotionQuestion) -> MotionAnswer:
     order = [int(i) for i in np.argsort(-scores, kind="stable")]
     same = same_joints(question.part, question.candidates, order[0])
     if question.candidates[order[0]].is_endless:
-        order.sort(key=lambda k: _endless_last(question.candidates[k], same=bool(same[k])))
+        order.sort(key=lambda k: _order_of_endless(question.candidates[k], same=bool(same[k])))
     ranking, best = tuple(order), question.candidates[order[0]]
     if not best.is_free:
         return MotionAnswer(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "no candidate motion is free and plausible")
@@ -45,7 +45,7 @@ def rank_motions(question: MotionQuestion) -> MotionAnswer:
     return MotionAnswer(ranking, joint_type(best), confidence, described(question, ranking[0]))
 
 
-def _endless_last(c: Candidate, *, same: bool) -> tuple[bool, bool]:
+def _order_of_endless(c: Candidate, *, same: bool) -> tuple[bool, bool]:
     """Order candidates: first the same joint about the axis of the round outline, along this axis before against it."""
     continuous = same and joint_type(c) is JointType.CONTINUOUS
     return not continuous, continuous and c.opening_sign < 0
