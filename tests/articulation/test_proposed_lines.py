@@ -194,7 +194,8 @@ def test_of_the_lines_at_one_rim_the_one_that_clears_the_neighbours_is_chosen() 
     leaf, other = [box((0, -0.022, 0), (0.6, -0.002, 0.8))], [box((-0.6, -0.022, 0), (-0.001, -0.002, 0.8))]
     around = context(leaf, [box((-0.6, 0, 0), (0.6, 0.4, 0.8))], other)
     back, front = (replace(EDGE, motion=turn(Z, (0, y, 0)), opening_sign=-1) for y in (-0.002, -0.022))
-    question = MotionQuestion(PartFacts.of(around, "part"), (back, front), np.array([3.0, 0]), lambda _: "")
+    question = MotionQuestion(PartFacts.of(around, "part"), (back, front), np.array([3.0, 0]), lambda k: f"line {k}")
     assert choose_motion(around, question)[1] is front
+    assert estimate_joint(around, "a", "base", question).reason.endswith("line 1")  # of the joint that is written
     alone = replace(around, other_parts=())
     assert choose_motion(alone, question)[1] is back

@@ -118,6 +118,20 @@ def test_a_material_of_its_own_sets_a_part_apart(materials: list[int], number: i
     assert f["material of its own"] == pytest.approx(own, abs=0.01)
 
 
+def test_the_materials_of_a_dense_plate_are_those_of_all_its_faces() -> None:
+    """It is simplified for the features; a third of it has another material."""
+    n = 110
+    x, y = (a.reshape(-1) for a in np.mgrid[: n + 1, : n + 1] / n)
+    i, j = (a.reshape(-1) for a in np.mgrid[:n, :n])
+    a, b, c, d = i * (n + 1) + j, (i + 1) * (n + 1) + j, (i + 1) * (n + 1) + j + 1, i * (n + 1) + j + 1
+    plate = np.stack([x, y, 1.01 + 0 * x], 1), np.concatenate([np.stack([a, b, c], 1), np.stack([a, c, d], 1)])
+    mesh, piece = mesh_of([box((0, 0, 0), (1, 1, 1)), plate])
+    material = np.where(piece == 0, 0, 1 + (mesh.triangles[:, :, 0].mean(1) > 2 / 3))
+    f = features(replace(mesh, face_material=material, materials=tuple(Material(f"m{k}") for k in range(3))), {1})
+    assert f["materials"] == pytest.approx(np.log1p(3))
+    assert f["material of its own"] == pytest.approx(1)
+
+
 def framed(left: float, back: float | None = None, plate=(0.6, 0.03, 0.6)) -> PartContext:
     """Return a plate in a frame with clearances of 4 mm, but for its left side; a wall stands at a distance behind it."""
     w, d, h = plate
