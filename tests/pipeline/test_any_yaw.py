@@ -21,8 +21,10 @@ def test_a_cupboard_has_the_same_doors_whichever_way_it_faces(degrees: float) ->
     parts, joints = solve(CUPBOARD)
     turned_parts, turned_joints = solve(CUPBOARD.transformed(R))
     assert len(parts.parts) == 3
-    np.testing.assert_array_equal(parts.face_part, turned_parts.face_part)
-    for joint, turned in zip(joints, turned_joints, strict=True):
+    same = {number: int(turned_parts.face_part[parts.faces(number)[0]]) for number in (1, 2)}  # equal doors in any order
+    np.testing.assert_array_equal(np.array([0, same[1], same[2]])[parts.face_part], turned_parts.face_part)
+    for number, joint in enumerate(joints, start=1):
+        turned = turned_joints[same[number] - 1]
         assert turned.type is joint.type
         np.testing.assert_allclose(turned.axis, R[:3, :3] @ joint.axis, atol=1e-6)
         np.testing.assert_allclose(turned.origin, R[:3, :3] @ joint.origin, atol=2e-3)

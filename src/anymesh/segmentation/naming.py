@@ -24,7 +24,7 @@ def named_parts(
     base, the largest part becomes the base.
     """
     count = len(labels) + 1
-    size = np.round(np.bincount(face_part, areas, count) / max(float(areas.sum()), 1e-300), 9)  # equal parts in given order
+    size = np.bincount(face_part, areas, count)
     size[np.setdiff1d(np.arange(count), face_part)] = -1
     if size[0] < 0:
         face_part = np.where(face_part == int(size.argmax()), 0, face_part)

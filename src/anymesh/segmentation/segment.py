@@ -133,7 +133,6 @@ def _face_part(mesh: Mesh, candidates: PartCandidates, chosen: list[int]) -> tup
         owner[candidates.members[k]] = k
     of_face = join_floating(owner, candidates.contacts)[candidates.whole.mesh_patch]
     area = np.bincount(of_face + 1, mesh.face_areas, len(candidates.members) + 1)[1:]
-    area = np.round(area / max(float(mesh.face_areas.sum()), 1e-300), 9)  # equal parts in the order of candidates
     order = [int(k) for k in np.unique(of_face[of_face >= 0])]
     order.sort(key=lambda k: (-area[k], k))
     number = np.zeros(len(candidates.members) + 1, np.int64)
