@@ -26,8 +26,8 @@ from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.oracle import Noisy, Random, oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.score import JointScore, score
-from anymesh.pipeline.solving import Solver
 from anymesh.rendering.visual_prompts import VisualPrompts
+from anymesh.segmentation.divide import object_shape
 from anymesh.types import MOVING
 from anymesh.types.recognition import Recognition, RecognizedLabel
 
@@ -75,11 +75,11 @@ def recognized(sample: EvalSample, wrong: float, rng: np.random.Generator) -> Re
 
 def samples(sample: EvalSample, rounds: int, rng: np.random.Generator) -> Iterator[Sample]:
     """The joints of one object, answered with errors of every probability."""
-    solver, plain = Solver(sample.mesh), sample.segmentation()
+    plain = sample.segmentation()
     parts = [replace(p, label=f"thing {p.name}") if k else p for k, p in enumerate(plain.parts)]
     segmentation = replace(plain, parts=tuple(parts))
     offers.sweep_candidates = Swept()  # ty: ignore[invalid-assignment]
-    whole = solver.geometry.shape_for(segmentation)
+    whole = object_shape(sample.mesh, Config().seed, labels=sample.labels)
     numbers = {p.name: k - 1 for k, p in enumerate(parts)}
     for wrong in WRONG:
         for n in range(1 if wrong == 0 else rounds):

@@ -78,7 +78,9 @@ def main() -> None:
     options.folder.mkdir(parents=True, exist_ok=True)
     config, path = Config(), EXAMPLES / f"{options.name}.glb"
     mesh = place_mesh(load_mesh(path)).mesh
-    solver, studio = Solver(mesh, config), VisualPrompts(mesh, config)
+    solver = Solver(mesh, config)
+    mesh = solver.geometry.mesh  # straight
+    studio = VisualPrompts(mesh, config)
     contacts = find_contacts(solver.whole, config.segmentation)
     tree = part_candidates(mesh, solver.whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
     tree, place, rows = examine_candidates(mesh, tree, config)

@@ -178,7 +178,7 @@ def write_page(rows: Sequence[PartRows], by_source: Scores, by_kind: Scores) -> 
         "# Parts found by the classifier, on objects that it was not trained on", "",
         "`python benchmarks/train_parts.py ROWS`; stage A only, parts matched at IoU .5, without names of nodes and materials.",
         "The last column is what the best choice among the candidates would reach. These classifiers have one network each;",
-        "the shipped one has three.", "",
+        "the shipped one has three. Networks score each object in four quarter turns.", "",
         "## Trained on all other sources", "", *table(rows, by_source, called), "",
         f"## Trained on other kinds ({FOLDS} folds, a kind in one fold)", "",
         *table(rows, by_kind, called), "",

@@ -117,6 +117,15 @@ def test_the_limits_of_a_small_part_are_within_the_free_range_of_its_candidate()
     assert -low <= c.closing
 
 
+def test_a_hinge_that_is_blocked_to_one_side_turns_to_the_other_alone() -> None:
+    """A lever that lies flush on a large block, about its end."""
+    around = context([box((-0.001, -0.005, 0), (0.001, 0, 0.004))], [box((-0.3, 0, 0), (0.3, 0.4, 0.6))])
+    stopped, free = sorted(sweep_candidates(around, [("edge", turn(Z, (0, -0.005, 0)))]), key=lambda c: c.opening)
+    assert (stopped.opening, free.closing) == (0, 0)
+    assert limits(around, free, JointType.REVOLUTE) == pytest.approx((0, 110 * DEG))
+    assert limits(around, stopped, JointType.REVOLUTE) == pytest.approx((-110 * DEG, 0))
+
+
 def test_a_door_that_is_modelled_ajar_closes_as_well() -> None:
     """The panel stands at a right angle to its block, and opens by 110 degrees from where it is closed."""
     ajar = [box((-0.3, -0.6, 0), (-0.28, 0, 0.6))]

@@ -187,9 +187,9 @@ def test_our_own_output_is_in_order_and_its_asset_json_is_read(tmp_path):
         record["joints"][0][key] = value
         (tmp_path / "asset.json").write_text(json.dumps(record))
         assert words in found(check_asset(tmp_path, engines=()), "schema", "failure")[0].text
-    for name in ("stray", "read"):  # the latter by MuJoCo alone
+    for name in ("stray", "a&read"):  # the latter by MuJoCo alone
         (tmp_path / "meshes" / f"{name}.png").write_bytes(b"")
-    (tmp_path / "mjcf.xml").write_text('<texture file="meshes/read.png"/>', encoding="utf-8")
+    (tmp_path / "mjcf.xml").write_text('<texture file="meshes/a&amp;read.png"/>', encoding="utf-8")
     assert [f.subject for f in found(check_asset(tmp_path, engines=()), "texture", "warning")] == ["stray.png"]
 
 

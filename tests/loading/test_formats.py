@@ -151,7 +151,7 @@ def test_obj_materials_in_the_order_of_the_file(tmp_path) -> None:
     text = "mtllib looks.mtl\n" + rows("v ", POINTS) + rows("vt ", UV) + body
     loaded = load_mesh(put(tmp_path, "x.obj", text.encode()))
     mesh, (half, pic) = loaded.mesh, loaded.mesh.materials
-    assert any("material 'none' is in no material library" in w for w in loaded.warnings)
+    assert any("material 'none': in no material library" in w for w in loaded.warnings)
     assert half.base_color == pytest.approx((LINEAR_HALF, LINEAR_HALF, LINEAR_HALF, 0.25), abs=1e-6)
     assert half.emissive[0] == pytest.approx(LINEAR_HALF)
     assert half.alpha_mode == "BLEND"

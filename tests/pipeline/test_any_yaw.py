@@ -2,10 +2,12 @@
 
 import numpy as np
 import pytest
-from assets import box, mesh_of
+from assets import box, mesh_of, source
 
+from anymesh.correcting.motions import ranked_motions
 from anymesh.evaluation.changes import rotation
 from anymesh.pipeline.solving import solve
+from anymesh.types import Asset
 
 # a case with two doors in front of it
 WALLS = [((0, 0, 0), (0.02, 0.4, 0.8)), ((0.78, 0, 0), (0.8, 0.4, 0.8)), ((0, 0.38, 0), (0.8, 0.4, 0.8))]
@@ -13,6 +15,16 @@ ENDS = [((0, 0, 0), (0.8, 0.4, 0.02)), ((0, 0, 0.78), (0.8, 0.4, 0.8)), ((0, 0, 
 DOORS = [((0.003, -0.022, 0.003), (0.398, -0.002, 0.797)), ((0.402, -0.022, 0.003), (0.797, -0.002, 0.797))]
 KNOBS = [((0.36, -0.05, 0.5), (0.375, -0.022, 0.53)), ((0.425, -0.05, 0.5), (0.44, -0.022, 0.53))]
 CUPBOARD = mesh_of([box(*corners) for corners in (*WALLS, *ENDS, *DOORS, *KNOBS)])[0]
+
+
+def test_the_motions_that_a_correction_offers_begin_with_the_joint_that_was_found() -> None:
+    mesh = CUPBOARD.transformed(rotation(np.array([0.0, 0, 1]), np.deg2rad(40)))
+    parts, joints = solve(mesh)
+    asset = Asset("cupboard", source(), mesh, parts, joints, "geometry")
+    for joint in joints:
+        first = ranked_motions(asset, joint.child)[0]
+        np.testing.assert_allclose(np.abs(first.axis), np.abs(joint.axis), atol=1e-6)
+        np.testing.assert_allclose(first.origin, joint.origin, atol=2e-3)
 
 
 @pytest.mark.parametrize("degrees", [17, 90, 133])

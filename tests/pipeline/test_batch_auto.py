@@ -20,7 +20,7 @@ def test_a_second_run_with_auto_keeps_what_the_first_one_wrote(monkeypatch, tmp_
         (target / "asset.json").write_text(json.dumps(record))
 
     monkeypatch.setattr(batch.pipeline, "articulate", articulate)
-    monkeypatch.setattr(answering, "first_vision_model", lambda servers: None)  # no local model responds
+    monkeypatch.setattr(answering, "probe_servers", list)  # no local model responds
     for _ in range(2):
         (outcome,) = batch.articulate_many([MESH], tmp_path, answerer="auto")
         assert outcome.state == "done"

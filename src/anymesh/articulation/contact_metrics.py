@@ -12,7 +12,9 @@ LINE_POINTS = 21  # sample points along a hinge line
 MAX_RETENTION_POINTS = 120  # sample points of the contact that are followed during a motion
 WATCHED_ANGLE_RAD = np.deg2rad(30)  # [rad] opening of a hinge at which contact is measured
 WATCHED_TRAVEL_RATIO = 0.5  # travel of a slide at which contact is measured, relative to the part's extent along it
-GAP_FACTOR = 1.5  # of its smallest gap, within which a part that touches nothing is in contact; and of that, to remain so
+GAP_FACTOR = (
+    1.5  # of the smallest gap of a part that touches nothing: contact; of the distance of contact at rest: contact when moved
+)
 CONTACT_RATIO = 0.008  # of the tolerance length: points closer to the parent are in contact
 
 

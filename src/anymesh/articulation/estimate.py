@@ -133,6 +133,7 @@ def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Can
 
 
 def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
+    """Return whether two rims of one box, whose axes are parallel or across each other, are near each other."""
     if abs(float(a.motion.axis @ b.motion.axis)) < SAME_AXIS_COSINE:
         return False
     return bool(a.motion.distance(b.motion.origin[None])[0] < MAX_RIM_THICKNESSES * thickness)

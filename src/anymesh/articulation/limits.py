@@ -123,8 +123,10 @@ def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
     config, motion = around.config, c.opening_motion
     most = np.deg2rad(config.door_most if c.vertical > ALONG_COSINE else config.flap_most)
     closing = closing_angle(around, c)
-    upper = _free_angle(around, motion, 1, max(most - (closing or 0.0), 0.0), c.opening)
-    lower = 0.0 if closing == 0 else _free_angle(around, motion, -1, closing or most, c.closing)
+    blocked = max(c.opening, c.closing) < MIN_FREE_ANGLE_RAD
+    ajar = closing is not None and closing > 0 and c.opening < MIN_FREE_ANGLE_RAD
+    upper = _free_angle(around, motion, 1, max(most - (closing or 0.0), 0.0), np.inf if blocked or ajar else c.opening)
+    lower = 0.0 if closing == 0 else _free_angle(around, motion, -1, closing or most, np.inf if blocked else c.closing)
     lower = _whole_degrees(lower) if lower >= MIN_CLOSING_ANGLE_RAD else 0.0
     if upper < MIN_HINGE_RANGE_RAD:
         upper = min(most, c.opening) if c.opening >= MIN_FREE_ANGLE_RAD else most
@@ -135,10 +137,10 @@ def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
 def _free_angle(around: PartContext, motion: Motion, sign: int, most: float, swept: float) -> float:
     """Return the free angle up to `most`, in whole degrees where something stops it [rad].
 
-    swept: the free angle found by coarse steps. Fine steps may be too short for a stop to be noticed, so they only shorten it,
-    unless it is that of a blocked motion.
+    swept: the free angle found by coarse steps, infinite if it is not known. Fine steps may be too short for a stop to be
+    noticed, so they only shorten it.
     """
-    far = min(most, swept) if swept >= MIN_FREE_ANGLE_RAD else most
+    far = min(most, swept)
     angle, clear = free_amount(around.obstacles_of(motion), motion, sign, far, 3 * around.config.fine_steps)
     return angle if clear and far == most else _whole_degrees(angle)
 

@@ -30,7 +30,7 @@ def rank_motions(question: MotionQuestion) -> MotionAnswer:
 
     An endless rotation is about the axis of the round outline, if that is the same joint to a user; it has no opening side, so
     its axis keeps the sign that it is proposed with. The confidence comes from the probability of the candidates that a user
-    sees as the best one, without the label, which may be made from the motion.
+    sees as the best one; a label does not count, since it may be made from the motion.
     """
     scores = motion_scores(question)
     order = [int(i) for i in np.argsort(-scores, kind="stable")]

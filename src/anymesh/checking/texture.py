@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -48,8 +49,8 @@ def _broken(path: Path) -> str | None:
 
 def _unused(folder: Path) -> Iterator[Finding]:
     """Report pictures that neither a material library nor a description (MJCF needs PNG) names."""
-    naming = [*sorted(folder.glob("*.mtl")), *sorted(folder.parent.glob("*.xml"))]
-    text = "\n".join(p.read_text(encoding="utf-8", errors="replace") for p in naming)
+    naming = sorted([*folder.glob("*.mtl"), *(p for kind in ("xml", "urdf", "sdf") for p in folder.parent.glob(f"*.{kind}"))])
+    text = html.unescape("\n".join(p.read_text(encoding="utf-8", errors="replace") for p in naming))
     for path in sorted(folder.iterdir()) if folder.is_dir() else ():
         if path.suffix.lower() in PICTURES and not re.search(rf"(?<![\w.-]){re.escape(path.name)}(?![\w.-])", text):
             yield warning(CHECK, path.name, "no material uses this picture")

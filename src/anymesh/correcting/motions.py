@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Float, Int
 
 from anymesh.articulation.estimate import joint_of, question_of_all_motions
 from anymesh.articulation.part_contexts import part_context
@@ -15,6 +15,7 @@ from anymesh.correcting.corrections import ChooseMotion, vector
 from anymesh.correcting.finding import joint_of_part, part_number
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.simplify_ import simplify
+from anymesh.geometry.yaw import straight_mesh, turned_back
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Asset, Joint, JointType, Mesh
 
@@ -27,21 +28,26 @@ SAME_AXIS_RATIO = 0.02  # share of the object's diagonal: distance of hinge line
 
 @dataclass(frozen=True, eq=False)
 class Ready:
-    """An asset's mesh prepared for both stages, simplified so that no face lies in two parts; part: of each face."""
+    """An asset's mesh prepared for both stages, simplified so that no face lies in two parts.
+
+    part: of each face; T_straight: (4, 4), the rotation of the mesh, as in stage B.
+    """
 
     whole: ObjectShape
     part: Int[np.ndarray, " n"]
+    T_straight: Float[np.ndarray, "4 4"]
 
 
 def made_ready(asset: Asset, config: Config | None = None) -> Ready:
     """Prepare all current parts for `ranked_motions`, which is the slow step. Dense parts are simplified first."""
     settings = config or Config()
-    mesh, label, patches = asset.mesh, asset.segmentation.face_part, settings.patches
+    mesh, T_straight = straight_mesh(asset.mesh)
+    label, patches = asset.segmentation.face_part, settings.patches
     if len(mesh.faces) > DENSE:
         mesh, label = _lighter(mesh, label)
         patches = replace(patches, soft_faces=len(mesh.faces))  # parts are known: soft creases are not searched again
     whole = object_shape(mesh, settings.seed, patches, label)
-    return Ready(whole, label[whole.source])
+    return Ready(whole, label[whole.source], T_straight)
 
 
 def _lighter(mesh: Mesh, label: np.ndarray) -> tuple[Mesh, np.ndarray]:
@@ -80,7 +86,7 @@ def ranked_motions(
     for k in free:
         c = question.candidates[k]
         joint = joint_of(around, part, names[hangs[part]], c, joint_type(c), 1.0, reason(question.part, c))
-        motion = _choice(joint, float(np.exp(scores[k] - scores.max()) / total))
+        motion = _choice(turned_back(joint, ready.T_straight), float(np.exp(scores[k] - scores.max()) / total))
         if not any(_alike(other, motion, asset.mesh.diagonal) for other in motions):
             motions.append(motion)
         if len(motions) == most:

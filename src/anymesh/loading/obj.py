@@ -53,7 +53,8 @@ def read_obj(data: bytes, folder: Folder) -> Mesh:
     used, order = _numbered([label[2] for label in labels])
     known = [key for key in order if key in materials]
     if materials and (missing := [key for key in order if key and key not in materials]):
-        folder.warn(f"material {missing[0]!r} is in no material library; its faces have none")
+        more = f" and {len(missing) - 1} more" if len(missing) > 1 else ""
+        folder.warn(f"material {missing[0]!r}{more}: in no material library that the file names; such faces have none")
     number = np.array([known.index(key) if key in materials else -1 for key in order], np.int64)
     normal = unit(np.array(lines.vn).reshape(-1, 3)) if lines.vn else None
     return Mesh(

@@ -46,7 +46,7 @@ def place_mesh(loaded: LoadedMesh, *, up: str = "auto", scale: str = "auto", cat
     Raise OptionError for an up or a scale that is not valid.
     """
     direction, up_note = _up(loaded, up)
-    unsure = f"{up_note}: please check, and state it with --up if it is another"
+    unsure = f"{up_note}: if this is wrong, set it with --up"
     doubts = (unsure,) if direction.probability is not None and direction.probability < MIN_UP_PROBABILITY else ()
     R = direction.to_z
     used = np.zeros(len(loaded.mesh.vertices), bool)
@@ -89,7 +89,7 @@ def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str, category: str | 
         return _scale_of_kind(extents, unit, *prior)
     if unit is not None:
         if ABSURD[0] <= diagonal * unit <= ABSURD[1]:
-            large = f"the file's unit makes the object {diagonal * unit:.3g} m large; if that is wrong, state it with --scale"
+            large = f"the file's unit makes the object {diagonal * unit:.3g} m large; if that is wrong, set it with --scale"
             return unit, f"scale {unit:g} (the file's unit)", (large,) if diagonal * unit > MAX_EXPECTED else ()
         warning = f"the file's unit makes the object {diagonal * unit:.3g} m large; it was scaled to a diagonal of 1 m"
         return 1 / diagonal, f"scale {1 / diagonal:g} (normalised)", (warning,)

@@ -11,7 +11,7 @@ import numpy as np
 from anymesh.config import Config
 from anymesh.deadline import Deadline
 from anymesh.geometry.patches import ObjectShape
-from anymesh.geometry.yaw import straightening
+from anymesh.geometry.yaw import straight_mesh, turned_back
 from anymesh.pipeline.geometry_stages import GeometryStages
 from anymesh.pipeline.prompted_stages import PromptedStages
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, segmentation_result
@@ -70,8 +70,7 @@ class Solver:
         if answerer_factory is not None:  # the geometry answerer finds no more with finer patches (docs/decisions.md)
             config = replace(config, patches=replace(config.patches, seams=True))
         self.mesh = mesh
-        self._T_straight = np.eye(4) if answerer_factory is not None else straightening(mesh.face_normals, mesh.face_areas)
-        straight = mesh if (self._T_straight == np.eye(4)).all() else mesh.transformed(self._T_straight)
+        straight, self._T_straight = straight_mesh(mesh) if answerer_factory is None else (mesh, np.eye(4))
         self.geometry = GeometryStages(straight, config, deadline or Deadline())
         self.answers: StageAnswerer = (
             self.geometry if answerer_factory is None else PromptedStages(self.geometry, answerer_factory)
@@ -79,7 +78,7 @@ class Solver:
 
     @property
     def whole(self) -> ObjectShape:
-        """Return the object as both stages use it, in their frame."""
+        """Return the object as both stages use it: straight if geometry answers, and then in the frame of `geometry.mesh`."""
         return self.geometry.whole
 
     def recognize(self, *, sized: bool = False, metric: bool = False) -> RecognitionResult:
@@ -107,10 +106,8 @@ class Solver:
         grounded: bool = False,
     ) -> JointResult:
         """Run Stage B, see `StageAnswerer`."""
-        result, R = self.answers.estimate_joints(segmentation, recognition, progress, grounded), self._T_straight[:3, :3]
-        if (np.eye(3) == R).all():
-            return result
-        return replace(result, joints=tuple(replace(j, origin=j.origin @ R, axis=j.axis @ R) for j in result.joints))
+        result = self.answers.estimate_joints(segmentation, recognition, progress, grounded)
+        return replace(result, joints=tuple(turned_back(joint, self._T_straight) for joint in result.joints))
 
 
 def solve(

@@ -54,7 +54,7 @@ class Classifier:
     def score_together(
         self, own: Float[np.ndarray, "n k"], place: Float[np.ndarray, "n 12"], relations: Float[np.ndarray, "n n r"]
     ) -> Float[np.ndarray, " n"]:
-        """Return the log-odds of each candidate among all of its object, by the networks, whichever way the object faces.
+        """Return the log-odds of each candidate among all of its object, by the networks, the mean over four quarter turns.
 
         place: as from `PartContext.place`; relations: features of each pair.
         """
