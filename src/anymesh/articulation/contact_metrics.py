@@ -12,15 +12,14 @@ LINE_POINTS = 21  # sample points along a hinge line
 MAX_RETENTION_POINTS = 120  # sample points of the contact that are followed during a motion
 WATCHED_ANGLE_RAD = np.deg2rad(30)  # [rad] opening of a hinge at which contact is measured
 WATCHED_TRAVEL_RATIO = 0.5  # travel of a slide at which contact is measured, relative to the part's extent along it
-GAP_FACTOR = (
-    1.5  # of the smallest gap of a part that touches nothing: contact; of the distance of contact at rest: contact when moved
-)
+MIN_GAP_FACTOR = 1.5  # a part that touches nothing is in contact within this multiple of its smallest gap
+RETAINED_FACTOR = 1.5  # contact is retained within this multiple of the distance that counts as contact at rest
 CONTACT_RATIO = 0.008  # of the tolerance length: points closer to the parent are in contact
 
 
 def contact_tolerance(around: PartContext) -> float:
     """Return the distance to the parent within which a point is in contact [m]; it grows with the gap of a part with none."""
-    return max(CONTACT_RATIO * around.tolerance_length, GAP_FACTOR * float(around.gap.min()))
+    return max(CONTACT_RATIO * around.tolerance_length, MIN_GAP_FACTOR * float(around.gap.min()))
 
 
 def contact_points(around: PartContext) -> Float[np.ndarray, "n 3"]:
@@ -44,7 +43,7 @@ def contact_retention(around: PartContext, motions: list[Motion], signs: list[in
         T = motion.transform(sign * amount)
         moved.append(contact @ T[:3, :3].T + T[:3, 3])
     off = around.parent.tree.distance(np.concatenate(moved))
-    return (off.reshape(len(motions), -1) < GAP_FACTOR * contact_tolerance(around)).mean(1)
+    return (off.reshape(len(motions), -1) < RETAINED_FACTOR * contact_tolerance(around)).mean(1)
 
 
 def hinge_support(around: PartContext, motions: list[Motion]) -> np.ndarray:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.articulation.contact_metrics import GAP_FACTOR
+from anymesh.articulation.contact_metrics import MIN_GAP_FACTOR
 from anymesh.config import ALONG_COSINE, LEVEL_COSINE
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
@@ -70,7 +70,7 @@ def _face_aspect(around: PartContext) -> float:
 def _back_contact(around: PartContext) -> float:
     """Return the share of the back that is in contact with the parent, or inside it."""
     back = around.part.samples.normals @ around.opening_direction < -ALONG_COSINE
-    near = around.gap < max(2 * around.config.connecting * around.tolerance_length, GAP_FACTOR * float(around.gap.min()))
+    near = around.gap < max(2 * around.config.connecting * around.tolerance_length, MIN_GAP_FACTOR * float(around.gap.min()))
     return float(near[back].mean()) if back.sum() > 3 else 0.0
 
 
