@@ -56,11 +56,11 @@ class Swept:
     def __init__(self) -> None:
         self._known: dict[tuple[object, ...], tuple[Candidate, ...]] = {}
 
-    def __call__(self, around, proposed) -> tuple[Candidate, ...]:
-        place = around.part.bounds.tobytes()
+    def __call__(self, context, proposed) -> tuple[Candidate, ...]:
+        place = context.part.bounds.tobytes()
         keys = [(place, role, m.kind, m.axis.tobytes(), m.origin.tobytes()) for role, m in proposed]
         new = [k for k, key in enumerate(keys) if key not in self._known]
-        found = sweep_candidates(around, [proposed[k] for k in new])
+        found = sweep_candidates(context, [proposed[k] for k in new])
         self._known.update((keys[k], found[2 * n : 2 * n + 2]) for n, k in enumerate(new))  # opening one way and the other
         return tuple(c for key in keys for c in self._known[key])
 

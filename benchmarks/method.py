@@ -86,13 +86,15 @@ def main() -> None:
     tree, place, rows = examine_candidates(mesh, tree, config)
     score, _ = score_parts(tree, place, rows)
     found = solver.parts().segmentation
-    _, _, around, question = sorted(motion_questions(solver.whole, found, config), key=lambda m: m[0])[options.part - 1]
+    _, _, context, question = sorted(motion_questions(solver.whole, found, config), key=lambda m: m[0])[options.part - 1]
     scores = motion_scores(question)
     ranked = [(float(scores[k]), question.candidates[k]) for k in np.argsort(-scores, kind="stable")]
     drawn = {
         "patches": patches(studio, mesh, tree),
         "candidates": candidates(studio, tree, score, assign_parts(tree.overlap, score)),
-        "motions": motions(studio, found.face_part == options.part, ranked, around.tolerance_length, around.part.box.diagonal),
+        "motions": motions(
+            studio, found.face_part == options.part, ranked, context.tolerance_length, context.part.box.diagonal
+        ),
     }
     for name, picture in drawn.items():
         (options.folder / f"{name}.png").write_bytes(picture.png)

@@ -58,8 +58,8 @@ def picture(failure: Failure, sample: EvalSample) -> tuple[UInt8[np.ndarray, "H 
     segmentation = sample.segmentation()
     whole = object_shape(sample.mesh, config.seed, config.patches, sample.labels)
     motions = [
-        (i, over, around, replace(question, scores=failure.scores) if i == rows.number else question)
-        for i, over, around, question in motion_questions(whole, segmentation, config)
+        (i, over, context, replace(question, scores=failure.scores) if i == rows.number else question)
+        for i, over, context, question in motion_questions(whole, segmentation, config)
     ]
     joints = estimate_joints(segmentation, motions)
     result = next(j for j in score(sample, segmentation, joints).joints if j.part == rows.part)

@@ -74,11 +74,11 @@ def rows_of(sample: EvalSample, source: str, form: str = "") -> list[MotionRows]
     found: list[MotionRows] = []
     questions = list(motion_questions(whole, sample.segmentation(), config))
     copies = _copies(whole, sample, questions)
-    for i, _, around, question in questions:
+    for i, _, context, question in questions:
         name = truth.parts[i].name
         if name not in joints:
             continue
-        rows = motion_features(around, question.candidates)
+        rows = motion_features(context, question.candidates)
         joint, center = joints[name], sample.mesh.triangles[sample.labels == i].reshape(-1, 3).mean(0)
         motions = [c.motion for c in question.candidates]
         names = tuple(rows[0])
@@ -100,9 +100,9 @@ def _copies(whole: ObjectShape, sample: EvalSample, questions: Sequence[PartMoti
     label = sample.labels[whole.source]
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(sample.truth.parts))]
     parent = {i: over for i, over, _, _ in questions}
-    around = {i: a for i, _, a, _ in questions}
+    context = {i: a for i, _, a, _ in questions}
     groups = same_size(shapes, [-1, *(parent[i] for i in sorted(parent))])
-    return {i: tuple(j for j in group if j != i and in_a_row(around[i], around[j])) for group in groups for i in group}
+    return {i: tuple(j for j in group if j != i and in_a_row(context[i], context[j])) for group in groups for i in group}
 
 
 def how_right(true: TrueJoint, motion: Motion, center: np.ndarray, unit: float) -> float:

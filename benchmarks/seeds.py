@@ -51,7 +51,7 @@ def seen_with(spec: str, seeds: Sequence[int], name: str) -> list[list[Seen]]:
     found: dict[str, list[Seen]] = {}
     for seed in seeds:
         whole = object_shape(sample.mesh, seed, config.patches, sample.labels)
-        for i, _, around, question in motion_questions(whole, given, config):
+        for i, _, context, question in motion_questions(whole, given, config):
             part = truth.parts[i].name
             if part not in joints:
                 continue
@@ -59,9 +59,9 @@ def seen_with(spec: str, seeds: Sequence[int], name: str) -> list[list[Seen]]:
             center = sample.mesh.triangles[sample.labels == i].reshape(-1, 3).mean(0)
             right = how_right(joints[part], best.motion, center, sample.unit) > 0
             right &= opens_right(joints[part], best.motion.axis * best.opening_sign) != 0
-            handle = around.handle and around.handle.across
+            handle = context.handle and context.handle.across
             found.setdefault(part, []).append(
-                Seen(handle, around.opening_direction, around.outline.axis, best, question.part, right)
+                Seen(handle, context.opening_direction, context.outline.axis, best, question.part, right)
             )
     return list(found.values())
 

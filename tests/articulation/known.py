@@ -114,7 +114,7 @@ def cases_once(
 def scored_once(case: PartCase) -> MotionQuestion:
     """Return `scored_motions`, computed once for the same answered motion: it does not depend on the answered kind."""
     asked = case.asked and (case.asked.kind, case.asked.source, case.asked.axis.tobytes(), case.asked.origin.tobytes())
-    return once(lambda: scored_motions(case), case.around, case.label, asked)
+    return once(lambda: scored_motions(case), case.context, case.label, asked)
 
 
 def the_case(scene: Scene) -> PartCase:

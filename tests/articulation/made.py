@@ -17,7 +17,7 @@ X, Y, Z = np.eye(3)
 PLATE = PartFacts("part", size=0.7, roundness=0.3)
 
 
-def context(part: list, rest: list, *siblings: list, **changes: Any) -> PartContext:
+def context_of(part: list, rest: list, *siblings: list, **changes: Any) -> PartContext:
     """Return the context of a part of pieces (vertices, faces) on static pieces, beside other movable parts of pieces."""
     other = [piece for some in siblings for piece in some]
     corners = np.concatenate([v for v, _ in [*part, *rest, *other]])

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 from assets import box
-from made import X, Y, Z, context, slide, turn
+from made import X, Y, Z, context_of, slide, turn
 
 from anymesh.articulation.adjacent_panels import adjacent_sides, outer_side, overlap_gain, pair_side
 from anymesh.motion.part_context import PartContext
@@ -18,20 +18,20 @@ def panel(x: float, width: float = 0.6, z=(0.0, 0.8), y: float = -0.022) -> list
 LEFT, MIDDLE, RIGHT = panel(0.0), panel(0.602), panel(1.204)
 
 
-def beside(around: PartContext) -> tuple[float, float]:
+def beside(context: PartContext) -> tuple[float, float]:
     """Return the number of similar panels at the side of -x and of +x."""
-    found = adjacent_sides(around)
-    (row,) = (k for k, axis in enumerate(around.face_axes) if abs(around.body_obb.axes[axis] @ X) > 0.9)
+    found = adjacent_sides(context)
+    (row,) = (k for k, axis in enumerate(context.face_axes) if abs(context.body_obb.axes[axis] @ X) > 0.9)
     assert not found[1 - row].any()  # none above or below
-    down, up = found[row][:: int(np.sign(around.body_obb.axes[around.face_axes[row]] @ X))]
+    down, up = found[row][:: int(np.sign(context.body_obb.axes[context.face_axes[row]] @ X))]
     return float(down), float(up)
 
 
 def test_panels_at_each_side_are_counted() -> None:
-    assert beside(context(MIDDLE, CASE, LEFT, RIGHT)) == (1, 1)
-    assert beside(context(LEFT, CASE, MIDDLE, RIGHT)) == (0, 1)
-    assert beside(context(RIGHT, CASE, MIDDLE)) == (1, 0)
-    assert beside(context(LEFT, CASE)) == (0, 0)
+    assert beside(context_of(MIDDLE, CASE, LEFT, RIGHT)) == (1, 1)
+    assert beside(context_of(LEFT, CASE, MIDDLE, RIGHT)) == (0, 1)
+    assert beside(context_of(RIGHT, CASE, MIDDLE)) == (1, 0)
+    assert beside(context_of(LEFT, CASE)) == (0, 0)
 
 
 @pytest.mark.parametrize(
@@ -50,34 +50,34 @@ def test_panels_at_each_side_are_counted() -> None:
     ],
 )
 def test_an_adjacent_panel_is_near_of_like_size_and_level(other: list, counts: bool) -> None:
-    assert beside(context(LEFT, CASE, other)) == (0, float(counts))
+    assert beside(context_of(LEFT, CASE, other)) == (0, float(counts))
 
 
 @pytest.mark.parametrize(("x", "pair"), [(0.0, 1.0), (0.3, 0.0), (0.45, -0.5), (0.6, -1.0)])
 def test_a_pair_of_doors_meets_opposite_the_hinges(x: float, pair: float) -> None:
-    around = context(LEFT, CASE, MIDDLE)
-    assert pair_side(around, turn(Z, (x, -0.012, 0)), adjacent_sides(around)) == pytest.approx(pair, abs=0.01)
+    context = context_of(LEFT, CASE, MIDDLE)
+    assert pair_side(context, turn(Z, (x, -0.012, 0)), adjacent_sides(context)) == pytest.approx(pair, abs=0.01)
 
 
 def test_neither_a_lone_panel_nor_the_middle_one_of_three_nor_a_flap_has_a_pair() -> None:
-    for around in (context(LEFT, CASE), context(MIDDLE, CASE, LEFT, RIGHT)):
-        low = around.part.bounds[0]
-        assert pair_side(around, turn(Z, low), adjacent_sides(around)) == 0
-    around = context(LEFT, CASE, MIDDLE)
-    assert pair_side(around, turn(X), adjacent_sides(around)) == pytest.approx(0, abs=1e-9)
+    for context in (context_of(LEFT, CASE), context_of(MIDDLE, CASE, LEFT, RIGHT)):
+        low = context.part.bounds[0]
+        assert pair_side(context, turn(Z, low), adjacent_sides(context)) == 0
+    context = context_of(LEFT, CASE, MIDDLE)
+    assert pair_side(context, turn(X), adjacent_sides(context)) == pytest.approx(0, abs=1e-9)
 
 
 @pytest.mark.parametrize(("x", "outer"), [(0.0, 1.0), (0.3, 0.0), (0.6, -1.0), (0.15, 0.5)])
 def test_a_hinge_at_the_side_of_a_cabinet_is_an_outer_one(x: float, outer: float) -> None:
-    assert outer_side(context(LEFT, CASE), turn(Z, (x, -0.012, 0))) == pytest.approx(outer, abs=0.01)
+    assert outer_side(context_of(LEFT, CASE), turn(Z, (x, -0.012, 0))) == pytest.approx(outer, abs=0.01)
 
 
 def test_a_panel_near_the_middle_has_less_of_an_outer_side() -> None:
     """Its center is 0.2 m off the middle of an object that reaches 0.9 m to each side."""
-    around = context(panel(0.8), CASE)
-    assert outer_side(around, turn(Z, (1.4, -0.012, 0))) == pytest.approx(2 * 0.2 / 0.9, abs=0.01)
-    assert outer_side(around, turn(Z, (0.8, -0.012, 0))) == pytest.approx(-2 * 0.2 / 0.9, abs=0.01)
-    assert outer_side(around, turn(X)) == pytest.approx(0, abs=0.01)  # in the middle of its height
+    context = context_of(panel(0.8), CASE)
+    assert outer_side(context, turn(Z, (1.4, -0.012, 0))) == pytest.approx(2 * 0.2 / 0.9, abs=0.01)
+    assert outer_side(context, turn(Z, (0.8, -0.012, 0))) == pytest.approx(-2 * 0.2 / 0.9, abs=0.01)
+    assert outer_side(context, turn(X)) == pytest.approx(0, abs=0.01)  # in the middle of its height
 
 
 PANE = [box((0.0, -0.1, 0.0), (0.6, -0.08, 0.8))]
@@ -85,7 +85,7 @@ FLOOR = box((-1, -1, -1.1), (2, 1, -1))
 
 
 def gain(*rest, free=(1.0, 1.0), axis: np.ndarray = X) -> float:
-    return overlap_gain(context(PANE, [FLOOR, *rest]), slide(axis), free)
+    return overlap_gain(context_of(PANE, [FLOOR, *rest]), slide(axis), free)
 
 
 def sheet(x: tuple[float, float], y: float) -> tuple:

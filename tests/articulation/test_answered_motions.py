@@ -177,13 +177,13 @@ def test_two_clusters_of_a_contact_are_two_points() -> None:
 
 
 def test_at_most_half_of_the_points_stand_for_axes() -> None:
-    around = case_of("wheel").around
+    context = case_of("wheel").context
     lines = [turn(Y, (0.02 * k, 0, 0.2)) for k in range(6)]
-    points, directions = axis_points(around, lines, across(4000), PromptConfig(most_candidates=6))
+    points, directions = axis_points(context, lines, across(4000), PromptConfig(most_candidates=6))
     assert points[:, 0] == pytest.approx([0, 0.02, 0.04])
     assert len(directions) == 3
     tilted = [turn(np.array([np.sin(a), np.cos(a), 0]), (0, 0, 0.2)) for a in np.deg2rad([44, 47])]
-    assert len(axis_points(around, tilted, across(4000), PromptConfig())[0]) == 1  # up to 45 degrees off the surface's normal
+    assert len(axis_points(context, tilted, across(4000), PromptConfig())[0]) == 1  # up to 45 degrees off the surface's normal
 
 
 def test_a_plane_is_that_of_most_points() -> None:
@@ -204,15 +204,15 @@ def test_a_single_point_has_the_axis_that_was_shown_with_it() -> None:
 
 def test_a_picture_shows_a_hinge_up_to_sixty_degrees_and_a_slide_up_to_a_share_of_the_part() -> None:
     case = case_of("drawer")
-    size = case.around.part.box.diagonal
+    size = case.context.part.box.diagonal
     assert shown_amount(replace(EDGE, opening=0.5), case) == 0.5
     assert shown_amount(EDGE, case) == pytest.approx(MAX_SHOWN_ANGLE_RAD)
     assert shown_amount(replace(EDGE, opening=0.0), case) == pytest.approx(np.deg2rad(36))
-    assert shown_amount(replace(PULL, opening=0.2), case) == pytest.approx(0.2 * case.around.tolerance_length)
+    assert shown_amount(replace(PULL, opening=0.2), case) == pytest.approx(0.2 * case.context.tolerance_length)
     assert shown_amount(replace(PULL, opening=3.0), case) == pytest.approx(0.6 * size)
     assert shown_amount(replace(PULL, opening=0.0), case) == pytest.approx(0.36 * size)
     told = RecognizedLabel("key", JointType.PRISMATIC, None, (-0.01, 0.0))
-    extent = float(np.ptp(case.around.part.corners[:, 1]))
+    extent = float(np.ptp(case.context.part.corners[:, 1]))
     assert shown_amount(PULL, replace(case, recognized=told)) == pytest.approx(-0.5 * min(extent, 0.6 * size))
 
 

@@ -143,11 +143,11 @@ def test_a_ring_of_contact_has_its_middle_as_a_candidate_and_not_a_point_of_the_
 
 
 def test_axes_into_the_surface_are_points_where_they_come_out() -> None:
-    around = the_case(KNOWN["wheel"].scene).around
+    context = the_case(KNOWN["wheel"].scene).context
     hub, off = (Motion(JointType.REVOLUTE, Y, np.array([x, 0.3, 0.2]), "hub") for x in (0.0, 0.05))
     along = Motion(JointType.REVOLUTE, np.array([1.0, 0, 0]), np.zeros(3), "along")
-    points, axes = axis_points(around, [hub, along, off, hub], across(2000), CONFIG)
+    points, axes = axis_points(context, [hub, along, off, hub], across(2000), CONFIG)
     # neither one along the surface, nor a duplicate
     assert points[:, [0, 2]] == pytest.approx(np.array([[0, 0.2], [0.05, 0.2]]))
-    assert points[:, 1] == pytest.approx(around.part.bounds[0 if around.opening_direction @ Y < 0 else 1, 1])
+    assert points[:, 1] == pytest.approx(context.part.bounds[0 if context.opening_direction @ Y < 0 else 1, 1])
     assert np.abs(axes @ Y) == pytest.approx(1)

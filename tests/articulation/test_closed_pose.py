@@ -29,51 +29,51 @@ def lid_at(degrees: float) -> Scene:
 
 @pytest.mark.parametrize("closed_by", [0.0, 20.0, 40.0, 60.0])
 def test_an_open_lid_closes_until_it_lies_on_its_box(closed_by: float) -> None:
-    around, c = swept(lambda: lid_at(closed_by), LID)
+    context, c = swept(lambda: lid_at(closed_by), LID)
     up = c if c.opening_sign < 0 else c.reversed()  # lifts the free edge
-    assert closing_angle(around, up) == pytest.approx((90 - closed_by) * DEG, abs=DEG)
-    assert closing_angle(around, up.reversed()) is None
-    assert away_from_closed(around, up) is up
-    assert away_from_closed(around, up.reversed()).opening_sign == -1
-    lower, upper = limits(around, up, JointType.REVOLUTE) or (0.0, 0.0)
+    assert closing_angle(context, up) == pytest.approx((90 - closed_by) * DEG, abs=DEG)
+    assert closing_angle(context, up.reversed()) is None
+    assert away_from_closed(context, up) is up
+    assert away_from_closed(context, up.reversed()).opening_sign == -1
+    lower, upper = limits(context, up, JointType.REVOLUTE) or (0.0, 0.0)
     assert lower == pytest.approx((closed_by - 90) * DEG, abs=2 * DEG)
     assert upper - lower == pytest.approx(90 * DEG, abs=2 * DEG)  # a flap opens by 90 degrees, from where it is closed
 
 
 @pytest.mark.parametrize("closed_by", [89.0, 90.0])
 def test_a_lid_that_lies_on_its_box_is_closed(closed_by: float) -> None:
-    around, c = swept(lambda: lid_at(closed_by), LID)
-    assert closing_angle(around, c) == 0
-    assert away_from_closed(around, c) is c
-    assert (limits(around, c, JointType.REVOLUTE) or (1, 0))[0] == 0
+    context, c = swept(lambda: lid_at(closed_by), LID)
+    assert closing_angle(context, c) == 0
+    assert away_from_closed(context, c) is c
+    assert (limits(context, c, JointType.REVOLUTE) or (1, 0))[0] == 0
 
 
 def test_a_part_that_would_be_closed_at_both_stops_has_no_closed_pose() -> None:
     scene = lid_at(0.0)
     mirrored = [(vertices * [1, -1, 1] + [0, 0.82, -0.02], faces[:, ::-1]) for vertices, faces in scene["base"]]
-    around, c = swept(lambda: {**scene, "base": [*scene["base"], *mirrored]}, LID)
-    assert closing_angle(around, c) is None
-    assert closing_angle(around, c.reversed()) is None
-    assert away_from_closed(around, c) is c
+    context, c = swept(lambda: {**scene, "base": [*scene["base"], *mirrored]}, LID)
+    assert closing_angle(context, c) is None
+    assert closing_angle(context, c.reversed()) is None
+    assert away_from_closed(context, c) is c
 
 
 @pytest.mark.parametrize("by", [0.1, 0.2])
 def test_a_drawer_that_is_pulled_out_closes_until_its_front_is_flush(by: float) -> None:
-    around, c = swept(drawer, OUT)
-    assert closing_travel(around, c) == 0
-    assert (limits(around, c, JointType.PRISMATIC) or (1, 0))[0] == 0
-    _, whole = limits(around, c, JointType.PRISMATIC) or (0, 0)
-    around, c = swept(lambda: pulled(drawer(), by), OUT)
-    assert closing_travel(around, c) == pytest.approx(by, abs=0.03)
-    lower, upper = limits(around, c, JointType.PRISMATIC) or (0, 0)
+    context, c = swept(drawer, OUT)
+    assert closing_travel(context, c) == 0
+    assert (limits(context, c, JointType.PRISMATIC) or (1, 0))[0] == 0
+    _, whole = limits(context, c, JointType.PRISMATIC) or (0, 0)
+    context, c = swept(lambda: pulled(drawer(), by), OUT)
+    assert closing_travel(context, c) == pytest.approx(by, abs=0.03)
+    lower, upper = limits(context, c, JointType.PRISMATIC) or (0, 0)
     assert lower == pytest.approx(-by, abs=0.03)
     assert upper - lower == pytest.approx(whole, abs=0.03)
 
 
 def test_a_thick_front_on_its_case_is_closed() -> None:
     front = {"base": [box((0, 0, 0), (0.6, 0.4, 0.3))], "front": [box((0.05, -0.082, 0.05), (0.55, -0.002, 0.25))]}
-    around, c = swept(lambda: front, OUT)
-    assert closing_travel(around, c) == 0
+    context, c = swept(lambda: front, OUT)
+    assert closing_travel(context, c) == 0
     deep = {**front, "front": [box((0.05, -0.082, 0.05), (0.55, 0.1, 0.25))]}  # as if pulled out of the case
-    around, c = swept(lambda: deep, OUT)
-    assert closing_travel(around, c) == pytest.approx(0.082, abs=1e-6)
+    context, c = swept(lambda: deep, OUT)
+    assert closing_travel(context, c) == pytest.approx(0.082, abs=1e-6)

@@ -80,15 +80,15 @@ def test_one_point_turns_about_the_normal_through_it() -> None:
 
 def test_a_slide_goes_along_its_direction() -> None:
     case = the_case(KNOWN["slider"].scene)
-    found = prismatic(-3 * X, case.around, "asked")
+    found = prismatic(-3 * X, case.context, "asked")
     assert (found.kind, found.source) == (JointType.PRISMATIC, "asked")
     assert found.axis == pytest.approx(-X)
 
 
 def test_arrows_lie_in_the_surface_and_point_both_ways() -> None:
     case = the_case(KNOWN["slider"].scene)
-    found = surface_directions(case.around)
-    assert found @ case.around.opening_direction == pytest.approx(0, abs=1e-9)
+    found = surface_directions(case.context)
+    assert found @ case.context.opening_direction == pytest.approx(0, abs=1e-9)
     assert found @ found.T == pytest.approx(np.array([[1, -1, 0, 0], [-1, 1, 0, 0], [0, 0, 1, -1], [0, 0, -1, 1]]), abs=1e-9)
     assert max(found @ X) == pytest.approx(1)  # the direction of its rails is among them
 
@@ -99,7 +99,7 @@ def test_the_plane_normal_of_an_open_drawer_leads_sideways_and_the_free_way_out_
     assert between(case.shown.normal, Y) > 60
     found = opening_slide(case)
     assert between(found.axis, Y) < 2
-    assert found.axis @ case.around.opening_direction > 0.99
+    assert found.axis @ case.context.opening_direction > 0.99
 
 
 @pytest.mark.parametrize("degrees", [0.0, -20.0])
@@ -117,7 +117,7 @@ def test_the_connecting_area_of_a_small_part_is_as_large_whatever_it_sits_on(siz
     case = the_case({"base": [box((-size / 2, 0, 0), (size / 2, size, size))], "plate": [plate]})
     on_part = case.shown.contact[case.shown.contact[:, 1] < -1e-9]
     assert len(on_part) > 500
-    assert on_part[:, 1].min() >= -2 * 0.005 * case.around.tolerance_length  # its back and the edge of its rim
+    assert on_part[:, 1].min() >= -2 * 0.005 * case.context.tolerance_length  # its back and the edge of its rim
     assert np.ptp(on_part[:, [0, 2]], axis=0) == pytest.approx([0.12, 0.08], rel=0.05)
     assert between(case.shown.normal, Y) < 1
 

@@ -22,7 +22,7 @@ LOW, HIGH = np.array([0.0, -0.05, 0.0]), np.array([0.6, -0.01, 0.9])  # [m] of a
 def context_of(scene: Scene) -> PartContext:
     mesh, segmentation = built(scene)
     (only,) = make_cases(object_shape(mesh, 0, labels=segmentation.face_part), segmentation, None, Config())
-    return only.around
+    return only.context
 
 
 def board() -> PartContext:
@@ -96,11 +96,11 @@ def test_a_bar_makes_a_round_lid_asymmetric_in_rotation() -> None:
 
 
 def test_slides_across_each_other_move_apart_by_the_diagonal() -> None:
-    around = board()
+    context = board()
     kinds = [(JointType.PRISMATIC, X), (JointType.PRISMATIC, Y), (JointType.REVOLUTE, Z), (JointType.REVOLUTE, Z)]
     origins = [np.zeros(3), np.zeros(3), np.zeros(3), 0.1 * X]
     motions = [Motion(kind, axis, origin, "") for (kind, axis), origin in zip(kinds, origins, strict=True)]
-    moved = MovedPoints(around, [])
+    moved = MovedPoints(context, [])
     moved._motions = motions
     assert moved.apart(0, 1, 0.2) == pytest.approx((0.2 * np.sqrt(2), 0.2))
     assert moved.apart(0, 2, 0.2) == (np.inf, 0.0)

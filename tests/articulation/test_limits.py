@@ -50,15 +50,15 @@ OUT = Motion(JointType.PRISMATIC, -Y, np.zeros(3), "out")
 
 
 def swept(scene: Callable[[], Scene], motion: Motion) -> tuple[PartContext, Candidate]:
-    around = the_case(scene()).around
-    return around, max(sweep_candidates(around, [("asked", motion)]), key=lambda c: c.outward)
+    context = the_case(scene()).context
+    return context, max(sweep_candidates(context, [("asked", motion)]), key=lambda c: c.outward)
 
 
 def answered(scene: Callable[[], Scene], motion: Motion, kind: JointType, told: tuple[float, float]) -> tuple[np.ndarray, ...]:
     """Return the limits about the opening axis, and that axis."""
-    around, c = swept(scene, motion)
+    context, c = swept(scene, motion)
     c = opening_as_answered(c, told)
-    found = limits(around, c, kind, told)
+    found = limits(context, c, kind, told)
     assert found is not None
     return np.array(found), c.opening_motion.axis
 
@@ -97,11 +97,11 @@ def test_an_answered_stroke_of_a_button_goes_in_and_not_out() -> None:
 
 
 def test_an_answered_stroke_goes_in_also_about_an_axis_that_points_in() -> None:
-    around, c = swept(button, OUT)
+    context, c = swept(button, OUT)
     inwards = c.reversed()
     assert inwards.opening_motion.axis == pytest.approx(Y)
-    assert limits(around, inwards, JointType.PRISMATIC, (-0.005, 0.0)) == pytest.approx((0.0, 0.005))
-    assert limits(around, inwards, JointType.PRISMATIC, (0.0, 0.005)) == pytest.approx((0.0, 0.005))
+    assert limits(context, inwards, JointType.PRISMATIC, (-0.005, 0.0)) == pytest.approx((0.0, 0.005))
+    assert limits(context, inwards, JointType.PRISMATIC, (0.0, 0.005)) == pytest.approx((0.0, 0.005))
 
 
 def test_a_sheet_that_is_pressed_in_has_a_stroke_though_it_has_no_height() -> None:
@@ -114,9 +114,9 @@ def test_a_sheet_that_is_pressed_in_has_a_stroke_though_it_has_no_height() -> No
             "key": [(vertices, faces[(vertices[faces][:, :, 1] == -0.001).all(1)])],
         }
 
-    around, c = swept(sheet, OUT)
+    context, c = swept(sheet, OUT)
     inwards = c.reversed()
-    found = limits(around, inwards, JointType.PRISMATIC)
+    found = limits(context, inwards, JointType.PRISMATIC)
     assert inwards.opening_motion.axis == pytest.approx(Y)
     assert found is not None
     assert found[0] == 0 < found[1] < 0.01

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from assets import box
-from made import context, slide, turn
+from made import context_of, slide, turn
 from scenes import Scene, built, case, door, drawer, lid, prism, similarity, wheel
 
 from anymesh.articulation.cases import make_cases
@@ -24,26 +24,26 @@ LEFT_EDGE = Motion(JointType.REVOLUTE, Z, np.array([0.002, -0.012, 0.4]), "left 
 OUT = Motion(JointType.PRISMATIC, -Y, np.zeros(3), "out")
 
 
-def context_of(scene: Scene, T: np.ndarray | None = None) -> PartContext:
+def context_in(scene: Scene, T: np.ndarray | None = None) -> PartContext:
     """Return the scene's only part among the rest of the object."""
     mesh, segmentation = built(scene)
     whole = object_shape(mesh if T is None else mesh.transformed(T), 0, labels=segmentation.face_part)
     (only,) = make_cases(whole, segmentation, None, Config())
-    return only.around
+    return only.context
 
 
 def features(scene: Scene, motion: Motion, role: str = "edge", T: np.ndarray | None = None) -> list[dict[str, float]]:
     """Return the features of a motion of the scene's only part, opening along its axis and against it."""
-    around = context_of(scene, T)
-    return motion_features(around, sweep_candidates(around, [(role, motion)]))
+    context = context_in(scene, T)
+    return motion_features(context, sweep_candidates(context, [(role, motion)]))
 
 
 def test_what_needs_no_sweep_is_the_same_to_both_sides() -> None:
-    around = context_of(door("right"))
+    context = context_in(door("right"))
     for motion in (LEFT_EDGE, OUT):
         proposed = [("edge" if motion is LEFT_EDGE else "slide", motion)]
-        (still,) = unswept_features(around, unswept(around, proposed))
-        ways = motion_features(around, sweep_candidates(around, proposed))
+        (still,) = unswept_features(context, unswept(context, proposed))
+        ways = motion_features(context, sweep_candidates(context, proposed))
         for way in ways:
             assert {name: way[name] for name in way if name not in SWEPT_FEATURES} == still
         assert set(ways[0]) == set(still) | set(SWEPT_FEATURES)
@@ -51,16 +51,16 @@ def test_what_needs_no_sweep_is_the_same_to_both_sides() -> None:
 
 @pytest.mark.parametrize("scene", [door("left"), door("right"), lid(), drawer(), wheel()])
 def test_the_likeliest_motions_are_chosen_before_any_is_swept(scene: Scene) -> None:
-    around = context_of(scene)
-    motions = unswept(around, propose(around))
-    rest = unswept_features(around, motions)
+    context = context_in(scene)
+    motions = unswept(context, propose(context))
+    rest = unswept_features(context, motions)
     few = likeliest(rest, 8)
     assert sorted(set(few)) == few.tolist()
     assert len(few) == 8 < len(motions)
     assert likeliest(rest, len(motions)).tolist() == list(range(len(motions)))
     assert set(likeliest(rest, 3)) < set(few)
     some = [motions[k] for k in few]
-    full, chosen = (PartMotionScores(around, "part", swept(around, those)).question() for those in (motions, some))
+    full, chosen = (PartMotionScores(context, "part", swept(context, those)).question() for those in (motions, some))
     best, first = (question.candidates[rank_motions(question).ranking[0]].motion for question in (full, chosen))
     assert best is first
 
@@ -146,11 +146,13 @@ def test_a_knob_seen_from_its_side_is_not_round() -> None:
 
 
 def test_a_rotation_about_the_center_has_no_direction() -> None:
-    around = context([box((0, -0.02, 0), (0.6, 0, 0.8))], [box((0, 0, 0), (0.6, 0.4, 0.8))])
-    assert np.linalg.norm(initial_direction(around, turn(Z, (0.6, -0.01, 0)))) == pytest.approx(1)
-    assert np.linalg.norm(initial_direction(around, turn(Z, (0.3, -0.01, 0)))) < 0.1
-    assert initial_direction(around, slide(Y)) == pytest.approx(Y)
-    centered, edge = (swept_features(around, sweep_candidates(around, [("edge", turn(Z, (x, -0.01, 0)))])) for x in (0.3, 0.6))
+    context = context_of([box((0, -0.02, 0), (0.6, 0, 0.8))], [box((0, 0, 0), (0.6, 0.4, 0.8))])
+    assert np.linalg.norm(initial_direction(context, turn(Z, (0.6, -0.01, 0)))) == pytest.approx(1)
+    assert np.linalg.norm(initial_direction(context, turn(Z, (0.3, -0.01, 0)))) < 0.1
+    assert initial_direction(context, slide(Y)) == pytest.approx(Y)
+    centered, edge = (
+        swept_features(context, sweep_candidates(context, [("edge", turn(Z, (x, -0.01, 0)))])) for x in (0.3, 0.6)
+    )
     for ahead in centered:
         assert ahead["visible ahead"] == pytest.approx(ahead["visible behind"], abs=0.05)
         assert abs(ahead["outward"]) < 0.1

@@ -11,7 +11,7 @@ from functools import cache
 import numpy as np
 import pytest
 from assets import box, mesh_of
-from made import X, Y, Z, context, slide, turn
+from made import X, Y, Z, context_of, slide, turn
 from scenes import door, drawer, lid, wheel
 from test_motion_features import LEFT_EDGE, OUT, features
 from trimesh.creation import cylinder
@@ -152,34 +152,34 @@ CAR = [box((0.1, 0, 0.1), (0.5, 0.1, 0.2))]  # stands on the rail
 @pytest.mark.parametrize(("axis", "sign", "retained"), [(X, 1, 1.0), (X, -1, 0.75), (Z, 1, 0.0), (Y, 1, 0.55)])
 def test_a_slide_keeps_the_contact_that_stays_on_its_rail(axis: np.ndarray, sign: int, retained: float) -> None:
     """The car moves by half of its extent: 0.2 m along the rail, 5 cm across it."""
-    (found,) = contact_retention(context(CAR, RAIL), [slide(axis)], [sign])
+    (found,) = contact_retention(context_of(CAR, RAIL), [slide(axis)], [sign])
     assert found == pytest.approx(retained, abs=0.1)
 
 
 def test_a_hinge_keeps_the_contact_at_its_line() -> None:
     """A plate that stands on a board by its rim of 2 cm turns by 30 degrees about it, and about a line above it."""
-    around = context([box((0, 0, 0.1), (1, 0.02, 0.6))], [box((0, -0.5, 0), (1, 0.5, 0.1))])
-    low, high = contact_retention(around, [turn(X, (0, 0.01, 0.1)), turn(X, (0, 0.01, 0.6))], [1, 1])
+    context = context_of([box((0, 0, 0.1), (1, 0.02, 0.6))], [box((0, -0.5, 0), (1, 0.5, 0.1))])
+    low, high = contact_retention(context, [turn(X, (0, 0.01, 0.1)), turn(X, (0, 0.01, 0.6))], [1, 1])
     assert low > 0.9 > 0.1 > high
-    assert contact_retention(around, [], []).tolist() == []
+    assert contact_retention(context, [], []).tolist() == []
 
 
 def test_the_support_of_a_line_is_the_share_of_it_near_the_parent_or_another_part() -> None:
     """The parent is along 40 % of the line at one side, another part along 70 % of it, both 1 cm away."""
     plate, other = [box((0, 0, 0), (1, 0.02, 0.5))], [box((0.3, 0.03, -0.02), (1, 0.05, 0.02))]
-    around = context(plate, [box((0, 0.03, -0.3), (0.4, 0.05, 0.3))], other)
-    here, above, up = hinge_support(around, [turn(X, (0.5, 0.01, 0)), turn(X, (0.5, 0.01, 0.5)), turn(Z, (0, 0.01, 0))])
+    context = context_of(plate, [box((0, 0.03, -0.3), (0.4, 0.05, 0.3))], other)
+    here, above, up = hinge_support(context, [turn(X, (0.5, 0.01, 0)), turn(X, (0.5, 0.01, 0.5)), turn(Z, (0, 0.01, 0))])
     assert here == pytest.approx([0.4, 0.7, 0], abs=0.06)
     assert above == pytest.approx([0, 0, 0.4], abs=0.06)  # the line at the other side is the free one
     assert up[0] == pytest.approx(0.6, abs=0.15)
-    assert hinge_support(around, []).shape == (0, 3)
+    assert hinge_support(context, []).shape == (0, 3)
 
 
 def test_the_lever_arm_of_a_plate_on_its_rim() -> None:
     """The plate is 0.5 m high, and as thick at its rim as at its largest; its contact is at the line."""
-    around = context([box((0, 0, 0), (1, 0.02, 0.5))], [box((0, -0.2, -0.02), (1, 0.2, 0))])
+    context = context_of([box((0, 0, 0), (1, 0.02, 0.5))], [box((0, -0.2, -0.02), (1, 0.2, 0))])
     lines = turn(X, (0.3, 0.01, 0)), turn(X, (0.3, 0.01, 0.5))
-    near, far = (line_features(around, line, contact_points(around), adjacent_sides(around)) for line in lines)
+    near, far = (line_features(context, line, contact_points(context), adjacent_sides(context)) for line in lines)
     assert near["log2 reach over length"] == pytest.approx(np.log2(0.5 / 1), abs=0.02)
     assert near["contact proximity"] == pytest.approx(0.98, abs=0.015)
     assert near["thick at the line"] == pytest.approx(1, abs=0.02)

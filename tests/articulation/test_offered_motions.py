@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from assets import box
 from known import the_case
-from made import EDGE, PLATE, PULL, X, Z, context, slide, turn
+from made import EDGE, PLATE, PULL, X, Z, context_of, slide, turn
 from scenes import door
 
 from anymesh.articulation import offers
@@ -133,7 +133,7 @@ def test_an_edge_away_from_the_part_is_in_the_second_picture(monkeypatch, off: f
 
 def test_lines_are_compared_by_where_they_take_the_part() -> None:
     """A pure rotation about parallel lines differs by a translation of 2 sin(a / 2) times their distance."""
-    moved = MovedPoints(door_case().around, [at(0.0), at(0.1), replace(at(0.0), opening_sign=-1), PULL])
+    moved = MovedPoints(door_case().context, [at(0.0), at(0.1), replace(at(0.0), opening_sign=-1), PULL])
     assert moved.apart(0, 1, np.pi / 3)[0] == pytest.approx(0.1)
     assert moved.apart(0, 1, np.pi / 2)[0] == pytest.approx(0.1 * np.sqrt(2))
     assert moved.apart(0, 2, np.pi / 3)[0] > 0.3
@@ -155,10 +155,10 @@ def test_both_directions_of_a_motion_are_scored_only_if_both_are_free() -> None:
 def test_lines_at_one_rim_are_within_one_and_a_half_thicknesses(off: float, front: bool) -> None:
     """The panel is 2 cm thick; hinged 2 cm behind its neighbour's front it hits the neighbour."""
     leaf, other = [box((0, -0.022, 0), (0.6, -0.002, 0.8))], [box((-0.6, -0.022, 0), (-0.001, -0.002, 0.8))]
-    around = context(leaf, [box((-0.6, 0, 0), (0.6, 0.4, 0.8))], other)
+    context = context_of(leaf, [box((-0.6, 0, 0), (0.6, 0.4, 0.8))], other)
     lines = tuple(replace(EDGE, motion=turn(Z, (0, y, 0)), opening_sign=-1) for y in (-0.002, -0.002 - off))
     question = MotionQuestion(PLATE, lines, np.array([3.0, 0]), lambda _: "")
-    chosen = choose_motion(around, question)[1]
+    chosen = choose_motion(context, question)[1]
     assert chosen is lines[int(front)]
 
 
@@ -169,7 +169,7 @@ SHUTTLE = [box((-0.1, -0.01, 0), (0.1, 0.01, 0.1))]
 def test_a_guide_is_within_two_percent_of_the_scale(gap: float, guided: float) -> None:
     """The scale is about 1 m."""
     rails = [box((-0.5, -0.03, z), (0.5, 0.03, z + 0.1)) for z in (-0.1 - gap, 0.1 + gap)]
-    (c, _) = sweep_candidates(context(SHUTTLE, rails), [("slide", slide(X))])
+    (c, _) = sweep_candidates(context_of(SHUTTLE, rails), [("slide", slide(X))])
     assert c.guided == guided
 
 
@@ -178,15 +178,15 @@ def test_a_slide_between_stops_moves_by_a_quarter_of_its_size(room: float, captu
     """The size of the shuttle is 0.224 m."""
     sides = (-0.13 - room / 2, -0.1 - room / 2), (0.1 + room / 2, 0.2)
     ends = [box((low, -0.05, -0.05), (high, 0.05, 0.15)) for low, high in sides]
-    (c, _) = sweep_candidates(context(SHUTTLE, ends), [("slide", slide(X))])
+    (c, _) = sweep_candidates(context_of(SHUTTLE, ends), [("slide", slide(X))])
     assert c.captured == captured
 
 
 @pytest.mark.parametrize("overlap", [0.0, 0.003])
 def test_a_hinge_is_free_where_the_part_only_leaves_a_post_that_it_overlaps(overlap: float) -> None:
     post = box((-0.1, -0.5, 0), (overlap, 0.5, 0.8))
-    around = context([box((0, -0.022, 0), (0.6, -0.002, 0.8))], [box((-0.1, 0.0, 0), (0.6, 0.4, 0.8)), post])
-    found = max(sweep_candidates(around, [("edge", turn(Z, (0.6, -0.022, 0)))]), key=lambda c: c.outward)
+    context = context_of([box((0, -0.022, 0), (0.6, -0.002, 0.8))], [box((-0.1, 0.0, 0), (0.6, 0.4, 0.8)), post])
+    found = max(sweep_candidates(context, [("edge", turn(Z, (0.6, -0.022, 0)))]), key=lambda c: c.outward)
     assert found.is_free
 
 
@@ -194,7 +194,7 @@ def test_a_hinge_is_free_where_the_part_only_leaves_a_post_that_it_overlaps(over
 def test_a_door_that_is_sunk_into_the_wall_at_its_hinge_turns_by_a_right_angle_but_slides_no_deeper(sunk: float) -> None:
     """The door is 3 cm thick; of its diagonal .003 are tolerated, about 3 mm."""
     wall = box((-0.1, -0.7, -0.2), (sunk, 0.3, 1))
-    around = context([box((0, -0.03, 0), (0.6, 0.0, 0.8))], [wall])
-    candidates = sweep_candidates(around, [("edge", turn(Z, (0, -0.03, 0))), ("slide", slide(-X))])
+    context = context_of([box((0, -0.03, 0), (0.6, 0.0, 0.8))], [wall])
+    candidates = sweep_candidates(context, [("edge", turn(Z, (0, -0.03, 0))), ("slide", slide(-X))])
     assert np.degrees(max(c.opening for c in candidates[:2])) > 80  # 73 and 61 if the overlap is not tolerated
     assert candidates[2].opening < 0.01

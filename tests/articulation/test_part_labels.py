@@ -26,8 +26,8 @@ def label(solids: list, moving: list[int]) -> str:
     mesh, number = mesh_of(solids)
     segmentation = Segmentation(np.isin(number, moving).astype(np.int64), (Part("base", "base"), Part("it", "part")))
     whole = object_shape(mesh, 0, labels=segmentation.face_part)
-    _, _, around, question = next(iter(motion_questions(whole, segmentation, Config())))
-    return label_of(around, choose_motion(around, question)[1])
+    _, _, context, question = next(iter(motion_questions(whole, segmentation, Config())))
+    return label_of(context, choose_motion(context, question)[1])
 
 
 @pytest.mark.parametrize(("stop", "expected"), [(False, "drawer"), (True, "")])

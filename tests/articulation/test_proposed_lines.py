@@ -9,7 +9,7 @@ import pytest
 import trimesh
 from assets import box
 from geometry.rigid import shape_of
-from made import EDGE, PULL, ROUND, X, Y, Z, candidate, context, turn
+from made import EDGE, PULL, ROUND, X, Y, Z, candidate, context_of, turn
 from scenes import prism, wheel
 from test_hypotheses import board
 
@@ -29,7 +29,7 @@ def handle(ends: float, width: float = 0.02, legs: float = 0.1) -> PartContext:
     """Return a bar over a block, whose legs stand on it at both ends; its contacts are `ends` apart."""
     part = [box((-0.5, 0, legs), (0.5, width, legs + 0.02))]
     part += [box((s * ends / 2 - width / 2, 0, 0.001), (s * ends / 2 + width / 2, width, legs)) for s in (-1, 1)]
-    return context(part, [box((-1, -0.5, -0.5), (1, 0.5, 0))])
+    return context_of(part, [box((-1, -0.5, -0.5), (1, 0.5, 0))])
 
 
 def test_a_bucket_handle_turns_about_the_line_through_its_two_contacts() -> None:
@@ -48,8 +48,8 @@ def test_two_contacts_must_be_far_apart(ends: float, found: bool) -> None:
 
 def test_contact_all_along_or_at_one_end_gives_no_line_through_two() -> None:
     block = [box((-1, -0.5, -0.5), (1, 0.5, 0))]
-    assert two_pivot_line(context([box((-0.5, 0, 0.001), (0.5, 0.02, 0.1))], block)) is None
-    assert two_pivot_line(context([box((-0.5, 0, 0.001), (-0.48, 0.02, 0.9))], block)) is None
+    assert two_pivot_line(context_of([box((-0.5, 0, 0.001), (0.5, 0.02, 0.1))], block)) is None
+    assert two_pivot_line(context_of([box((-0.5, 0, 0.001), (-0.48, 0.02, 0.9))], block)) is None
     assert two_pivot_line(handle(0.6, width=0.3)) is None  # broad feet
 
 
@@ -64,8 +64,8 @@ def test_the_contact_of_a_board_gives_its_length_width_and_normal() -> None:
 
 @pytest.mark.parametrize(("radius", "length", "found"), [(0.01, 0.1, 1), (0.01, 0.015, 0), (0.02, 0.1, 1)])
 def test_the_axis_of_a_barrel_is_proposed(radius: float, length: float, found: int) -> None:
-    around = replace(board(), barrel_candidates=(shape_of(prism(radius, (0, length), 0.3, 0.5)),))
-    lines = barrels(around)
+    context = replace(board(), barrel_candidates=(shape_of(prism(radius, (0, length), 0.3, 0.5)),))
+    lines = barrels(context)
     assert len(lines) == found
     for role, m in lines:
         assert role == "barrel"
@@ -76,8 +76,8 @@ def test_the_axis_of_a_barrel_is_proposed(radius: float, length: float, found: i
 
 
 def test_a_disc_turns_about_its_own_axis_first() -> None:
-    around = context(wheel()["disc"], wheel()["base"])
-    (role, m), *_ = propose(around)
+    context = context_of(wheel()["disc"], wheel()["base"])
+    (role, m), *_ = propose(context)
     assert (role, m.source) == ("round", "axis of its round outline")
     assert m.axis == pytest.approx(Y, abs=1e-6)
     assert m.origin == pytest.approx([0, -0.035, 0.2], abs=1e-3)
@@ -88,8 +88,8 @@ def test_an_arm_on_a_pin_turns_about_the_pin() -> None:
     pin, tube = prism(0.04, (-0.1, 0.3), 0.1, 0.2, 32), trimesh.creation.annulus(0.042, 0.06, 0.1, sections=32)
     turned = tube.vertices[:, [0, 2, 1]] * [1, -1, 1] + [0.1, 0.05, 0.2]
     arm = [(turned, tube.faces), box((0.155, 0.02, 0.2), (0.9, 0.08, 0.3)), box((0.7, 0.08, 0.2), (0.8, 0.4, 0.25))]
-    around = context(arm, [pin, box((-0.3, -0.3, -0.3), (0.5, -0.1, 0.5))])
-    lines = [m for role, m in propose(around) if role == "surface"]
+    context = context_of(arm, [pin, box((-0.3, -0.3, -0.3), (0.5, -0.1, 0.5))])
+    lines = [m for role, m in propose(context) if role == "surface"]
     off = [np.linalg.norm(np.cross(m.origin - [0.1, 0, 0.2], Y)) for m in lines if abs(m.axis[1]) > np.cos(np.deg2rad(2))]
     assert min(off) < 0.005
     assert len(lines) <= 2
@@ -97,13 +97,13 @@ def test_an_arm_on_a_pin_turns_about_the_pin() -> None:
 
 
 def test_an_axis_of_the_contact_that_repeats_another_motion_is_not_proposed() -> None:
-    around = context([prism(0.1, (0.002, 0.02), 0.3, 0.3, 64)], [prism(0.1, (-0.2, 0), 0.3, 0.3, 64)])
-    assert contact_axes(around)
-    assert "surface" not in [role for role, _ in propose(around)]
+    context = context_of([prism(0.1, (0.002, 0.02), 0.3, 0.3, 64)], [prism(0.1, (-0.2, 0), 0.3, 0.3, 64)])
+    assert contact_axes(context)
+    assert "surface" not in [role for role, _ in propose(context)]
 
 
 def test_the_ring_of_a_contact_has_a_hub_and_pivots_through_its_middle() -> None:
-    ring = context([prism(0.1, (0.002, 0.02), 0.3, 0.3, 64)], [prism(0.1, (-0.2, 0), 0.3, 0.3, 64)])
+    ring = context_of([prism(0.1, (0.002, 0.02), 0.3, 0.3, 64)], [prism(0.1, (-0.2, 0), 0.3, 0.3, 64)])
     roles = [role for role, _ in pivots(ring, Y)]
     assert roles[0] == "hub"
     straight = pivots(board(), Y)
@@ -141,7 +141,7 @@ def test_copies_are_parts_of_equal_sides_on_one_parent() -> None:
 def test_parts_are_in_a_row_across_their_opening_direction(forward: float, row: bool) -> None:
     """0.61 m apart; the limit is a quarter of the distance."""
     case = [box((0, 0, 0), (2, 0.5, 1))]
-    one, other = (context([box((x, y - 0.02, 0), (x + 0.6, y, 1))], case) for x, y in ((0.0, 0.0), (0.61, -forward)))
+    one, other = (context_of([box((x, y - 0.02, 0), (x + 0.6, y, 1))], case) for x, y in ((0.0, 0.0), (0.61, -forward)))
     assert one.opening_direction == pytest.approx(-Y)
     assert in_a_row(one, other) == in_a_row(other, one) == row
 
@@ -157,45 +157,45 @@ LABELS = [
 @pytest.mark.parametrize(("c", "size", "label"), LABELS)
 def test_the_label_of_a_part_follows_from_its_motion_and_size(c, size: float, label: str) -> None:
     """A board of 1 m before a block, in an object whose diagonal is given by the size of the board in it."""
-    around = context([box((0, -0.03, 0), (0.6, -0.002, 0.8))], [box((0, 0, 0), (0.6, 0.4, 0.8))])
-    diagonal = around.part.box.diagonal / size
-    assert label_of(replace(around, diagonal=diagonal), c) == label
+    context = context_of([box((0, -0.03, 0), (0.6, -0.002, 0.8))], [box((0, 0, 0), (0.6, 0.4, 0.8))])
+    diagonal = context.part.box.diagonal / size
+    assert label_of(replace(context, diagonal=diagonal), c) == label
 
 
 @pytest.mark.parametrize(("z", "axis", "label"), [(0.5, X, "lid"), (0.3, X, "door"), (0.5, Z, "door")])
 def test_a_part_on_a_level_hinge_that_rises_above_its_parent_is_an_open_lid(z: float, axis: np.ndarray, label: str) -> None:
     """A panel of 0.8 m, half a metre or 0.3 m of which is above a block."""
-    around = context([box((0, -0.03, z), (0.6, -0.002, z + 0.8))], [box((0, 0, 0), (0.6, 0.4, 0.8))])
-    assert label_of(around, replace(EDGE, motion=turn(axis))) == label
+    context = context_of([box((0, -0.03, z), (0.6, -0.002, z + 0.8))], [box((0, 0, 0), (0.6, 0.4, 0.8))])
+    assert label_of(context, replace(EDGE, motion=turn(axis))) == label
 
 
 def test_the_joint_of_a_candidate_is_on_the_part_and_opens_along_its_axis() -> None:
-    around = board()
+    context = board()
     c = replace(EDGE, motion=turn(Z, (0.6, -0.03, -5)), opening_sign=-1)
-    found = joint_of(around, "leaf", "case", c, JointType.REVOLUTE, 0.8, "so")
+    found = joint_of(context, "leaf", "case", c, JointType.REVOLUTE, 0.8, "so")
     assert (found.name, found.parent, found.child, found.confidence, found.reason) == ("leaf_joint", "case", "leaf", 0.8, "so")
     assert np.r_[found.axis, found.origin] == pytest.approx([0, 0, -1, 0.6, -0.03, 0.45])
 
 
 def test_a_part_without_a_free_motion_has_its_likeliest_one() -> None:
-    around = board()
+    context = board()
     candidates = (EDGE, replace(PULL, motion=replace(PULL.motion, axis=-Y)))
     blocked = tuple(replace(c, opening=0.0, closing=0.0) for c in candidates)
-    facts = PartFacts.of(around, "part")
-    found = estimate_joint(around, "b", "base", MotionQuestion(facts, blocked, np.array([0.0, 1.0]), lambda _: ""))
+    facts = PartFacts.of(context, "part")
+    found = estimate_joint(context, "b", "base", MotionQuestion(facts, blocked, np.array([0.0, 1.0]), lambda _: ""))
     assert (found.type, found.confidence) == (JointType.PRISMATIC, NO_MOTION_CONFIDENCE)
     assert found.reason == "no candidate motion is free and plausible; most likely: a slide"
-    moving = estimate_joint(around, "b", "base", MotionQuestion(facts, candidates, np.array([3.0, 0.0]), lambda _: ""))
+    moving = estimate_joint(context, "b", "base", MotionQuestion(facts, candidates, np.array([3.0, 0.0]), lambda _: ""))
     assert moving.type is JointType.REVOLUTE
 
 
 def test_of_the_lines_at_one_rim_the_one_that_clears_the_neighbours_is_chosen() -> None:
     """A door beside another one, flush with it: hinged at its back edge it would hit it, at its front edge it clears it."""
     leaf, other = [box((0, -0.022, 0), (0.6, -0.002, 0.8))], [box((-0.6, -0.022, 0), (-0.001, -0.002, 0.8))]
-    around = context(leaf, [box((-0.6, 0, 0), (0.6, 0.4, 0.8))], other)
+    context = context_of(leaf, [box((-0.6, 0, 0), (0.6, 0.4, 0.8))], other)
     back, front = (replace(EDGE, motion=turn(Z, (0, y, 0)), opening_sign=-1) for y in (-0.002, -0.022))
-    question = MotionQuestion(PartFacts.of(around, "part"), (back, front), np.array([3.0, 0]), lambda k: f"line {k}")
-    assert choose_motion(around, question)[1] is front
-    assert estimate_joint(around, "a", "base", question).reason.endswith("line 1")  # of the joint that is written
-    alone = replace(around, other_parts=())
+    question = MotionQuestion(PartFacts.of(context, "part"), (back, front), np.array([3.0, 0]), lambda k: f"line {k}")
+    assert choose_motion(context, question)[1] is front
+    assert estimate_joint(context, "a", "base", question).reason.endswith("line 1")  # of the joint that is written
+    alone = replace(context, other_parts=())
     assert choose_motion(alone, question)[1] is back

@@ -135,7 +135,7 @@ def test_a_hinge_that_opens_to_no_side_is_compared_with_no_other() -> None:
     mesh, segmentation = built(pair("both"))
     config = Config()
     whole = object_shape(mesh, config.seed, config.patches, segmentation.face_part)
-    _, _, around, question = next(iter(estimate.motion_questions(whole, segmentation, config)))
-    assert around.other_parts
+    _, _, context, question = next(iter(estimate.motion_questions(whole, segmentation, config)))
+    assert context.other_parts
     rims = [replace(c, outward=0.0) for c in question.candidates if c.role == "edge"]
-    assert estimate._clear_of_others(around, rims[0], tuple(rims)) is rims[0]
+    assert estimate._clear_of_others(context, rims[0], tuple(rims)) is rims[0]

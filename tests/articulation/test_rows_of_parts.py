@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 from geometry.rigid import shape_of
-from made import EDGE, PULL, X, Y, Z, candidate, context, slide, turn
+from made import EDGE, PULL, X, Y, Z, candidate, context_of, slide, turn
 from scenes import case, drawer, prism
 
 from anymesh.articulation.evidence import sweep_candidates
@@ -30,15 +30,15 @@ SCREEN = box((0.65, -0.3, -0.1), (1.25, -0.28, 1.1))  # in front of the second p
 
 
 def panel(x: float, y: float = 0.0, *more) -> PartContext:
-    return context([box((x, y - 0.03, 0), (x + 0.6, y - 0.002, 1))], [CASE, *more])
+    return context_of([box((x, y - 0.03, 0), (x + 0.6, y - 0.002, 1))], [CASE, *more])
 
 
 def test_parts_in_a_row_open_where_most_of_them_can() -> None:
     """The view of the second of three panels is blocked, so that it would open sideways or up by itself."""
     row = [panel(0.0), panel(0.65, 0.0, SCREEN), panel(1.3)]
     assert abs(row[1].opening_direction @ Y) < 0.1
-    for around in share_opening_directions(row):
-        assert around.opening_direction == pytest.approx(-Y)
+    for context in share_opening_directions(row):
+        assert context.opening_direction == pytest.approx(-Y)
     assert share_opening_directions(row[1:2])[0] is row[1]
 
 
@@ -46,13 +46,13 @@ def test_two_parts_are_a_row() -> None:
     """By itself, the second panel would open sideways or up, since its view to the front is blocked."""
     row = [panel(0.0), panel(0.65, 0.0, SCREEN)]
     assert abs(row[1].opening_direction @ Y) < 0.1
-    for around in share_opening_directions(row):
-        assert around.opening_direction == pytest.approx(-Y)
+    for context in share_opening_directions(row):
+        assert context.opening_direction == pytest.approx(-Y)
 
 
 def test_parts_behind_each_other_are_no_row() -> None:
     row = [panel(0.0), panel(0.65), panel(0.0, -0.5)]
-    assert [around.opening_direction @ -Y for around in share_opening_directions(row)] == pytest.approx([1, 1, 1])
+    assert [context.opening_direction @ -Y for context in share_opening_directions(row)] == pytest.approx([1, 1, 1])
     blocked = [panel(0.65, 0.0, SCREEN), panel(0.65, -0.8)]
     assert share_opening_directions(blocked)[0] is blocked[0]
 
@@ -63,29 +63,31 @@ def test_a_part_that_opens_as_its_row_does_is_unchanged() -> None:
 
 
 def test_a_hinge_has_no_evidence_of_slides_and_a_slide_none_of_hinges() -> None:
-    around = context([box((0, -0.03, 0), (0.6, -0.002, 1))], [CASE])
-    hinge, _, out, _ = sweep_candidates(around, [("edge", turn(Z, (0, -0.016, 0))), ("slide", slide(-Y))])
+    context = context_of([box((0, -0.03, 0), (0.6, -0.002, 1))], [CASE])
+    hinge, _, out, _ = sweep_candidates(context, [("edge", turn(Z, (0, -0.016, 0))), ("slide", slide(-Y))])
     assert (hinge.guided, hinge.overlap_gain, hinge.captured) == (0, 0, False)
     assert (out.hinge_support, out.sibling, out.support_opposite, out.handle_side) == (0,) * 4
     made = candidate("edge", JointType.REVOLUTE, Z)
     assert (made.contact_retention, made.overlap_gain) == (0, 0)
 
 
-def features(around: PartContext, *proposed) -> list[dict[str, float]]:
-    return motion_features(around, sweep_candidates(around, list(proposed)))
+def features(context: PartContext, *proposed) -> list[dict[str, float]]:
+    return motion_features(context, sweep_candidates(context, list(proposed)))
 
 
 @pytest.mark.parametrize("scale", [0.01, 1.0, 100.0])
 def test_what_is_visible_does_not_depend_on_the_unit(scale: float) -> None:
     """The panel is free to its front, and its back is 2 mm from the case."""
     leaf, case = (((np.asarray(v) * scale), f) for v, f in (box((0, -0.03, 0), (0.6, -0.002, 1)), CASE))
-    out, back = features(context([leaf], [case]), ("slide", slide(-Y)))
+    out, back = features(context_of([leaf], [case]), ("slide", slide(-Y)))
     assert (out["visible ahead"], out["visible behind"]) == (1, pytest.approx(0, abs=0.1))
     assert (back["visible ahead"], back["visible behind"]) == (out["visible behind"], out["visible ahead"])
     assert out["two pivots"] == 0
-    assert all(way["two pivots"] == 1 for way in features(context([leaf], [case]), ("slide", slide(Z)), ("two_pivot", turn(X))))
+    assert all(
+        way["two pivots"] == 1 for way in features(context_of([leaf], [case]), ("slide", slide(Z)), ("two_pivot", turn(X)))
+    )
     assert out["upwards"] == pytest.approx(0)
-    (up, down) = features(context([leaf], [case]), ("slide", slide(Z)))
+    (up, down) = features(context_of([leaf], [case]), ("slide", slide(Z)))
     assert (up["upwards"], down["upwards"]) == (1, -1)
     assert {name for name, value in up.items() if value == MISSING} >= {
         "hinge support",
@@ -98,8 +100,8 @@ def test_what_is_visible_does_not_depend_on_the_unit(scale: float) -> None:
 
 def test_a_barrel_is_near_its_own_axis() -> None:
     pin = shape_of(*[(v @ np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]]), f) for v, f in [prism(0.01, (0.4, 0.5), 0.0, 0.016)]])
-    around = replace(context([box((0, -0.03, 0), (0.6, -0.002, 1))], [CASE]), barrel_candidates=(pin,))
-    near, _, far, _ = features(around, ("edge", turn(Z, (0, -0.016, 0))), ("edge", turn(Z, (0.6, -0.016, 0))))
+    context = replace(context_of([box((0, -0.03, 0), (0.6, -0.002, 1))], [CASE]), barrel_candidates=(pin,))
+    near, _, far, _ = features(context, ("edge", turn(Z, (0, -0.016, 0))), ("edge", turn(Z, (0.6, -0.016, 0))))
     assert (near["barrel near"], far["barrel near"]) == (1, 0)
 
 
@@ -120,10 +122,10 @@ def test_motions_in_the_opposite_direction_or_of_another_kind_are_no_repetition(
 
 
 def test_proposed_motions_have_unit_axes_and_are_distinct() -> None:
-    around = context([box((0, -0.03, 0), (0.6, -0.002, 1))], [CASE])
-    found = propose(around)
+    context = context_of([box((0, -0.03, 0), (0.6, -0.002, 1))], [CASE])
+    found = propose(context)
     assert all(np.linalg.norm(m.axis) == pytest.approx(1) for _, m in found)
-    assert len(distinct(found, around.tolerance_length)) == len(found)
+    assert len(distinct(found, context.tolerance_length)) == len(found)
     assert {role for role, _ in found} >= {"edge", "edge_mid", "center", "slide"}
 
 
@@ -133,9 +135,9 @@ def test_a_chain_of_parents_ends_at_the_root() -> None:
 
 
 def test_equal_motions_of_a_part_take_it_to_one_place() -> None:
-    around = context([box((0, -0.03, 0), (0.6, -0.002, 1))], [CASE])
+    context = context_of([box((0, -0.03, 0), (0.6, -0.002, 1))], [CASE])
     turned = [replace(EDGE, motion=turn(Z)), replace(EDGE, motion=turn(-Z), opening_sign=-1), PULL]
-    moved = MovedPoints(around, turned)
+    moved = MovedPoints(context, turned)
     assert moved.apart(0, 1, 1.0)[0] == pytest.approx(0, abs=1e-9)
     assert moved.apart(0, 1, 1.0)[1] == pytest.approx(2 * np.sin(0.5) * 0.3, rel=0.1)
     assert moved.apart(2, 0, 1.0) == (np.inf, 0.0)
@@ -157,19 +159,19 @@ def test_the_sweep_shortens_an_answered_slide_on_both_sides(answered: tuple, fou
         box((0.7, -0.2, 0), (0.8, 0.4, 0.3)),
         box((-0.3, -0.2, -0.1), (0.8, 0.4, 0)),
     ]
-    around = context([box((0, 0, 0.005), (0.4, 0.2, 0.2))], walls)
-    along = next(c for c in sweep_candidates(around, [("slide", slide(X))]) if c.opening_sign > 0)
+    context = context_of([box((0, 0, 0.005), (0.4, 0.2, 0.2))], walls)
+    along = next(c for c in sweep_candidates(context, [("slide", slide(X))]) if c.opening_sign > 0)
     assert abs(along.outward) < 0.1
-    assert limits(around, along, JointType.PRISMATIC, answered) == pytest.approx(found, abs=0.01)
+    assert limits(context, along, JointType.PRISMATIC, answered) == pytest.approx(found, abs=0.01)
 
 
 def test_an_answered_drawer_does_not_go_into_its_case_but_a_button_does() -> None:
-    around = context(drawer()["box"], drawer()["base"])
-    out = next(c for c in sweep_candidates(around, [("slide", slide(-Y))]) if c.outward > 0)
-    assert limits(around, out, JointType.PRISMATIC, (-0.1, 0.2)) == pytest.approx((0, 0.2), abs=0.01)
-    assert limits(around, out, JointType.PRISMATIC, (-0.1, 0.05)) == pytest.approx((-0.1, 0.05), abs=0.01)
-    assert limits(around, out, JointType.PRISMATIC, (-2.0, 0.05)) == pytest.approx((-0.42, 0.05), abs=0.01)  # its own depth
-    thin = context([box((0.005, -0.022, 0.005), (0.595, 0.02, 0.275))], case(0.28))
+    context = context_of(drawer()["box"], drawer()["base"])
+    out = next(c for c in sweep_candidates(context, [("slide", slide(-Y))]) if c.outward > 0)
+    assert limits(context, out, JointType.PRISMATIC, (-0.1, 0.2)) == pytest.approx((0, 0.2), abs=0.01)
+    assert limits(context, out, JointType.PRISMATIC, (-0.1, 0.05)) == pytest.approx((-0.1, 0.05), abs=0.01)
+    assert limits(context, out, JointType.PRISMATIC, (-2.0, 0.05)) == pytest.approx((-0.42, 0.05), abs=0.01)  # its own depth
+    thin = context_of([box((0.005, -0.022, 0.005), (0.595, 0.02, 0.275))], case(0.28))
     panel_out = next(c for c in sweep_candidates(thin, [("slide", slide(-Y))]) if c.outward > 0)
     # only a twentieth of the answered travel is inside the case, so that it does not limit the travel
     assert limits(thin, panel_out, JointType.PRISMATIC, (0.0, 0.4)) == pytest.approx((0, 0.4), abs=0.01)

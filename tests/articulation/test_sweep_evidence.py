@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from assets import box
-from made import EDGE, PULL, X, Y, Z, candidate, context, slide, turn
+from made import EDGE, PULL, X, Y, Z, candidate, context_of, slide, turn
 from scenes import case
 
 from anymesh.articulation.evidence import sweep_candidates
@@ -24,15 +24,15 @@ LEAF = [box((-0.3, -0.022, 0), (0.3, -0.002, 0.6))]  # 2 mm in front of the bloc
 KNOB = box((0.2, -0.06, 0.2), (0.23, -0.022, 0.23))
 
 
-def outward(around: PartContext, role: str, motion: Motion) -> Candidate:
+def outward(context: PartContext, role: str, motion: Motion) -> Candidate:
     """Return the candidate that opens outwards."""
-    return max(sweep_candidates(around, [(role, motion)]), key=lambda c: c.outward)
+    return max(sweep_candidates(context, [(role, motion)]), key=lambda c: c.outward)
 
 
 def of(part: list, rest: list, motion: Motion, role: str = "edge", kind: JointType | None = None) -> tuple[float, float]:
     """Return the limits of the outward motion of a part."""
-    around = context(part, rest)
-    found = limits(around, outward(around, role, motion), kind or motion.kind)
+    context = context_of(part, rest)
+    found = limits(context, outward(context, role, motion), kind or motion.kind)
     assert found is not None
     return found
 
@@ -42,7 +42,7 @@ def test_a_reversed_candidate_opens_the_other_way() -> None:
     other = one.reversed()
     assert (other.opening_sign, other.opening, other.closing, other.outward) == (-1, 0.5, 2.0, -0.9)
     assert other.opening_motion.axis == pytest.approx(-one.opening_motion.axis)
-    ahead, back = sweep_candidates(context(LEAF, BLOCK), [("edge", turn(Z, (-0.3, -0.012, 0)))])
+    ahead, back = sweep_candidates(context_of(LEAF, BLOCK), [("edge", turn(Z, (-0.3, -0.012, 0)))])
     assert (ahead.opening_sign, back.opening_sign) == (1, -1)
     assert (ahead.opening, ahead.outward) == (back.closing, -back.outward)
 
@@ -50,14 +50,14 @@ def test_a_reversed_candidate_opens_the_other_way() -> None:
 @pytest.mark.parametrize(("x", "side"), [(-0.3, 0.717), (0.3, -0.717), (0.0, 0.0)])
 def test_a_knob_is_opposite_its_hinge(x: float, side: float) -> None:
     """Its center is at 0.215 of 0.3 m."""
-    c = outward(context([*LEAF, KNOB], BLOCK), "edge", turn(Z, (x, -0.012, 0)))
+    c = outward(context_of([*LEAF, KNOB], BLOCK), "edge", turn(Z, (x, -0.012, 0)))
     assert c.handle_side == pytest.approx(side, abs=0.02)
-    assert outward(context(LEAF, BLOCK), "edge", turn(Z, (x, -0.012, 0))).handle_side == 0
+    assert outward(context_of(LEAF, BLOCK), "edge", turn(Z, (x, -0.012, 0))).handle_side == 0
 
 
 def test_a_bar_handle_that_runs_across_the_line_counts_less() -> None:
     bar = box((0.15, -0.06, 0.28), (0.25, -0.022, 0.3))
-    c = outward(context([*LEAF, bar], BLOCK), "edge", turn(Z, (-0.3, -0.012, 0)))
+    c = outward(context_of([*LEAF, bar], BLOCK), "edge", turn(Z, (-0.3, -0.012, 0)))
     assert c.handle_side == pytest.approx(0.6 * 0.2 / 0.3, abs=0.02)
 
 
@@ -72,18 +72,18 @@ SHUTTLE = [box((-0.1, -0.01, 0), (0.1, 0.01, 0.1))]
 
 @pytest.mark.parametrize(("gap", "guided"), [(0.002, 0.5), (0.05, 0.0)])
 def test_rails_above_and_below_guide_a_slide_on_two_of_four_sides(gap: float, guided: float) -> None:
-    around = context(SHUTTLE, slot(gap, ends=True))
-    (c, _) = sweep_candidates(around, [("slide", slide(X))])
+    context = context_of(SHUTTLE, slot(gap, ends=True))
+    (c, _) = sweep_candidates(context, [("slide", slide(X))])
     assert c.guided == guided
     assert c.captured
-    assert c.opening == pytest.approx(0.4 / around.tolerance_length, rel=0.05)
-    assert c.closing == pytest.approx(0.4 / around.tolerance_length, rel=0.05)
+    assert c.opening == pytest.approx(0.4 / context.tolerance_length, rel=0.05)
+    assert c.closing == pytest.approx(0.4 / context.tolerance_length, rel=0.05)
 
 
 def test_a_slide_is_captured_between_stops_at_both_ends_only() -> None:
-    assert not outward(context(SHUTTLE, slot(0.002, ends=False)), "slide", slide(X)).captured
+    assert not outward(context_of(SHUTTLE, slot(0.002, ends=False)), "slide", slide(X)).captured
     tight = [box((-0.13, -0.03, 0), (-0.11, 0.03, 0.1)), box((0.11, -0.03, 0), (0.13, 0.03, 0.1))]
-    assert not outward(context(SHUTTLE, [*slot(0.002, ends=False), *tight]), "slide", slide(X)).captured  # hardly moves
+    assert not outward(context_of(SHUTTLE, [*slot(0.002, ends=False), *tight]), "slide", slide(X)).captured  # hardly moves
 
 
 def test_a_captured_slide_moves_from_stop_to_stop() -> None:
@@ -108,9 +108,9 @@ def test_a_wall_beside_a_door_stops_it() -> None:
 def test_the_limits_of_a_small_part_are_within_the_free_range_of_its_candidate() -> None:
     """A lever of 5 mm in front of a large block strikes it with its corners, as steps of 1 degree do not notice."""
     lever = [box((-0.001, -0.005, 0), (0.001, 0, 0.004))]
-    around = context(lever, [box((-0.3, 0.0003, 0), (0.3, 0.4, 0.6))])
-    c = outward(around, "edge", turn(Z))
-    low, high = limits(around, c, JointType.REVOLUTE)
+    context = context_of(lever, [box((-0.3, 0.0003, 0), (0.3, 0.4, 0.6))])
+    c = outward(context, "edge", turn(Z))
+    low, high = limits(context, c, JointType.REVOLUTE)
     assert min(c.opening, c.closing) > 12 * DEG
     assert max(c.opening, c.closing) < 30 * DEG
     assert high <= c.opening
@@ -119,11 +119,11 @@ def test_the_limits_of_a_small_part_are_within_the_free_range_of_its_candidate()
 
 def test_a_hinge_that_is_blocked_to_one_side_turns_to_the_other_alone() -> None:
     """A lever that lies flush on a large block, about its end."""
-    around = context([box((-0.001, -0.005, 0), (0.001, 0, 0.004))], [box((-0.3, 0, 0), (0.3, 0.4, 0.6))])
-    stopped, free = sorted(sweep_candidates(around, [("edge", turn(Z, (0, -0.005, 0)))]), key=lambda c: c.opening)
+    context = context_of([box((-0.001, -0.005, 0), (0.001, 0, 0.004))], [box((-0.3, 0, 0), (0.3, 0.4, 0.6))])
+    stopped, free = sorted(sweep_candidates(context, [("edge", turn(Z, (0, -0.005, 0)))]), key=lambda c: c.opening)
     assert (stopped.opening, free.closing) == (0, 0)
-    assert limits(around, free, JointType.REVOLUTE) == pytest.approx((0, 110 * DEG))
-    assert limits(around, stopped, JointType.REVOLUTE) == pytest.approx((-110 * DEG, 0))
+    assert limits(context, free, JointType.REVOLUTE) == pytest.approx((0, 110 * DEG))
+    assert limits(context, stopped, JointType.REVOLUTE) == pytest.approx((-110 * DEG, 0))
 
 
 def test_a_door_that_is_modelled_ajar_closes_as_well() -> None:
@@ -166,38 +166,38 @@ KEY = [box((-0.01, -0.005, -0.01), (0.01, 0.005, 0.01))]
 
 @pytest.mark.parametrize(("behind", "stroke"), [(0.03, 0.01), (-0.012, 0.003)])
 def test_a_button_goes_in_by_its_own_height_or_to_the_bottom_of_its_hole(behind: float, stroke: float) -> None:
-    around = context(KEY, button(behind))
-    inward = min(sweep_candidates(around, [("slide", slide(Y))]), key=lambda c: c.outward)
+    context = context_of(KEY, button(behind))
+    inward = min(sweep_candidates(context, [("slide", slide(Y))]), key=lambda c: c.outward)
     assert inward.outward < -0.9
-    assert limits(around, inward, JointType.PRISMATIC) == pytest.approx((0, stroke), abs=0.0015)
-    assert label_of(around, inward) == "button"
+    assert limits(context, inward, JointType.PRISMATIC) == pytest.approx((0, stroke), abs=0.0015)
+    assert label_of(context, inward) == "button"
 
 
 def test_a_button_that_fills_its_hole_goes_in_by_half_its_height() -> None:
-    around = context([box((-0.01, -0.01, -0.01), (0.01, -0.0002, 0.01))], [box((-0.1, 0, -0.1), (0.1, 0.1, 0.1))])
-    inward = min(sweep_candidates(around, [("slide", slide(Y))]), key=lambda c: c.outward)
-    assert limits(around, inward, JointType.PRISMATIC) == pytest.approx((0, 0.0049), abs=1e-6)
+    context = context_of([box((-0.01, -0.01, -0.01), (0.01, -0.0002, 0.01))], [box((-0.1, 0, -0.1), (0.1, 0.1, 0.1))])
+    inward = min(sweep_candidates(context, [("slide", slide(Y))]), key=lambda c: c.outward)
+    assert limits(context, inward, JointType.PRISMATIC) == pytest.approx((0, 0.0049), abs=1e-6)
 
 
 def test_joints_that_turn_endlessly_or_not_at_all_have_no_limits() -> None:
-    around = context(LEAF, BLOCK)
+    context = context_of(LEAF, BLOCK)
     for kind in (JointType.CONTINUOUS, JointType.FIXED):
-        assert limits(around, EDGE, kind) is None
-        assert limits(around, EDGE, kind, (0.0, 1.0)) is None
+        assert limits(context, EDGE, kind) is None
+        assert limits(context, EDGE, kind, (0.0, 1.0)) is None
 
 
 def test_a_hinge_that_is_not_free_keeps_the_answered_range() -> None:
-    around = context(LEAF, BLOCK)
+    context = context_of(LEAF, BLOCK)
     stuck = replace(EDGE, opening=0.1, closing=0.1)
-    assert limits(around, stuck, JointType.REVOLUTE, (-0.2, 1.5)) == pytest.approx((-0.2, 1.5))
+    assert limits(context, stuck, JointType.REVOLUTE, (-0.2, 1.5)) == pytest.approx((-0.2, 1.5))
 
 
 def test_an_answered_slide_that_is_blocked_keeps_its_range() -> None:
     """A block that fits between two walls."""
     walls = [box((x, -0.1, -0.1), (x + 0.1, 0.3, 0.3)) for x in (-0.1001, 0.2001)]
-    around = context([box((0, 0, 0), (0.2, 0.2, 0.2))], walls)
+    context = context_of([box((0, 0, 0), (0.2, 0.2, 0.2))], walls)
     stuck = replace(PULL, motion=slide(X), outward=0.0)
-    assert limits(around, stuck, JointType.PRISMATIC, (-0.1, 0.2)) == pytest.approx((-0.1, 0.2))
+    assert limits(context, stuck, JointType.PRISMATIC, (-0.1, 0.2)) == pytest.approx((-0.1, 0.2))
 
 
 @pytest.mark.parametrize(

@@ -60,7 +60,7 @@ def shown(name: str, asked: Motion | None, kind: JointAppearance, most: int = MO
 
 def moved(c: Candidate, case: PartCase, amount: float) -> np.ndarray:
     T = c.opening_motion.transform(amount)
-    points = case.around.part.samples.points[::20]
+    points = case.context.part.samples.points[::20]
     return points @ T[:3, :3].T + T[:3, 3] - points
 
 
@@ -72,7 +72,7 @@ def apart(a: Candidate, b: Candidate, case: PartCase) -> float:
     ways = moved(a, case, amount), moved(b, case, amount)
     way = min(float(np.linalg.norm(way, axis=1).mean()) for way in ways)
     off = float(np.linalg.norm(ways[0] - ways[1], axis=1).mean())
-    return off / min(DUPLICATE_OBJECT_RATIO * case.around.tolerance_length, DUPLICATE_MOTION_RATIO * way)
+    return off / min(DUPLICATE_OBJECT_RATIO * case.context.tolerance_length, DUPLICATE_MOTION_RATIO * way)
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -148,11 +148,11 @@ def test_an_answer_that_is_blocked_is_shown_and_marked_so(name: str, asked: Moti
 
 @pytest.mark.parametrize("name", ["wheel", "left"])
 def test_the_middle_lines_of_what_turns_into_the_surface_are_in_the_first_picture(name: str) -> None:
-    around, motions = case_of(name).around, shown(name, None, JointAppearance.HINGE_INTO)
+    context, motions = case_of(name).context, shown(name, None, JointAppearance.HINGE_INTO)
     found = [c for c in motions if c.role in CENTRAL]
-    through = [c for c in found if np.linalg.norm(np.cross(around.body_obb.center - c.motion.origin, c.motion.axis)) < 0.02]
+    through = [c for c in found if np.linalg.norm(np.cross(context.body_obb.center - c.motion.origin, c.motion.axis)) < 0.02]
     assert len(through) >= 1
-    assert any(abs(c.motion.axis @ around.opening_direction) > 0.99 for c in found)
+    assert any(abs(c.motion.axis @ context.opening_direction) > 0.99 for c in found)
 
 
 def test_the_axis_of_a_pin_on_a_part_that_is_not_round_is_offered() -> None:

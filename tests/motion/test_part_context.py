@@ -220,10 +220,10 @@ def test_the_place_of_a_door_turns_with_its_cabinet(turns):
 
 def test_the_place_is_in_half_diagonals_from_the_center_of_the_object():
     """A cube of 0.2 m on a cube of 1 m: the object's diagonal is that of 1 x 1 x 1.2 m."""
-    context = part_context([box((0.8, 0.8, 1), (1, 1, 1.2))], [box((0, 0, 0), (1, 1, 1))], np.eye(4))
+    around = part_context([box((0.8, 0.8, 1), (1, 1, 1.2))], [box((0, 0, 0), (1, 1, 1))], np.eye(4))
     unit = np.sqrt(1 + 1 + 1.44) / 2
-    np.testing.assert_allclose(context.place[:3], np.array([0.4, 0.4, 0.5]) / unit)
-    np.testing.assert_allclose(context.place[3:6], np.full(3, 0.1) / unit)
+    np.testing.assert_allclose(around.place[:3], np.array([0.4, 0.4, 0.5]) / unit)
+    np.testing.assert_allclose(around.place[3:6], np.full(3, 0.1) / unit)
 
 
 @pytest.mark.parametrize(("seed", "scale"), T_SCALES)

@@ -29,7 +29,7 @@ def prism(radius: float, ends: tuple[float, float], x: float, z: float) -> tuple
     return np.asarray(made.vertices), np.asarray(made.faces)
 
 
-def around(part: list, rest: list, seed: int = 0) -> PartContext:
+def context(part: list, rest: list, seed: int = 0) -> PartContext:
     corners = np.concatenate([v for v, _ in [*part, *rest]])
     low, high = corners.min(0), corners.max(0)
     own, other = (replace(shape_of(*pieces), seed=seed) for pieces in (part, rest))
@@ -138,7 +138,7 @@ def framed(left: float, back: float | None = None, plate=(0.6, 0.03, 0.6)) -> Pa
     frame = [box((w + 0.004, -0.1, 0), (w + 0.1, 0.1, h)), box((-0.1 - left, -0.1, 0), (-left, 0.1, h))]
     frame += [box((-0.1, -0.1, h + 0.004), (w + 0.1, 0.1, h + 0.1)), box((-0.1, -0.1, -0.1), (w + 0.1, 0.1, -0.004))]
     wall = [] if back is None else [box((-0.1, d + back, -0.1), (w + 0.1, d + back + 0.05, h + 0.1))]
-    return around([box((0, 0, 0), (w, d, h))], [*frame, *wall])
+    return context([box((0, 0, 0), (w, d, h))], [*frame, *wall])
 
 
 @pytest.mark.parametrize(("left", "sides", "flush"), [(0.004, 4, 0.0), (0.1, 3, 0.0), (0.0, 3, 0.25), (0.0003, 3, 0.25)])
@@ -153,19 +153,19 @@ def test_rims_with_a_clearance_are_counted(left: float, sides: int, flush: float
 def test_a_plate_is_enclosed_by_walls_at_three_sides(sides: int, share: float) -> None:
     walls = [box((-0.1, -0.1, -0.1), (-0.05, 0.2, 0.7)), box((0.65, -0.1, -0.1), (0.7, 0.2, 0.7)),
              box((-0.1, -0.1, -0.1), (0.7, 0.2, -0.05)), box((-0.1, -0.1, 0.65), (0.7, 0.2, 0.7))]  # fmt: skip
-    assert enclosed_share(around([box((0, 0, 0), (0.6, 0.03, 0.6))], walls[:sides])) == share
+    assert enclosed_share(context([box((0, 0, 0), (0.6, 0.03, 0.6))], walls[:sides])) == share
 
 
 @pytest.mark.parametrize(("gap", "held"), [(0.01, True), (0.3, False)])
 def test_a_wheel_has_surface_on_its_axis(gap: float, held: bool) -> None:
-    part = around([prism(0.2, (0, 0.1), 0.0, 0.2)], [box((-0.05, 0.1 + gap, 0.15), (0.05, 0.5 + gap, 0.25))])
+    part = context([prism(0.2, (0, 0.1), 0.0, 0.2)], [box((-0.05, 0.1 + gap, 0.15), (0.05, 0.5 + gap, 0.25))])
     assert on_axis(part) == held
-    beside = around([prism(0.2, (0, 0.1), 0.0, 0.2)], [box((0.1, 0.11, 0.15), (0.2, 0.5, 0.25))])
+    beside = context([prism(0.2, (0, 0.1), 0.0, 0.2)], [box((0.1, 0.11, 0.15), (0.2, 0.5, 0.25))])
     assert not on_axis(beside)
 
 
 def test_the_contact_grows_until_eight_samples_touch() -> None:
-    part = around([box((0, 0, 0.05), (1, 1, 0.1))], [box((0, 0, -1), (1, 1, 0))])
+    part = context([box((0, 0, 0.05), (1, 1, 0.1))], [box((0, 0, -1), (1, 1, 0))])
     near, normals = touching(part, 0.01)  # 5 cm apart: 1, 2, 4, 8 cm
     assert near.sum() >= 8
     assert part.gap[near].max() < 0.08
@@ -187,6 +187,6 @@ BAR = box((0, -0.01, -0.01), (1, 0.01, 0.01))
 )
 @pytest.mark.parametrize("seed", range(3))
 def test_pivots_hold_a_bar_at_both_ends_along_it(posts: list, low: float, high: float, seed: int) -> None:
-    part = around([BAR], [*posts, box((0, 2, 0), (1, 2.1, 0.1))], seed)
+    part = context([BAR], [*posts, box((0, 2, 0), (1, 2.1, 0.1))], seed)
     near = part.gap < 0.004
     assert low <= two_pivots(part, near, part.parent.normals[part.nearest[1]]) <= high

@@ -26,9 +26,9 @@ def features(mesh: Mesh, solids: set[int]) -> dict[str, float]:
     tree = part_candidates(mesh, whole, contacts, 0.004, 150)
     candidate = next(k for k, m in enumerate(tree.members) if set(np.flatnonzero(m).tolist()) == solids)
     inputs = FeatureInputs.of(mesh, tree, config)
-    around = candidate_context(inputs, candidate)
-    assert around is not None
-    return part_features(inputs, candidate, around)
+    context = candidate_context(inputs, candidate)
+    assert context is not None
+    return part_features(inputs, candidate, context)
 
 
 MESH = mesh_of([*WALLS, DOOR, KNOB])[0]

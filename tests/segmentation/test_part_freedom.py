@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from assets import box
-from test_fit_of_candidates import AREA, CONFIG, DIAGONAL, around, door, framed
+from test_fit_of_candidates import AREA, CONFIG, DIAGONAL, context, door, framed
 
 from anymesh.segmentation.part_freedom import blocked_shares, exposure, points_behind, space_behind
 
@@ -24,21 +24,21 @@ def wall(gap: float) -> tuple[np.ndarray, np.ndarray]:
 def test_a_wall_blocks_a_tile_that_would_move_by_its_own_width(gap: float, most: float) -> None:
     """The tile is 0.4 m wide. It lies on the floor and nothing is above it."""
     expected = {"blocked outward": 0, "blocked inward": 1, "blocked sideways least": 0, "blocked sideways most": most}
-    assert blocked_shares(around([TILE], [FLOOR, wall(gap)]), CONFIG) == expected
+    assert blocked_shares(context([TILE], [FLOOR, wall(gap)]), CONFIG) == expected
 
 
 def test_the_way_of_a_thin_part_is_three_hundredths_of_the_diagonal() -> None:
     """A sheet of 1 mm, 5 or 15 cm above a floor with a diagonal of 3.4 m, moves by 10 cm."""
     for gap, blocked in ((0.05, 1), (0.15, 0)):
         sheet = box((0, 0, gap), (0.4, 0.4, gap + 0.001))
-        assert blocked_shares(around([sheet], [FLOOR]), CONFIG)["blocked inward"] == blocked
+        assert blocked_shares(context([sheet], [FLOOR]), CONFIG)["blocked inward"] == blocked
 
 
 def test_both_sides_of_an_open_sheet_are_ahead() -> None:
     """A single square has no inside, whichever way its normal points."""
     square = np.array([[0, 0, 0.05], [0.4, 0, 0.05], [0.4, 0.4, 0.05], [0, 0.4, 0.05]], float)
     for faces in ([[0, 1, 2], [0, 2, 3]], [[0, 2, 1], [0, 3, 2]]):
-        found = blocked_shares(around([(square, np.array(faces))], [FLOOR]), CONFIG)
+        found = blocked_shares(context([(square, np.array(faces))], [FLOOR]), CONFIG)
         assert {found["blocked inward"], found["blocked outward"]} == {0, 1}
 
 
@@ -47,17 +47,17 @@ def test_an_open_sheet_is_exposed_with_either_side_whichever_way_its_normals_poi
     square, roof = np.array([[0, 0, 0.01], [0.4, 0, 0.01], [0.4, 0.4, 0.01], [0, 0.4, 0.01]]), box((-1, -1, 1), (1.4, 1.4, 1.1))
     for faces in ([[0, 1, 2], [0, 2, 3]], [[0, 2, 1], [0, 3, 2]]):
         sheet = square, np.array(faces)
-        assert exposure(around([sheet], [FLOOR]), CONFIG) == {"exposed": 1, "facing outward": 1, "facing up": 1}
-        assert exposure(around([sheet], [FLOOR, roof]), CONFIG)["exposed"] == 0
+        assert exposure(context([sheet], [FLOOR]), CONFIG) == {"exposed": 1, "facing outward": 1, "facing up": 1}
+        assert exposure(context([sheet], [FLOOR, roof]), CONFIG)["exposed"] == 0
 
 
 def test_half_a_wall_blocks_half_of_a_side() -> None:
     half = box((0.5, 0.2, 0), (0.6, 1.4, 0.6))
-    assert blocked_shares(around([TILE], [FLOOR, half]), CONFIG)["blocked sideways most"] == pytest.approx(0.5, abs=0.2)
+    assert blocked_shares(context([TILE], [FLOOR, half]), CONFIG)["blocked sideways most"] == pytest.approx(0.5, abs=0.2)
 
 
 def test_the_top_and_three_sides_of_a_tile_before_a_wall_see_the_outside() -> None:
-    f = exposure(around([TILE], [FLOOR, wall(0.1)]), CONFIG)
+    f = exposure(context([TILE], [FLOOR, wall(0.1)]), CONFIG)
     assert f["exposed"] == pytest.approx((FACES["top"] + 3 * FACES["side"]) / TOTAL, abs=0.08)
     assert f["facing outward"] == f["facing up"] == pytest.approx(FACES["top"] / TOTAL, abs=0.03)
 
@@ -89,13 +89,13 @@ def test_an_opening_behind_a_plate_is_three_thicknesses_deep(back: float | None,
 
 
 def test_a_wall_behind_a_half_of_a_plate_leaves_the_other_half_open() -> None:
-    half = around([box((0, 0, 0), (0.6, 0.03, 0.6))], [box((0, 0.05, 0), (0.3, 0.1, 0.6)), box((0, 0.9, 0), (0.6, 1, 0.6))])
+    half = context([box((0, 0, 0), (0.6, 0.03, 0.6))], [box((0, 0.05, 0), (0.3, 0.1, 0.6)), box((0, 0.9, 0), (0.6, 1, 0.6))])
     assert space_behind(half)["open behind"] == pytest.approx(5 / 9, abs=0.06)  # of a grid of nine columns
 
 
 def test_the_inside_of_a_solid_behind_a_plate_is_no_opening() -> None:
     """The back of the plate lies 1 cm deep in a block of nearly 1 m."""
-    sunk = around([box((0, 0, 0), (0.6, 0.03, 0.6))], [box((-0.1, 0.02, -0.1), (0.7, 1, 0.7))])
+    sunk = context([box((0, 0, 0), (0.6, 0.03, 0.6))], [box((-0.1, 0.02, -0.1), (0.7, 1, 0.7))])
     assert space_behind(sunk)["open behind"] == 0
 
 

@@ -15,15 +15,15 @@ BEHIND_THICKNESSES = 3.0  # [part thicknesses] surface within this distance of a
 FULL_GAIN_RATIO = 0.5  # share of a panel that must newly overlap another surface for a full gain
 
 
-def adjacent_sides(around: PartContext) -> np.ndarray:
+def adjacent_sides(context: PartContext) -> np.ndarray:
     """Count the similar panels that adjoin the part in its plane.
 
     Return an array (2, 2): face axes by signs (-, +).
     """
-    core, counts = around.body_obb, np.zeros((2, 2))
-    flat = around.face_axes
+    core, counts = context.body_obb, np.zeros((2, 2))
+    flat = context.face_axes
     thin = next(k for k in range(3) if k not in flat)
-    for panel in around.other_parts:
+    for panel in context.other_parts:
         size, offset = _extent(panel.box, core), core.local(panel.box.center[None])[0]
         mine = 2 * core.half
         if any(abs(size[k] - mine[k]) > MAX_SIZE_DIFFERENCE * max(size[k], mine[k]) for k in flat):
@@ -42,51 +42,51 @@ def _extent(box: OrientedBox, frame: OrientedBox) -> np.ndarray:
     return 2 * np.abs(frame.axes @ box.axes.T) @ box.half
 
 
-def pair_side(around: PartContext, motion: Motion, adjacent: np.ndarray) -> float:
+def pair_side(context: PartContext, motion: Motion, adjacent: np.ndarray) -> float:
     """Return 1 if the panels of a pair meet opposite this hinge, -1 if they meet at the hinge.
 
     Return 0 if there is no pair, or if the part is the middle one of three.
     """
-    core, total = around.body_obb, 0.0
+    core, total = context.body_obb, 0.0
     arm = motion.origin - core.center
-    for axis, sides in zip(around.face_axes, adjacent, strict=True):
+    for axis, sides in zip(context.face_axes, adjacent, strict=True):
         if abs(core.axes[axis] @ motion.axis) < ACROSS_COSINE:
             side = float(np.clip(arm @ core.axes[axis] / max(float(core.half[axis]), 1e-9), -1, 1))
             total -= side * float(np.clip(sides[1] - sides[0], -1, 1))
     return float(np.clip(total, -1, 1))
 
 
-def outer_side(around: PartContext, motion: Motion) -> float:
+def outer_side(context: PartContext, motion: Motion) -> float:
     """Return 1 for a line at the object's outer side, as the hinges of a cabinet, -1 at its middle, 0 for a central part."""
-    core = around.body_obb
-    arm, away = motion.origin - core.center, core.center - around.center
+    core = context.body_obb
+    arm, away = motion.origin - core.center, core.center - context.center
     total = 0.0
-    for axis in around.face_axes:
+    for axis in context.face_axes:
         direction = core.axes[axis]
         if abs(direction @ motion.axis) < ACROSS_COSINE:
             side = float(np.clip(arm @ direction / max(float(core.half[axis]), 1e-9), -1, 1))
-            reach = float(np.abs(around.bounds - around.center).max(0) @ np.abs(direction))
+            reach = float(np.abs(context.bounds - context.center).max(0) @ np.abs(direction))
             total += side * float(np.clip(2 * (away @ direction) / max(reach, 1e-9), -1, 1))
     return float(np.clip(total, -1, 1))
 
 
-def overlap_gain(around: PartContext, motion: Motion, free: tuple[float, float]) -> float:
+def overlap_gain(context: PartContext, motion: Motion, free: tuple[float, float]) -> float:
     """Return the gain in overlap when a part has moved by its own width, in either direction (0..1).
 
     free: free travel along +axis and -axis [m]. Sashes and sliding doors overlap their neighbours when open.
     """
-    width = float(np.ptp(around.part.corners @ motion.axis))
-    thin = max(2 * float(around.body_obb.half[2]), 0.004 * around.tolerance_length)
-    normal = around.body_obb.axes[2]
+    width = float(np.ptp(context.part.corners @ motion.axis))
+    thin = max(2 * float(context.body_obb.half[2]), 0.004 * context.tolerance_length)
+    normal = context.body_obb.axes[2]
     if abs(float(normal @ motion.axis)) > ACROSS_COSINE:
         return 0.0
-    points = around.part.samples.points[::6]
+    points = context.part.samples.points[::6]
 
     def over(shift: float) -> float:
         """Return the share of the part with a surface on one side only; surfaces on both sides would mean a cavity."""
         start = points + shift * motion.axis
         rays = np.repeat(normal[None] * (BEHIND_THICKNESSES + 1) * thin, len(points), 0)
-        front, back = (around.without_part.scene.first_hit(start, sign * rays, 1.0).face >= 0 for sign in (1.0, -1.0))
+        front, back = (context.without_part.scene.first_hit(start, sign * rays, 1.0).face >= 0 for sign in (1.0, -1.0))
         return float(max((front & ~back).mean(), (back & ~front).mean()))
 
     rest = over(0.0)

@@ -34,7 +34,7 @@ def cluster_points(contact: Float[np.ndarray, "n 3"], project: Project, config: 
 
 
 def axis_points(
-    around: PartContext, axes: Sequence[Motion], project: Project, config: PromptConfig
+    context: PartContext, axes: Sequence[Motion], project: Project, config: PromptConfig
 ) -> tuple[Float[np.ndarray, "k 3"], Float[np.ndarray, "k 3"]]:
     """Return the points where axes leave the part on its outer side, and the directions of these axes.
 
@@ -42,10 +42,10 @@ def axis_points(
     """
     points, directions = np.zeros((0, 3)), np.zeros((0, 3))
     for motion in axes:
-        sign = 1.0 if motion.axis @ around.opening_direction >= 0 else -1.0
-        if abs(float(motion.axis @ around.opening_direction)) < ALONG_COSINE or len(points) >= config.most_candidates // 2:
+        sign = 1.0 if motion.axis @ context.opening_direction >= 0 else -1.0
+        if abs(float(motion.axis @ context.opening_direction)) < ALONG_COSINE or len(points) >= config.most_candidates // 2:
             continue
-        reach = float(((around.part.corners - motion.origin) @ (sign * motion.axis)).max())
+        reach = float(((context.part.corners - motion.origin) @ (sign * motion.axis)).max())
         more = np.concatenate([points, (motion.origin + reach * sign * motion.axis)[None]])
         if labels_apart(project(more), config.label_apart / 2):
             points, directions = more, np.concatenate([directions, motion.axis[None]])

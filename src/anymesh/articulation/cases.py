@@ -36,7 +36,7 @@ class PartCase:
     name: str
     parent: str
     carried: tuple[int, ...]
-    around: PartContext
+    context: PartContext
     shown: PartShown
     circles: tuple[Motion, ...] = ()
     recognized: RecognizedLabel | None = None
@@ -60,19 +60,19 @@ def make_cases(
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(segmentation.parts))]
     recognized = {r.label: r for r in recognition.labels} if recognition else {}
     parent = parents(shapes, whole.diagonal, _answered_parents(segmentation, recognized))
-    arounds = {}
+    contexts = {}
     for numbers in same_size(shapes, parent):
         some = [part_context(whole, label, shapes, parent, i, config.articulation) for i in numbers]
-        arounds |= zip(numbers, share_opening_directions(some), strict=True)
+        contexts |= zip(numbers, share_opening_directions(some), strict=True)
     cases = []
     for i, part in enumerate(segmentation.parts[1:], start=1):
-        around = arounds[i]
-        contact = around.contact
+        context = contexts[i]
+        contact = context.contact
         shown = PartShown(
             label=part.label,
             faces=segmentation.faces(i),
-            points=around.part.samples.points,
-            outward=around.opening_direction,
+            points=context.part.samples.points,
+            outward=context.opening_direction,
             normal=plane_normal(contact, config.prompts.plane * whole.diagonal, config.seed),
             contact=contact,
             diagonal=whole.diagonal,
@@ -81,7 +81,7 @@ def make_cases(
         circles = round_patches(whole, shapes[i], shapes[parent[i]])
         cases.append(
             PartCase(
-                i, part.name, segmentation.parts[parent[i]].name, carried, around, shown, circles, recognized.get(part.label)
+                i, part.name, segmentation.parts[parent[i]].name, carried, context, shown, circles, recognized.get(part.label)
             )
         )
     return cases

@@ -48,12 +48,12 @@ def hinge(
     return Motion(JointType.REVOLUTE, axis / np.linalg.norm(axis), middle, f"line through the {len(picked)} points picked")
 
 
-def surface_directions(around: PartContext) -> Float[np.ndarray, "4 3"]:
+def surface_directions(context: PartContext) -> Float[np.ndarray, "4 3"]:
     """Return both directions along the two sides of the part that are parallel to the surface."""
-    a, b = (around.body_obb.axes[k] for k in around.face_axes)
+    a, b = (context.body_obb.axes[k] for k in context.face_axes)
     return np.stack([a, -a, b, -b])
 
 
-def prismatic(direction: Float[np.ndarray, " 3"], around: PartContext, source: str) -> Motion:
+def prismatic(direction: Float[np.ndarray, " 3"], context: PartContext, source: str) -> Motion:
     """Return the prismatic motion of a part along a direction."""
-    return Motion(JointType.PRISMATIC, direction / np.linalg.norm(direction), around.part.box.center, source)
+    return Motion(JointType.PRISMATIC, direction / np.linalg.norm(direction), context.part.box.center, source)

@@ -64,16 +64,16 @@ def motion_questions(
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(parts))]
     parent = parents(shapes, whole.diagonal)
     for numbers in same_size(shapes, parent):
-        arounds = share_opening_directions(
+        contexts = share_opening_directions(
             [part_context(whole, label, shapes, parent, i, config.articulation) for i in numbers]
         )
         scored = [
             _part_scores(a, parts[i].label, _most_swept(config.articulation, deadline))
-            for i, a in zip(numbers, arounds, strict=True)
+            for i, a in zip(numbers, contexts, strict=True)
         ]
-        for i, around, motions in zip(numbers, arounds, scored, strict=True):
-            row = (m for m, a in zip(scored, arounds, strict=True) if a is not around and in_a_row(around, a))
-            yield PartMotions(i, parent[i], around, motions.question(tuple(itertools.islice(row, MAX_COPIES))))
+        for i, context, motions in zip(numbers, contexts, scored, strict=True):
+            row = (m for m, a in zip(scored, contexts, strict=True) if a is not context and in_a_row(context, a))
+            yield PartMotions(i, parent[i], context, motions.question(tuple(itertools.islice(row, MAX_COPIES))))
 
 
 def with_labels_of(segmentation: Segmentation, motions: Iterable[PartMotions]) -> list[PartMotions]:
@@ -86,25 +86,25 @@ def with_labels_of(segmentation: Segmentation, motions: Iterable[PartMotions]) -
     return [named(m) for m in motions]
 
 
-def choose_motion(around: PartContext, question: MotionQuestion) -> tuple[MotionAnswer, Candidate]:
+def choose_motion(context: PartContext, question: MotionQuestion) -> tuple[MotionAnswer, Candidate]:
     """Return the answer on how a part moves, and the chosen candidate."""
     answer = rank_motions(question)
-    return answer, _clear_of_others(around, question.candidates[answer.ranking[0]], question.candidates)
+    return answer, _clear_of_others(context, question.candidates[answer.ranking[0]], question.candidates)
 
 
-def question_of_all_motions(around: PartContext, label: str) -> MotionQuestion:
+def question_of_all_motions(context: PartContext, label: str) -> MotionQuestion:
     """Propose, sweep and score all motions of a part by itself."""
-    return PartMotionScores(around, label, sweep_candidates(around, propose(around))).question()
+    return PartMotionScores(context, label, sweep_candidates(context, propose(context))).question()
 
 
-def _part_scores(around: PartContext, label: str, most: int) -> PartMotionScores:
+def _part_scores(context: PartContext, label: str, most: int) -> PartMotionScores:
     """Score the `most` motions of a part that are likeliest before any is swept."""
-    motions = unswept(around, propose(around))
-    rest = unswept_features(around, motions)
+    motions = unswept(context, propose(context))
+    rest = unswept_features(context, motions)
     likely = likeliest(rest, most)
-    candidates = swept(around, [motions[k] for k in likely])
-    features = [rest[k] | way for k, way in zip(likely.repeat(2), swept_features(around, candidates), strict=True)]
-    return PartMotionScores(around, label, candidates, features)
+    candidates = swept(context, [motions[k] for k in likely])
+    features = [rest[k] | way for k, way in zip(likely.repeat(2), swept_features(context, candidates), strict=True)]
+    return PartMotionScores(context, label, candidates, features)
 
 
 def _most_swept(config: ArticulationConfig, deadline: Deadline | None) -> int:
@@ -114,16 +114,16 @@ def _most_swept(config: ArticulationConfig, deadline: Deadline | None) -> int:
     return config.late_swept
 
 
-def _clear_of_others(around: PartContext, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:
+def _clear_of_others(context: PartContext, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:
     """Among hinge lines at one rim, choose the one with the largest opening when the other parts are at rest."""
-    if best.role not in BOX_RIM_ROLES or not around.other_parts:
+    if best.role not in BOX_RIM_ROLES or not context.other_parts:
         return best
-    near = replace(around.obstacles_with_others, tolerance=TIGHT_PENETRATION_SCALE * around.penetration)
-    widest = float(np.deg2rad(around.config.door_most))
-    thickness = max(2 * float(around.body_obb.half[2]), MIN_RIM_THICKNESS_RATIO * around.tolerance_length)
+    near = replace(context.obstacles_with_others, tolerance=TIGHT_PENETRATION_SCALE * context.penetration)
+    widest = float(np.deg2rad(context.config.door_most))
+    thickness = max(2 * float(context.body_obb.half[2]), MIN_RIM_THICKNESS_RATIO * context.tolerance_length)
 
     def opens(c: Candidate) -> float:
-        return free_amount(near, c.opening_motion, 1, min(c.opening, widest), around.config.sweep_steps)[0]
+        return free_amount(near, c.opening_motion, 1, min(c.opening, widest), context.config.sweep_steps)[0]
 
     alike = [c for c in candidates if c is best or (c.role in BOX_RIM_ROLES and c.outward * best.outward > 0)]
     alternatives = [c for c in alike if _at_one_rim(best, c, thickness)]
@@ -139,16 +139,16 @@ def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
     return bool(a.motion.distance(b.motion.origin[None])[0] < MAX_RIM_THICKNESSES * thickness)
 
 
-def estimate_joint(around: PartContext, name: str, parent: str, question: MotionQuestion) -> Joint:
+def estimate_joint(context: PartContext, name: str, parent: str, question: MotionQuestion) -> Joint:
     """Estimate the joint of one part."""
-    answer, best = choose_motion(around, question)
+    answer, best = choose_motion(context, question)
     if answer.type is not JointType.FIXED:
-        opened = away_from_closed(around, best)
+        opened = away_from_closed(context, best)
         why = described(question, _index_of(opened, question.candidates, answer.ranking[0]))
-        return joint_of(around, name, parent, opened, answer.type, answer.confidence, why)
+        return joint_of(context, name, parent, opened, answer.type, answer.confidence, why)
     # the part is known to move, so a fixed answer is replaced by the best motion
     return joint_of(
-        around, name, parent, best, best.motion.kind, answer.confidence, f"{answer.reason}; most likely: {best.motion.source}"
+        context, name, parent, best, best.motion.kind, answer.confidence, f"{answer.reason}; most likely: {best.motion.source}"
     )
 
 
@@ -159,7 +159,7 @@ def _index_of(c: Candidate, candidates: tuple[Candidate, ...], otherwise: int) -
 
 
 def joint_of(
-    around: PartContext,
+    context: PartContext,
     name: str,
     parent: str,
     best: Candidate,
@@ -172,21 +172,21 @@ def joint_of(
 
     Positive values open. The limits come from the sweep, within the answered range if there is one.
     """
-    best = away_from_closed(around, best) if answered is None else opening_as_answered(best, answered)
+    best = away_from_closed(context, best) if answered is None else opening_as_answered(best, answered)
     motion = best.opening_motion
     return Joint(
         name=f"{name}_joint",
         type=kind,
         parent=parent,
         child=name,
-        origin=_on_part(motion, around),
+        origin=_on_part(motion, context),
         axis=motion.axis,
-        limits=limits(around, best, kind, answered),
+        limits=limits(context, best, kind, answered),
         confidence=confidence,
         reason=reason,
     )
 
 
-def _on_part(motion: Motion, around: PartContext) -> np.ndarray:
+def _on_part(motion: Motion, context: PartContext) -> np.ndarray:
     """Return the point of the axis nearest to the center of the part [m]."""
-    return motion.origin + ((around.part.box.center - motion.origin) @ motion.axis) * motion.axis
+    return motion.origin + ((context.part.box.center - motion.origin) @ motion.axis) * motion.axis

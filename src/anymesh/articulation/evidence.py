@@ -24,38 +24,38 @@ GUIDE_STEP_RATIO = 0.02  # of the tolerance length: a slide is guided if a sidew
 UNSWEPT = Sweep(0.0, 0.0, clear_forward=False, clear_backward=False)
 
 
-def sweep_candidates(around: PartContext, proposed: Sequence[ProposedMotion]) -> tuple[Candidate, ...]:
+def sweep_candidates(context: PartContext, proposed: Sequence[ProposedMotion]) -> tuple[Candidate, ...]:
     """Measure and sweep all motions: return two candidates per motion, opening along its axis and against it."""
-    return swept(around, unswept(around, proposed))
+    return swept(context, unswept(context, proposed))
 
 
-def unswept(around: PartContext, proposed: Sequence[ProposedMotion]) -> tuple[Candidate, ...]:
+def unswept(context: PartContext, proposed: Sequence[ProposedMotion]) -> tuple[Candidate, ...]:
     """Measure all motions without moving the part: return one candidate per motion, opening along its axis."""
     hinges = [m for _, m in proposed if m.kind is JointType.REVOLUTE]
-    supported = iter(hinge_support(around, hinges))
+    supported = iter(hinge_support(context, hinges))
     return tuple(
-        _revolute(around, role, motion, next(supported))
+        _revolute(context, role, motion, next(supported))
         if motion.kind is JointType.REVOLUTE
-        else _prismatic(around, role, motion)
+        else _prismatic(context, role, motion)
         for role, motion in proposed
     )
 
 
-def swept(around: PartContext, candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
+def swept(context: PartContext, candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
     """Sweep measured motions: return two candidates per motion, opening along its axis and against it."""
-    motions, steps = [c.motion for c in candidates], around.config.sweep_steps
+    motions, steps = [c.motion for c in candidates], context.config.sweep_steps
     slides = [m for m in motions if m.kind is JointType.PRISMATIC]
-    guided = iter(_guided_share(around, slides))
+    guided = iter(_guided_share(context, slides))
     sweeps: dict[int, Sweep] = {}
-    for obstacles in {id(o): o for o in map(around.obstacles_of, motions)}.values():
-        chosen = [k for k, m in enumerate(motions) if around.obstacles_of(m) is obstacles]
+    for obstacles in {id(o): o for o in map(context.obstacles_of, motions)}.values():
+        chosen = [k for k, m in enumerate(motions) if context.obstacles_of(m) is obstacles]
         sweeps.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
     ahead = [
-        _swept_hinge(c, sweeps[k]) if c.motion.kind is JointType.REVOLUTE else _swept_slide(around, c, sweeps[k], next(guided))
+        _swept_hinge(c, sweeps[k]) if c.motion.kind is JointType.REVOLUTE else _swept_slide(context, c, sweeps[k], next(guided))
         for k, c in enumerate(candidates)
     ]
     both = [way for c in ahead for way in (c, c.reversed())]
-    shares = contact_retention(around, [c.motion for c in both], [c.opening_sign for c in both])
+    shares = contact_retention(context, [c.motion for c in both], [c.opening_sign for c in both])
     return tuple(replace(c, contact_retention=float(share)) for c, share in zip(both, shares, strict=True))
 
 
@@ -63,72 +63,72 @@ def _swept_hinge(c: Candidate, sweep: Sweep) -> Candidate:
     return replace(c, sweep=sweep, opening=sweep.forward, closing=sweep.backward)
 
 
-def _swept_slide(around: PartContext, c: Candidate, sweep: Sweep, guided: float) -> Candidate:
+def _swept_slide(context: PartContext, c: Candidate, sweep: Sweep, guided: float) -> Candidate:
     return replace(
-        c, sweep=sweep, opening=sweep.forward / around.tolerance_length, closing=sweep.backward / around.tolerance_length,
-        guided=guided, captured=_captured(around, sweep),
-        overlap_gain=overlap_gain(around, c.motion, (sweep.forward, sweep.backward)),
+        c, sweep=sweep, opening=sweep.forward / context.tolerance_length, closing=sweep.backward / context.tolerance_length,
+        guided=guided, captured=_captured(context, sweep),
+        overlap_gain=overlap_gain(context, c.motion, (sweep.forward, sweep.backward)),
     )  # fmt: skip
 
 
-def initial_direction(around: PartContext, motion: Motion) -> Float[np.ndarray, " 3"]:
+def initial_direction(context: PartContext, motion: Motion) -> Float[np.ndarray, " 3"]:
     """Return the direction in which the part's center begins to move along a motion, unit.
 
     It is shorter for a rotation nearly about the center, whose direction is chance, and 0 for one about the center.
     """
     if motion.kind is JointType.PRISMATIC:
         return motion.axis
-    moves = np.cross(motion.axis, around.part.centroid - motion.origin)
-    return moves / max(float(np.linalg.norm(moves)), MIN_ARM_RATIO * around.part.box.diagonal, 1e-300)
+    moves = np.cross(motion.axis, context.part.centroid - motion.origin)
+    return moves / max(float(np.linalg.norm(moves)), MIN_ARM_RATIO * context.part.box.diagonal, 1e-300)
 
 
-def _revolute(around: PartContext, role: Role, motion: Motion, near: Float[np.ndarray, " 3"]) -> Candidate:
-    outward = float(initial_direction(around, motion) @ around.opening_direction)
+def _revolute(context: PartContext, role: Role, motion: Motion, near: Float[np.ndarray, " 3"]) -> Candidate:
+    outward = float(initial_direction(context, motion) @ context.opening_direction)
     support, sibling, opposite = map(float, near)
     return Candidate(
-        motion, UNSWEPT, role, 1, 0.0, 0.0, outward, support, sibling, opposite, handle_side=_handle_side(around, motion)
+        motion, UNSWEPT, role, 1, 0.0, 0.0, outward, support, sibling, opposite, handle_side=_handle_side(context, motion)
     )
 
 
-def sides(around: PartContext, motion: Motion) -> np.ndarray:
+def sides(context: PartContext, motion: Motion) -> np.ndarray:
     """Return the (2, 3) unit directions across a slide, along the part's box where that is perpendicular."""
-    flat = sorted(around.body_obb.axes, key=lambda a: abs(float(a @ motion.axis)))[:2]
+    flat = sorted(context.body_obb.axes, key=lambda a: abs(float(a @ motion.axis)))[:2]
     side = np.array([a - (a @ motion.axis) * motion.axis for a in flat])
     return side / np.linalg.norm(side, axis=1, keepdims=True)
 
 
-def _guided_share(around: PartContext, prismatic: list[Motion]) -> list[float]:
+def _guided_share(context: PartContext, prismatic: list[Motion]) -> list[float]:
     """Return the share of the four directions across each slide in which the part is stopped within GUIDE_STEP_RATIO."""
-    sideways = [Motion(JointType.PRISMATIC, d, m.origin, "sideways") for m in prismatic for d in sides(around, m)]
-    step = [GUIDE_STEP_RATIO * around.tolerance_length] * (2 * len(sideways))
+    sideways = [Motion(JointType.PRISMATIC, d, m.origin, "sideways") for m in prismatic for d in sides(context, m)]
+    step = [GUIDE_STEP_RATIO * context.tolerance_length] * (2 * len(sideways))
     signs = [1] * len(sideways) + [-1] * len(sideways)
-    free = free_amounts(around.obstacles_with_others, sideways + sideways, signs, step, 3) if prismatic else []
+    free = free_amounts(context.obstacles_with_others, sideways + sideways, signs, step, 3) if prismatic else []
     stopped = np.array([not clear for _, clear in free], bool).reshape(2, len(prismatic), 2)
     return [float(share) for share in stopped.mean((0, 2))]
 
 
-def _prismatic(around: PartContext, role: Role, motion: Motion) -> Candidate:
-    return Candidate(motion, UNSWEPT, role, 1, 0.0, 0.0, outward=float(motion.axis @ around.opening_direction))
+def _prismatic(context: PartContext, role: Role, motion: Motion) -> Candidate:
+    return Candidate(motion, UNSWEPT, role, 1, 0.0, 0.0, outward=float(motion.axis @ context.opening_direction))
 
 
-def _captured(around: PartContext, sweep: Sweep) -> bool:
+def _captured(context: PartContext, sweep: Sweep) -> bool:
     room = sweep.forward + sweep.backward
-    return not (sweep.clear_forward or sweep.clear_backward) and room > 0.25 * around.part.box.diagonal
+    return not (sweep.clear_forward or sweep.clear_backward) and room > 0.25 * context.part.box.diagonal
 
 
-def _handle_side(around: PartContext, motion: Motion) -> float:
+def _handle_side(context: PartContext, motion: Motion) -> float:
     """Return the side of the handle: 1 opposite the hinge line, -1 at the line, 0 level with it or without a handle.
 
     A handle that runs across the line counts less, since pulls are usually parallel to the hinge.
     """
-    handle = around.handle
+    handle = context.handle
     if handle is None:
         return 0.0
     total = 0.0
-    arm = motion.origin - around.body_obb.center
-    for axis, where in zip(around.face_axes, handle.across, strict=True):
-        if abs(around.body_obb.axes[axis] @ motion.axis) < ACROSS_COSINE:
-            side = float(arm @ around.body_obb.axes[axis]) / max(float(around.body_obb.half[axis]), 1e-9)
-            across = handle.along is not None and around.face_axes[handle.along] == axis
+    arm = motion.origin - context.body_obb.center
+    for axis, where in zip(context.face_axes, handle.across, strict=True):
+        if abs(context.body_obb.axes[axis] @ motion.axis) < ACROSS_COSINE:
+            side = float(arm @ context.body_obb.axes[axis]) / max(float(context.body_obb.half[axis]), 1e-9)
+            across = handle.along is not None and context.face_axes[handle.along] == axis
             total -= float(np.clip(side, -1, 1)) * where * (CROSSWISE_HANDLE_WEIGHT if across else 1.0)
     return float(np.clip(total, -1, 1))

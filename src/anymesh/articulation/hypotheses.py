@@ -61,9 +61,9 @@ def _box_directions(box: OrientedBox) -> list[ProposedMotion]:
     return [("slide", Motion(JointType.PRISMATIC, a, box.center, "direction of the part")) for a in box.axes]
 
 
-def _from_contact(around: PartContext) -> list[ProposedMotion]:
+def _from_contact(context: PartContext) -> list[ProposedMotion]:
     """Return the paper's candidates: the line along the connecting area, its plane's normal, directions in the plane."""
-    contact = around.contact
+    contact = context.contact
     if len(contact) < 4:
         return []
     middle = contact.mean(0)
@@ -89,9 +89,9 @@ def _unit(v: np.ndarray) -> np.ndarray:
     return -v if v[np.abs(v).argmax()] < 0 else v
 
 
-def two_pivot_line(around: PartContext) -> Motion | None:
+def two_pivot_line(context: PartContext) -> Motion | None:
     """Return the line through two contacts far apart with free space between them (a bucket handle, a trunnion)."""
-    near = contact_points(around)
+    near = contact_points(context)
     if len(near) < 6:
         return None
     spread = near - near.mean(0)
@@ -103,7 +103,7 @@ def two_pivot_line(around: PartContext) -> Motion | None:
     a, b = ((near[side == s].min(0) + near[side == s].max(0)) / 2 for s in (0, 1))
     apart = float(np.linalg.norm(b - a))
     width = max(float(np.linalg.norm(np.ptp(near[side == s], axis=0))) for s in (0, 1))
-    if apart < MIN_PIVOTS_APART_RATIO * around.part.box.diagonal or width > MAX_PIVOT_WIDTH_RATIO * apart:
+    if apart < MIN_PIVOTS_APART_RATIO * context.part.box.diagonal or width > MAX_PIVOT_WIDTH_RATIO * apart:
         return None
     return hinge_about(b - a, (a + b) / 2, "line through the two far contacts")
 
@@ -117,36 +117,36 @@ def _two_groups(points: np.ndarray, centers: np.ndarray) -> np.ndarray:
     return side
 
 
-def barrels(around: PartContext) -> list[ProposedMotion]:
+def barrels(context: PartContext) -> list[ProposedMotion]:
     """Return the axes of small cylinders near part and parent: hinge barrels and pins."""
     axes = []
-    for component in around.barrel_candidates:
+    for component in context.barrel_candidates:
         seen = outline_about(np.concatenate([component.corners, component.samples.points]), component.box.axes[0])
         if seen.roundness > 0.85:
             axes.append(("barrel", hinge_about(seen.axis, seen.center, "axis of a hinge barrel")))
     return axes
 
 
-def contact_axes(around: PartContext) -> list[ProposedMotion]:
+def contact_axes(context: PartContext) -> list[ProposedMotion]:
     """Return the axes about which the surfaces in contact turn in place: of pins, bushings and ball joints."""
-    fitted = [fit_revolution(surface, MIN_REVOLUTION) for surface in around.contact_surfaces]
+    fitted = [fit_revolution(surface, MIN_REVOLUTION) for surface in context.contact_surfaces]
     what = "axis of the round surfaces in contact"
     return [("surface", hinge_about(f.axis, f.origin, what)) for f in fitted if f is not None]
 
 
-def propose(around: PartContext) -> list[ProposedMotion]:
+def propose(context: PartContext) -> list[ProposedMotion]:
     """Propose all candidate motions of a part with their roles, without near-duplicates, in a fixed order."""
-    core = around.body_obb
+    core = context.body_obb
     proposals: list[ProposedMotion] = []
-    if (line := two_pivot_line(around)) is not None:
+    if (line := two_pivot_line(context)) is not None:
         proposals.append(("two_pivot", line))
-    outline = around.outline
-    if around.is_round:
+    outline = context.outline
+    if context.is_round:
         axis = hinge_about(outline.axis, outline.center, "axis of its round outline")
         proposals.append(("round", axis))
-    proposals += barrels(around) + _edges(core) + _edge_middles(core) + _through(core) + _box_directions(core)
-    proposals += _from_contact(around) + contact_axes(around)
-    return distinct(proposals, around.tolerance_length)
+    proposals += barrels(context) + _edges(core) + _edge_middles(core) + _through(core) + _box_directions(core)
+    proposals += _from_contact(context) + contact_axes(context)
+    return distinct(proposals, context.tolerance_length)
 
 
 def distinct(candidates: Iterable[ProposedMotion], tolerance_length: float) -> list[ProposedMotion]:

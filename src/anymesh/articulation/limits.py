@@ -26,7 +26,7 @@ ANGLE_STEP_RAD = np.deg2rad(1.0)  # [rad] resolution of limits that the sweep fi
 Range = tuple[float, float]  # lower, upper [rad or m], lower <= 0 <= upper
 
 
-def limits(around: PartContext, c: Candidate, kind: JointType, answered: Range | None = None) -> Range | None:
+def limits(context: PartContext, c: Candidate, kind: JointType, answered: Range | None = None) -> Range | None:
     """Compute (lower, upper) about the opening axis [rad or m]; None for continuous and fixed joints.
 
     A part that geometry finds to move into its parent has its axis inwards, and limits from 0 to its stroke.
@@ -37,13 +37,13 @@ def limits(around: PartContext, c: Candidate, kind: JointType, answered: Range |
         case JointType.CONTINUOUS | JointType.FIXED:
             return None
         case JointType.REVOLUTE if answered is not None:
-            return _answered_revolute(around, c, answered)
+            return _answered_revolute(context, c, answered)
         case JointType.PRISMATIC if answered is not None:
-            return _answered_prismatic(around, c, answered)
+            return _answered_prismatic(context, c, answered)
         case JointType.REVOLUTE:
-            return _revolute(around, c)
+            return _revolute(context, c)
         case JointType.PRISMATIC:
-            return _prismatic(around, c)
+            return _prismatic(context, c)
 
 
 def answered_range(recognized: RecognizedLabel | None, kind: JointType) -> Range | None:
@@ -78,18 +78,18 @@ def opening_as_answered(c: Candidate, answered: Range | None) -> Candidate:
     return c.reversed()
 
 
-def _answered_revolute(around: PartContext, c: Candidate, answered: Range) -> Range:
+def _answered_revolute(context: PartContext, c: Candidate, answered: Range) -> Range:
     """Shorten an answered range to what the sweep finds free; a blocked hinge keeps the full range."""
     lower, upper = -answered[0], answered[1]
     if max(c.opening, c.closing) < MIN_FREE_ANGLE_RAD:
         return (0.0 - lower, upper)
-    ahead, back = _free_within(around, c, lower, upper, 3 * around.config.fine_steps)
+    ahead, back = _free_within(context, c, lower, upper, 3 * context.config.fine_steps)
     if ahead + back < MIN_HINGE_RANGE_RAD:
         return (0.0 - lower, upper)
     return (0.0 - back, ahead)
 
 
-def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> Range:
+def _answered_prismatic(context: PartContext, c: Candidate, answered: Range) -> Range:
     """Shorten an answered range to what the sweep finds free and, outwards, to the part's depth in its parent.
 
     A part that is pressed in keeps its stroke, up to its own height, since its mesh may fill the hole that it moves in. A
@@ -98,11 +98,11 @@ def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> R
     if c.slide_direction is SlideDirection.INWARDS and -answered[0] > answered[1]:
         answered = (0.0 - answered[1], -answered[0])
     motion, (lower, upper) = c.opening_motion, (-answered[0], answered[1])
-    extent = float(np.ptp(around.part.corners @ motion.axis))
-    depth = around.depth_in_parent(motion.axis)
+    extent = float(np.ptp(context.part.corners @ motion.axis))
+    depth = context.depth_in_parent(motion.axis)
     if c.slide_direction is SlideDirection.OUTWARDS and depth > MIN_DEPTH_IN_PARENT_RATIO * upper:
         upper = min(upper, depth)
-    ahead, back = _free_within(around, c, lower, upper, 2 * around.config.fine_steps)
+    ahead, back = _free_within(context, c, lower, upper, 2 * context.config.fine_steps)
     if upper < lower and c.slide_direction is SlideDirection.OUTWARDS:
         back = min(lower, extent)
     if ahead + back < MIN_SLIDE_FREE_RATIO * (lower + upper):
@@ -110,23 +110,23 @@ def _answered_prismatic(around: PartContext, c: Candidate, answered: Range) -> R
     return (0.0 - back, ahead)
 
 
-def _free_within(around: PartContext, c: Candidate, lower: float, upper: float, steps: int) -> tuple[float, float]:
+def _free_within(context: PartContext, c: Candidate, lower: float, upper: float, steps: int) -> tuple[float, float]:
     """Return the free motion ahead, up to `upper`, and back, up to `lower` [rad or m]."""
     motion = c.opening_motion
-    obstacles = around.obstacles_of(motion)
+    obstacles = context.obstacles_of(motion)
     ahead = free_amount(obstacles, motion, 1, upper, steps)[0] if upper > 0 else 0.0
     back = free_amount(obstacles, motion, -1, lower, steps)[0] if lower > 0 else 0.0
     return ahead, back
 
 
-def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
-    config, motion = around.config, c.opening_motion
+def _revolute(context: PartContext, c: Candidate) -> tuple[float, float]:
+    config, motion = context.config, c.opening_motion
     most = np.deg2rad(config.door_most if c.vertical > ALONG_COSINE else config.flap_most)
-    closing = closing_angle(around, c)
+    closing = closing_angle(context, c)
     blocked = max(c.opening, c.closing) < MIN_FREE_ANGLE_RAD
     ajar = closing is not None and closing > 0 and c.opening < MIN_FREE_ANGLE_RAD
-    upper = _free_angle(around, motion, 1, max(most - (closing or 0.0), 0.0), np.inf if blocked or ajar else c.opening)
-    lower = 0.0 if closing == 0 else _free_angle(around, motion, -1, closing or most, np.inf if blocked else c.closing)
+    upper = _free_angle(context, motion, 1, max(most - (closing or 0.0), 0.0), np.inf if blocked or ajar else c.opening)
+    lower = 0.0 if closing == 0 else _free_angle(context, motion, -1, closing or most, np.inf if blocked else c.closing)
     lower = _whole_degrees(lower) if lower >= MIN_CLOSING_ANGLE_RAD else 0.0
     if upper < MIN_HINGE_RANGE_RAD:
         upper = min(most, c.opening) if c.opening >= MIN_FREE_ANGLE_RAD else most
@@ -134,14 +134,14 @@ def _revolute(around: PartContext, c: Candidate) -> tuple[float, float]:
     return (0.0 - lower, upper)
 
 
-def _free_angle(around: PartContext, motion: Motion, sign: int, most: float, swept: float) -> float:
+def _free_angle(context: PartContext, motion: Motion, sign: int, most: float, swept: float) -> float:
     """Return the free angle up to `most`, in whole degrees where something stops it [rad].
 
     swept: the free angle found by coarse steps, infinite if it is not known. Fine steps may be too short for a stop to be
     noticed, so they only shorten it.
     """
     far = min(most, swept)
-    angle, clear = free_amount(around.obstacles_of(motion), motion, sign, far, 3 * around.config.fine_steps)
+    angle, clear = free_amount(context.obstacles_of(motion), motion, sign, far, 3 * context.config.fine_steps)
     return angle if clear and far == most else _whole_degrees(angle)
 
 
@@ -150,23 +150,23 @@ def _whole_degrees(angle: float) -> float:
     return float(np.floor(angle / ANGLE_STEP_RAD + 1e-9) * ANGLE_STEP_RAD)
 
 
-def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
+def _prismatic(context: PartContext, c: Candidate) -> tuple[float, float]:
     motion = c.opening_motion
     if c.slide_direction is SlideDirection.INWARDS and not c.opening_sweep.clear_forward:
-        return (0.0, _stroke(around, c))
-    outward, least = c.slide_direction is not SlideDirection.ALONG_SURFACE, MIN_FREE_TRAVEL_RATIO * around.tolerance_length
-    closing = closing_travel(around, c) if outward else 0.0
-    depth = around.depth_in_parent(motion.axis) + closing
-    extent = float(np.ptp(around.part.corners @ motion.axis))
-    most = max((1 - around.config.slide_keep) * (depth if outward else extent), least)
+        return (0.0, _stroke(context, c))
+    outward, least = c.slide_direction is not SlideDirection.ALONG_SURFACE, MIN_FREE_TRAVEL_RATIO * context.tolerance_length
+    closing = closing_travel(context, c) if outward else 0.0
+    depth = context.depth_in_parent(motion.axis) + closing
+    extent = float(np.ptp(context.part.corners @ motion.axis))
+    most = max((1 - context.config.slide_keep) * (depth if outward else extent), least)
     if c.captured:
-        most = 2 * around.part.box.diagonal
-    behind = float(np.ptp(around.parent.samples.points @ motion.axis))
+        most = 2 * context.part.box.diagonal
+    behind = float(np.ptp(context.parent.samples.points @ motion.axis))
     if outward and extent < MIN_DRAWER_DEPTH_RATIO * behind:
         # a panel whose box is not in the mesh; a knob comes out no further than it is large
-        most = min(around.config.slide_hidden * behind, around.part.box.diagonal)
-    steps = around.config.fine_steps * 2
-    obstacles = around.obstacles_of(motion)
+        most = min(context.config.slide_hidden * behind, context.part.box.diagonal)
+    steps = context.config.fine_steps * 2
+    obstacles = context.obstacles_of(motion)
     upper, _ = free_amount(obstacles, motion, 1, max(most - closing, 0.0), steps)
     lower = 0.0
     if closing or not outward:
@@ -178,12 +178,12 @@ def _prismatic(around: PartContext, c: Candidate) -> tuple[float, float]:
     return (0.0 - lower, upper)
 
 
-def _stroke(around: PartContext, c: Candidate) -> float:
+def _stroke(context: PartContext, c: Candidate) -> float:
     """Return the stroke of a part into its parent [m]: up to its own height, half of it if its mesh fills the hole.
 
     A sheet has no height; it gets the least travel of a slide.
     """
     motion = c.opening_motion
-    extent = max(float(np.ptp(around.part.corners @ motion.axis)), MIN_FREE_TRAVEL_RATIO * around.tolerance_length)
-    free, _ = free_amount(around.obstacles, motion, 1, extent, 2 * around.config.fine_steps)
+    extent = max(float(np.ptp(context.part.corners @ motion.axis)), MIN_FREE_TRAVEL_RATIO * context.tolerance_length)
+    free, _ = free_amount(context.obstacles, motion, 1, extent, 2 * context.config.fine_steps)
     return free if free > MIN_STROKE_RATIO * extent else STROKE_RATIO * extent

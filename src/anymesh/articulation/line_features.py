@@ -21,68 +21,68 @@ SECTORS = 12  # angular sectors of a full turn
 
 
 def line_features(
-    around: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"], adjacent: Float[np.ndarray, "2 2"]
+    context: PartContext, motion: Motion, contact: Float[np.ndarray, "n 3"], adjacent: Float[np.ndarray, "2 2"]
 ) -> dict[str, float]:
     """Return the features of a hinge line.
 
     contact: (n, 3) the part's points in contact [m]; adjacent: as from `adjacent_sides`.
     """
-    core, points, axis = around.body_obb, around.part.samples.points, motion.axis
+    core, points, axis = context.body_obb, context.part.samples.points, motion.axis
     local = np.abs(core.local(motion.origin[None])[0] / np.maximum(core.half, 1e-9))
     local = np.minimum(local, MAX_LENGTH_RATIO) * (np.abs(core.axes @ axis) < ALONG_COSINE)
     off = motion.distance(points)
     reach, length = max(float(off.max()), 1e-9), max(float(np.ptp(points @ axis)), 1e-9)
-    balance = float(motion.distance(around.part.centroid[None])[0] / reach)
-    outline = around.outline_about(axis)
+    balance = float(motion.distance(context.part.centroid[None])[0] / reach)
+    outline = context.outline_about(axis)
     held = motion.distance(contact)
-    low, high = around.parent.bounds
+    low, high = context.parent.bounds
     beside = np.abs(np.minimum(motion.origin - low, high - motion.origin))[np.abs(axis) < ALONG_COSINE]
     return {
         "off along length": float(local[0]),
         "off along width": float(local[1]),
         "off along thickness": float(local[2]),
-        "off the part": float(off.min() / max(around.part.box.diagonal, 1e-12)),
+        "off the part": float(off.min() / max(context.part.box.diagonal, 1e-12)),
         "balance": balance,
         "round about the axis": outline.roundness,
         "circle off the axis": min(
             float(motion.distance(outline.center[None])[0] / max(outline.radius, 1e-9)), MAX_LENGTH_RATIO
         ),
-        "rotational misfit": _misfit(around, motion, reach) if balance < MAX_CENTRAL_RATIO else MISSING,
+        "rotational misfit": _misfit(context, motion, reach) if balance < MAX_CENTRAL_RATIO else MISSING,
         "contact along the line": float(np.clip(np.ptp(contact @ axis) / length, 0, 1)),
         "contact off the line": float(held.mean() / reach),
         "contact middle off the line": float(motion.distance(contact.mean(0)[None])[0] / reach),
         "contact around the axis": _coverage(contact, motion),
-        "contact turns in place": share_in_place(around.contact_surfaces[0], axis, motion.origin),
-        "off the parent's border": float(beside.min() / around.diagonal) if len(beside) else MISSING,
-        "barrel near": float(any(motion.distance(b.box.center[None])[0] < 0.05 * reach for b in around.barrel_candidates)),
+        "contact turns in place": share_in_place(context.contact_surfaces[0], axis, motion.origin),
+        "off the parent's border": float(beside.min() / context.diagonal) if len(beside) else MISSING,
+        "barrel near": float(any(motion.distance(b.box.center[None])[0] < 0.05 * reach for b in context.barrel_candidates)),
         "log2 reach over length": float(np.log2(reach / length)),
         "contact proximity": 1 - float(np.median(held)) / reach,
-        "thick at the line": _thickness(around, off < RIM_RATIO * reach),
-        "above": _height(around, motion),
-        "pair": pair_side(around, motion, adjacent),
-        "outer": outer_side(around, motion),
-        **_handle_place(around, motion, reach),
+        "thick at the line": _thickness(context, off < RIM_RATIO * reach),
+        "above": _height(context, motion),
+        "pair": pair_side(context, motion, adjacent),
+        "outer": outer_side(context, motion),
+        **_handle_place(context, motion, reach),
     }  # fmt: skip
 
 
-def _thickness(around: PartContext, rim: Bool[np.ndarray, " n"]) -> float:
+def _thickness(context: PartContext, rim: Bool[np.ndarray, " n"]) -> float:
     """Return the thickness of the part at a line over its largest, 0..1: thin edges are free ones. rim: samples at the line."""
-    height = around.part.samples.points @ around.body_obb.axes[2]
+    height = context.part.samples.points @ context.body_obb.axes[2]
     return float(np.ptp(height[rim])) / max(float(np.ptp(height)), 1e-9) if rim.sum() > 3 else 0.0
 
 
-def _height(around: PartContext, motion: Motion) -> float:
+def _height(context: PartContext, motion: Motion) -> float:
     """Return the height of a line between the lowest (-1) and the highest (1) point of the part."""
-    low, high = around.part.bounds[:, 2]
+    low, high = context.part.bounds[:, 2]
     return float(np.clip(2 * (motion.origin[2] - low) / max(high - low, 1e-9) - 1, -1, 1))
 
 
-def _misfit(around: PartContext, motion: Motion, reach: float) -> float:
+def _misfit(context: PartContext, motion: Motion, reach: float) -> float:
     """Return the smallest distance of a part from itself rotated by MISFIT_ANGLES_RAD, over its reach: 0 for propellers."""
-    points = around.part.samples.points
+    points = context.part.samples.points
     points = points[:: max(1, len(points) // MISFIT_POINTS)]
     turned = np.concatenate([points @ T[:3, :3].T + T[:3, 3] for T in motion.transforms(MISFIT_ANGLES_RAD)])
-    off = around.part.tree.distance(turned).reshape(len(MISFIT_ANGLES_RAD), -1)
+    off = context.part.tree.distance(turned).reshape(len(MISFIT_ANGLES_RAD), -1)
     return float(min(np.quantile(off, 0.9, axis=1).min() / reach, 1.0))
 
 
@@ -96,22 +96,22 @@ def _coverage(points: Float[np.ndarray, "n 3"], motion: Motion) -> float:
     return len(np.unique(np.floor(angle / (2 * np.pi) * SECTORS))) / SECTORS
 
 
-def _handle_place(around: PartContext, motion: Motion, reach: float) -> dict[str, float]:
+def _handle_place(context: PartContext, motion: Motion, reach: float) -> dict[str, float]:
     """Return where the handle is relative to a line.
 
     Its distance, over the part's reach; its offset from the middle of the line, 0..1: small for flaps, large for doors; and
     whether a bar runs along the line.
     """
-    handle = around.handle
+    handle = context.handle
     if handle is None:
         return {"handle distance": MISSING, "handle off the hinge's middle": 0.0, "bar handle along": MISSING}
-    core, bar, off = around.body_obb, MISSING, 0.0
+    core, bar, off = context.body_obb, MISSING, 0.0
     at = core.center.copy()
-    for axis, where in zip(around.face_axes, handle.across, strict=True):
+    for axis, where in zip(context.face_axes, handle.across, strict=True):
         at += where * core.half[axis] * core.axes[axis]
         off = max(off, abs(where)) if abs(core.axes[axis] @ motion.axis) > ALONG_COSINE else off
     if handle.along is not None:
-        bar = abs(float(core.axes[around.face_axes[handle.along]] @ motion.axis))
+        bar = abs(float(core.axes[context.face_axes[handle.along]] @ motion.axis))
     distance = min(float(motion.distance(at[None])[0] / reach), MAX_LENGTH_RATIO)
     return {"handle distance": distance, "handle off the hinge's middle": off, "bar handle along": bar}
 

@@ -22,11 +22,11 @@ class PartMotionScores:
     """Motions of one part with the scores of the part by itself. features: as from `motion_features`; None computes them."""
 
     def __init__(
-        self, around: PartContext, label: str, candidates: Sequence[Candidate], features: Sequence[Features] | None = None
+        self, context: PartContext, label: str, candidates: Sequence[Candidate], features: Sequence[Features] | None = None
     ) -> None:
         classifier = shipped_classifier()
-        self.facts, self.candidates = PartFacts.of(around, label), tuple(candidates)
-        self.table = classifier.table(features or motion_features(around, candidates))
+        self.facts, self.candidates = PartFacts.of(context, label), tuple(candidates)
+        self.table = classifier.table(features or motion_features(context, candidates))
         axes = np.array([c.motion.axis for c in candidates]).reshape(-1, 3)
         self.alone = ScoredMotions.of(classifier.names, self.table, axes, classifier.score(self.table))
 

@@ -31,51 +31,51 @@ SWEPT_FEATURES = (
 Features = dict[str, float]
 
 
-def unswept_features(around: PartContext, candidates: Sequence[Candidate]) -> list[Features]:
+def unswept_features(context: PartContext, candidates: Sequence[Candidate]) -> list[Features]:
     """Return the features that need no sweep and are the same for both opening directions of a motion.
 
     candidates: all motions proposed for the part, one each.
     """
-    contact = contact_points(around)
+    contact = contact_points(context)
     two_pivots = any(c.role == "two_pivot" for c in candidates)
-    part, adjacent = part_values(around, contact) | {"two pivots": float(two_pivots)}, adjacent_sides(around)
-    return [part | _unswept(around, c, contact, adjacent) for c in candidates]
+    part, adjacent = part_values(context, contact) | {"two pivots": float(two_pivots)}, adjacent_sides(context)
+    return [part | _unswept(context, c, contact, adjacent) for c in candidates]
 
 
-def swept_features(around: PartContext, candidates: Sequence[Candidate]) -> list[Features]:
+def swept_features(context: PartContext, candidates: Sequence[Candidate]) -> list[Features]:
     """Return the features of the sweep and of the opening direction of each swept candidate."""
-    ways = np.array([c.opening_sign * initial_direction(around, c.motion) for c in candidates]).reshape(-1, 3)
-    ahead, behind = _visible_both_ways(around, ways)
-    away = ways @ (around.part.centroid - around.center) / around.diagonal
+    ways = np.array([c.opening_sign * initial_direction(context, c.motion) for c in candidates]).reshape(-1, 3)
+    ahead, behind = _visible_both_ways(context, ways)
+    away = ways @ (context.part.centroid - context.center) / context.diagonal
     return [
-        _swept(around, c, way) | {"visible ahead": float(a), "visible behind": float(b), "away from the middle": float(m)}
+        _swept(context, c, way) | {"visible ahead": float(a), "visible behind": float(b), "away from the middle": float(m)}
         for c, way, a, b, m in zip(candidates, ways, ahead, behind, away, strict=True)
     ]
 
 
-def motion_features(around: PartContext, candidates: Sequence[Candidate]) -> list[Features]:
+def motion_features(context: PartContext, candidates: Sequence[Candidate]) -> list[Features]:
     """Return all features of swept candidates, two for each motion; the keys are the same for all."""
-    rest = unswept_features(around, candidates[::2])
-    return [rest[k // 2] | way for k, way in enumerate(swept_features(around, candidates))]
+    rest = unswept_features(context, candidates[::2])
+    return [rest[k // 2] | way for k, way in enumerate(swept_features(context, candidates))]
 
 
 def _visible_both_ways(
-    around: PartContext, ways: Float[np.ndarray, "h 3"]
+    context: PartContext, ways: Float[np.ndarray, "h 3"]
 ) -> tuple[Float[np.ndarray, " h"], Float[np.ndarray, " h"]]:
     """Return the visible shares of the part ahead and behind; their mean for a motion without a direction."""
     length = np.linalg.norm(ways, axis=1)
     unit = np.where(length[:, None] > 0, ways / np.maximum(length, 1e-300)[:, None], [0.0, 0.0, 1.0])
-    points = around.part.samples.points
+    points = context.part.samples.points
     some = points[:: max(1, len(points) // VIEW_POINTS)]
-    ahead, behind = around.sees(some, unit).mean(1), around.sees(some, -unit).mean(1)
+    ahead, behind = context.sees(some, unit).mean(1), context.sees(some, -unit).mean(1)
     mean, half = (ahead + behind) / 2, length * (ahead - behind) / 2
     return mean + half, mean - half
 
 
 def _unswept(
-    around: PartContext, c: Candidate, contact: Float[np.ndarray, "n 3"], adjacent: Float[np.ndarray, "2 2"]
+    context: PartContext, c: Candidate, contact: Float[np.ndarray, "n 3"], adjacent: Float[np.ndarray, "2 2"]
 ) -> Features:
-    slides, axis, core = c.motion.kind is JointType.PRISMATIC, c.motion.axis, around.body_obb
+    slides, axis, core = c.motion.kind is JointType.PRISMATIC, c.motion.axis, context.body_obb
     turn = {
         "hinge support": c.hinge_support,
         "support opposite": c.support_opposite,
@@ -87,24 +87,24 @@ def _unswept(
         "along length": abs(float(axis @ core.axes[0])),
         "along width": abs(float(axis @ core.axes[1])),
         "along thickness": abs(float(axis @ core.axes[2])),
-        "along opening direction": abs(float(axis @ around.opening_direction)),
+        "along opening direction": abs(float(axis @ context.opening_direction)),
         "vertical": c.vertical,
-        "depth": _inserted(around, c) if slides else MISSING,
+        "depth": _inserted(context, c) if slides else MISSING,
         **(dict.fromkeys(turn, MISSING) if slides else turn),
-        **(NO_LINE if slides else line_features(around, c.motion, contact, adjacent)),
+        **(NO_LINE if slides else line_features(context, c.motion, contact, adjacent)),
     }
 
 
-def _inserted(around: PartContext, c: Candidate) -> float:
+def _inserted(context: PartContext, c: Candidate) -> float:
     """Return the depth of the part inside its parent along a slide, over its smallest side across."""
-    across = min(float(np.ptp(around.part.corners @ d)) for d in sides(around, c.motion))
-    return min(around.depth_in_parent(c.motion.axis) / max(across, 1e-9), MAX_LENGTH_RATIO)
+    across = min(float(np.ptp(context.part.corners @ d)) for d in sides(context, c.motion))
+    return min(context.depth_in_parent(c.motion.axis) / max(across, 1e-9), MAX_LENGTH_RATIO)
 
 
-def _swept(around: PartContext, c: Candidate, way: Float[np.ndarray, " 3"]) -> Features:
+def _swept(context: PartContext, c: Candidate, way: Float[np.ndarray, " 3"]) -> Features:
     slides, axis = c.motion.kind is JointType.PRISMATIC, c.motion.axis
-    unit = max(around.part.box.diagonal / around.tolerance_length if slides else np.pi, 1e-9)
-    extent = float(np.ptp(around.part.corners @ axis)) / around.tolerance_length
+    unit = max(context.part.box.diagonal / context.tolerance_length if slides else np.pi, 1e-9)
+    extent = float(np.ptp(context.part.corners @ axis)) / context.tolerance_length
     slide = {
         "guided": c.guided,
         "overlap gain": c.overlap_gain,

@@ -51,9 +51,9 @@ class PartFacts:
     roundness: float
 
     @classmethod
-    def of(cls, around: PartContext, label: str) -> PartFacts:
+    def of(cls, context: PartContext, label: str) -> PartFacts:
         """Return the facts of a part with this label."""
-        return cls(label, around.part.box.diagonal, around.outline.roundness)
+        return cls(label, context.part.box.diagonal, context.outline.roundness)
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,8 +16,8 @@ ENOUGH_POINTS = 200  # sample points of the part for comparing motions
 class MovedPoints:
     """Points of a part after its motions, each computed once."""
 
-    def __init__(self, around: PartContext, candidates: Sequence[Candidate]) -> None:
-        samples = around.part.samples.points
+    def __init__(self, context: PartContext, candidates: Sequence[Candidate]) -> None:
+        samples = context.part.samples.points
         self._points = samples[:: max(1, len(samples) // ENOUGH_POINTS)]
         self._motions = [c.opening_motion for c in candidates]
         self._ends: dict[tuple[int, float], Float[np.ndarray, "n 3"]] = {}

@@ -108,12 +108,12 @@ def scored_motions(case: PartCase) -> MotionQuestion:
 
     The answered motion comes first, even if it repeats another.
     """
-    around = case.around
-    proposed = propose(around)
+    context = case.context
+    proposed = propose(context)
     circles: list[ProposedMotion] = [("circle", motion) for motion in case.circles]
-    proposed = distinct([*proposed, *circles, *pivots(around, case.shown.normal)], around.tolerance_length)
+    proposed = distinct([*proposed, *circles, *pivots(context, case.shown.normal)], context.tolerance_length)
     first: list[ProposedMotion] = [("asked", case.asked)] if case.asked is not None else []
-    question = PartMotionScores(around, case.label, sweep_candidates(around, first + proposed)).question()
+    question = PartMotionScores(context, case.label, sweep_candidates(context, first + proposed)).question()
     scores, chosen = motion_scores(question), []
     for k in range(0, len(scores), 2):
         best, other = sorted((k, k + 1), key=lambda i: (not question.candidates[i].is_free, -scores[i]))
@@ -146,13 +146,13 @@ def shown_amount(c: Candidate, case: PartCase) -> float:
 
     It is positive (opening), or negative (into the parent) for a part that is pressed.
     """
-    around = case.around
+    context = case.context
     if c.motion.kind is JointType.REVOLUTE:
         return float(min(c.opening, MAX_SHOWN_ANGLE_RAD) if c.is_free else BLOCKED_SHOWN_RATIO * MAX_SHOWN_ANGLE_RAD)
-    size = MAX_SHOWN_TRAVEL_RATIO * around.part.box.diagonal
+    size = MAX_SHOWN_TRAVEL_RATIO * context.part.box.diagonal
     if pressed(c, answered_range(case.recognized, JointType.PRISMATIC)):
-        return -STROKE_RATIO * min(float(np.ptp(around.part.corners @ c.motion.axis)), size)
-    return float(min(c.opening * around.tolerance_length, size) if c.is_free else BLOCKED_SHOWN_RATIO * size)
+        return -STROKE_RATIO * min(float(np.ptp(context.part.corners @ c.motion.axis)), size)
+    return float(min(c.opening * context.tolerance_length, size) if c.is_free else BLOCKED_SHOWN_RATIO * size)
 
 
 def _agrees(c: Candidate, case: PartCase) -> float:
@@ -174,9 +174,9 @@ def _unlike(
     Return their indices, their displacements, the position of the one that stands for the answered motion, and for each the
     first one that it is similar to.
     """
-    moved = MovedPoints(case.around, candidates)
-    part_limit = DUPLICATE_PART_RATIO * case.around.part.box.diagonal
-    object_limit = DUPLICATE_OBJECT_RATIO * case.around.tolerance_length
+    moved = MovedPoints(case.context, candidates)
+    part_limit = DUPLICATE_PART_RATIO * case.context.part.box.diagonal
+    object_limit = DUPLICATE_OBJECT_RATIO * case.context.tolerance_length
     kept: list[int] = []
     amounts: list[float] = []
     first: list[int] = []
@@ -218,8 +218,8 @@ def _off_part(case: PartCase, c: Candidate) -> bool:
     """Return whether a hinge line is away from the part, like an edge of a box that is enlarged by a handle."""
     if c.motion.kind is not JointType.REVOLUTE or c.role not in BOX_RIM_ROLES:
         return False
-    off = c.motion.distance(case.around.part.samples.points)
-    return bool(off.min() > OFF_PART * case.around.tolerance_length)
+    off = c.motion.distance(case.context.part.samples.points)
+    return bool(off.min() > OFF_PART * case.context.tolerance_length)
 
 
 def _pages(

@@ -49,15 +49,15 @@ def round_patches(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) ->
     return tuple(motion for _, motion in circles[:MAX_CIRCLES])
 
 
-def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[ProposedMotion]:
+def pivots(context: PartContext, normal: Float[np.ndarray, " 3"]) -> list[ProposedMotion]:
     """Return lines through the center of the contact, and the axis of its ring.
 
     normal: unit normal of the contact's plane.
     """
-    contact = around.contact
+    contact = context.contact
     middle = (contact.min(0) + contact.max(0)) / 2
     directions: list[np.ndarray] = []
-    for d in (normal, around.opening_direction, *around.body_obb.axes):
+    for d in (normal, context.opening_direction, *context.body_obb.axes):
         if all(abs(float(d @ other)) < MAX_DISTINCT_COSINE for other in directions):
             directions.append(d)
     lines: list[ProposedMotion] = []
@@ -67,5 +67,5 @@ def pivots(around: PartContext, normal: Float[np.ndarray, " 3"]) -> list[Propose
         if best.roundness > MIN_CIRCLE_ROUNDNESS:
             lines.append(("hub", hinge_about(best.axis, best.center, "axis of the ring where it is held")))
     lines += [("pivot", hinge_about(d, middle, "line through the middle of the contact")) for d in directions]
-    lines.append(("pivot", hinge_about(normal, around.body_obb.center, "middle line along the contact's normal")))
+    lines.append(("pivot", hinge_about(normal, context.body_obb.center, "middle line along the contact's normal")))
     return lines

@@ -13,22 +13,24 @@ MIN_DRAWER_TRAVEL_RATIO = 0.1  # of its size: a slide with less travel is not la
 MIN_OPEN_LID_RISE_RATIO = 0.5
 
 
-def label_of(around: PartContext, best: Candidate) -> str:
+def label_of(context: PartContext, best: Candidate) -> str:
     """Return drawer, button, slider, knob, wheel, handle, lid or door, or "" for a part that hardly moves.
 
     best: the motion of the part.
     """
-    size = around.part.box.diagonal / around.diagonal
+    size = context.part.box.diagonal / context.diagonal
     if best.motion.kind is JointType.PRISMATIC:
         if best.slide_direction is SlideDirection.ALONG_SURFACE:
             return "slider"
         if size <= MIN_LARGE_RATIO and best.outward < 0:
             return "button"
-        return "drawer" if best.opening * around.tolerance_length >= MIN_DRAWER_TRAVEL_RATIO * around.part.box.diagonal else ""
+        return (
+            "drawer" if best.opening * context.tolerance_length >= MIN_DRAWER_TRAVEL_RATIO * context.part.box.diagonal else ""
+        )
     if best.role == "round":
         return "knob" if size < MIN_LARGE_RATIO else "wheel"
     if best.role == "two_pivot":
-        return "handle" if around.part.slender else "lid"  # a plate on two pivots is the lid of a laptop
-    low, high = around.part.bounds[:, 2]
-    raised = best.vertical < FACING_COSINE and high - around.parent.bounds[1, 2] > MIN_OPEN_LID_RISE_RATIO * (high - low)
-    return "lid" if around.opening_direction[2] > LEVEL_COSINE or raised else "door"
+        return "handle" if context.part.slender else "lid"  # a plate on two pivots is the lid of a laptop
+    low, high = context.part.bounds[:, 2]
+    raised = best.vertical < FACING_COSINE and high - context.parent.bounds[1, 2] > MIN_OPEN_LID_RISE_RATIO * (high - low)
+    return "lid" if context.opening_direction[2] > LEVEL_COSINE or raised else "door"

@@ -185,15 +185,15 @@ def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape
     points = shot.inside(cluster_points(case.shown.contact, project, prompts))
     axes = np.zeros((0, 3))
     if shaped:
-        motions = [m for _, m in pivots(case.around, case.shown.normal)]
-        if case.around.is_round:
-            outline = case.around.outline
+        motions = [m for _, m in pivots(case.context, case.shown.normal)]
+        if case.context.is_round:
+            outline = case.context.outline
             motions.insert(0, Motion(JointType.REVOLUTE, outline.axis, outline.center, "axis of its round outline"))
-        first, axes = axis_points(case.around, [*case.circles, *motions], project, prompts)
+        first, axes = axis_points(case.context, [*case.circles, *motions], project, prompts)
         axes = axes[shot.is_inside(first)]
         points = followed(first[shot.is_inside(first)], points, project, prompts)
     if case.kind is JointAppearance.HINGE_HIDDEN:
-        samples = case.around.part.samples
+        samples = case.context.part.samples
         colors = pictures.face_colors[whole.source[samples.faces]]
         points = with_more(points, shot.inside(superpoint_centres(samples, colors, config.grounding)), project, prompts)
     if len(axes):
@@ -205,14 +205,14 @@ def _surface_directions(questions: Questions, cases: list[PartCase], segmentatio
     """Return the slides along the surface by part number: arrows in its plane are shown, and one is picked."""
     pictures, labels = questions.visual_prompts, segmentation.face_part
     sliding = [c for c in cases if c.kind is JointAppearance.SLIDE_ALONG]
-    tables = {c.number: ArrowTable(c.shown, surface_directions(c.around)) for c in sliding}
+    tables = {c.number: ArrowTable(c.shown, surface_directions(c.context)) for c in sliding}
     rows = ask_each(
         questions.answerer,
         sliding,
-        lambda c, title: pictures.arrows(labels, c.number, title, c.around.part.box.center, tables[c.number].directions),
+        lambda c, title: pictures.arrows(labels, c.number, title, c.context.part.box.center, tables[c.number].directions),
         lambda p, some: WhichArrows(p, tuple(tables[c.number] for c in some), questions.category),
     )
-    return {c.number: prismatic(tables[c.number].directions[rows[c.number]], c.around, "arrow picked") for c in sliding}
+    return {c.number: prismatic(tables[c.number].directions[rows[c.number]], c.context, "arrow picked") for c in sliding}
 
 
 def _joint(case: PartCase, choice: Choice, verify: str) -> Joint:
@@ -222,4 +222,4 @@ def _joint(case: PartCase, choice: Choice, verify: str) -> Joint:
         endless = case.answer.endless and (verify != "motion" or choice.best.is_endless)
         kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if endless else JointType.REVOLUTE
     answered = answered_range(case.recognized, kind)
-    return joint_of(case.around, case.name, case.parent, choice.best, kind, choice.confidence, choice.reason, answered)
+    return joint_of(case.context, case.name, case.parent, choice.best, kind, choice.confidence, choice.reason, answered)

@@ -38,11 +38,11 @@ def same_size(shapes: Sequence[TriangleSet], parent: Sequence[int]) -> list[list
     return groups
 
 
-def share_opening_directions(arounds: Sequence[PartContext]) -> list[PartContext]:
+def share_opening_directions(contexts: Sequence[PartContext]) -> list[PartContext]:
     """Give repeated parts in a row a common opening direction: the one with the highest total visibility."""
-    if len(arounds) == 1:
-        return list(arounds)
-    return [_with_row_direction(a, [a, *(b for b in arounds if b is not a and in_a_row(a, b))]) for a in arounds]
+    if len(contexts) == 1:
+        return list(contexts)
+    return [_with_row_direction(a, [a, *(b for b in contexts if b is not a and in_a_row(a, b))]) for a in contexts]
 
 
 def in_a_row(a: PartContext, b: PartContext) -> bool:
@@ -55,17 +55,17 @@ def _beside(a: PartContext, b: PartContext, way: Float[np.ndarray, " 3"]) -> boo
     return bool(abs(float(offset @ way)) < MAX_ROW_OFFSET_RATIO * np.linalg.norm(offset))
 
 
-def _with_row_direction(around: PartContext, row: list[PartContext]) -> PartContext:
-    ways, total = around.opening_directions
-    beside = np.array([all(_beside(around, other, way) for other in row[1:]) for way in ways])
+def _with_row_direction(context: PartContext, row: list[PartContext]) -> PartContext:
+    ways, total = context.opening_directions
+    beside = np.array([all(_beside(context, other, way) for other in row[1:]) for way in ways])
     if len(row) == 1 or not beside.any():
-        return around
+        return context
     for other in row[1:]:
         theirs, weights = other.opening_directions
         total = total + weights[(ways @ theirs.T).argmax(1)]
     off = np.mean([a.off_the_middle for a in row], axis=0)
     best = best_direction(np.where(beside, total / len(row), -np.inf), ways @ off)
-    return around if (ways[best] == around.opening_direction).all() else replace(around, shared_opening_direction=ways[best])
+    return context if (ways[best] == context.opening_direction).all() else replace(context, shared_opening_direction=ways[best])
 
 
 @dataclass(frozen=True, eq=False)

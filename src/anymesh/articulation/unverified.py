@@ -20,8 +20,8 @@ MIN_GUIDED_SHARE = 0.4  # minimum share of the sideways directions in which an o
 def normal_outwards(case: PartCase) -> Motion:
     """Return the slide along the normal of the connecting area's plane, outwards (paper, 3.3)."""
     normal = case.shown.normal
-    outward = normal if normal @ case.around.opening_direction >= 0 else -normal
-    return prismatic(outward, case.around, "normal of the connecting area's plane")
+    outward = normal if normal @ case.context.opening_direction >= 0 else -normal
+    return prismatic(outward, case.context, "normal of the connecting area's plane")
 
 
 def opening_slide(case: PartCase) -> Motion:
@@ -29,11 +29,11 @@ def opening_slide(case: PartCase) -> Motion:
 
     On real drawers the connecting area consists of rim and sides, and its plane's normal may be off by 80 degrees and more.
     """
-    around = case.around
-    outward = around.opening_direction
-    directions = [s * a for a in around.body_obb.axes for s in (1.0, -1.0) if s * a @ outward > FACING_COSINE] + [outward]
-    ways = [normal_outwards(case)] + [prismatic(d, around, "free way out") for d in directions]
-    candidates = sweep_candidates(around, [("asked", way) for way in ways])[::2]
+    context = case.context
+    outward = context.opening_direction
+    directions = [s * a for a in context.body_obb.axes for s in (1.0, -1.0) if s * a @ outward > FACING_COSINE] + [outward]
+    ways = [normal_outwards(case)] + [prismatic(d, context, "free way out") for d in directions]
+    candidates = sweep_candidates(context, [("asked", way) for way in ways])[::2]
     normal = candidates[0]
     if normal.is_free and normal.slide_direction is SlideDirection.OUTWARDS and normal.guided > MIN_GUIDED_SHARE:
         return ways[0]
@@ -42,9 +42,9 @@ def opening_slide(case: PartCase) -> Motion:
 
 def as_answered(case: PartCase) -> Choice:
     """Return the answered motion unchanged."""
-    motion = case.asked or prismatic(case.around.opening_direction, case.around, "nothing moves")
-    both = sweep_candidates(case.around, [("asked", motion)])
-    scores = PartMotionScores(case.around, case.label, both).alone.score
+    motion = case.asked or prismatic(case.context.opening_direction, case.context, "nothing moves")
+    both = sweep_candidates(case.context, [("asked", motion)])
+    scores = PartMotionScores(case.context, case.label, both).alone.score
     best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is JointType.REVOLUTE else both[0]
     moves = case.recognized.moves if case.recognized else None
     answer = f"answered: {case.kind.words}; {motion.source}"

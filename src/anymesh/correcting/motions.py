@@ -77,15 +77,15 @@ def ranked_motions(
     whole, label = ready.whole, ready.part
     shapes = [whole.of(np.flatnonzero(label == k)) for k in range(len(names))]
     number = part_number(asset, part)
-    around = part_context(whole, label, shapes, [hangs.get(n, -1) for n in names], number, settings.articulation)
-    question = question_of_all_motions(around, asset.segmentation.parts[number].label)
+    context = part_context(whole, label, shapes, [hangs.get(n, -1) for n in names], number, settings.articulation)
+    question = question_of_all_motions(context, asset.segmentation.parts[number].label)
     scores = motion_scores(question)
     free = [k for k in np.argsort(-scores, kind="stable") if question.candidates[k].is_free]
     total = float(np.exp(scores[free] - scores.max()).sum()) if free else 1.0
     motions: list[ChooseMotion] = []
     for k in free:
         c = question.candidates[k]
-        joint = joint_of(around, part, names[hangs[part]], c, joint_type(c), 1.0, reason(question.part, c))
+        joint = joint_of(context, part, names[hangs[part]], c, joint_type(c), 1.0, reason(question.part, c))
         motion = _choice(turned_back(joint, ready.T_straight), float(np.exp(scores[k] - scores.max()) / total))
         if not any(_alike(other, motion, asset.mesh.diagonal) for other in motions):
             motions.append(motion)

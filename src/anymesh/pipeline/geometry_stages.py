@@ -66,9 +66,9 @@ class GeometryStages:
     def _labels(self, segmentation: Segmentation) -> list[str]:
         """Return a label of each part but the base from its motion by geometry; "" for a part that cannot move."""
         labels = {}
-        for i, _, around, question in self._motions(segmentation):
-            answer, best = choose_motion(around, question)
-            labels[i] = "" if answer.type is JointType.FIXED else label_of(around, best)
+        for i, _, context, question in self._motions(segmentation):
+            answer, best = choose_motion(context, question)
+            labels[i] = "" if answer.type is JointType.FIXED else label_of(context, best)
         return [labels[i] for i in sorted(labels)]
 
     def _motions(self, segmentation: Segmentation, progress: Progress = silent) -> list[PartMotions]:

@@ -52,19 +52,19 @@ def candidate_context(inputs: FeatureInputs, candidate: int) -> PartContext | No
     )  # fmt: skip
 
 
-def part_features(inputs: FeatureInputs, candidate: int, around: PartContext) -> dict[str, float]:
+def part_features(inputs: FeatureInputs, candidate: int, context: PartContext) -> dict[str, float]:
     """Return all features of a candidate; the keys are the same for all."""
     return {
-        **_shape(inputs, candidate, around),
-        **_place(around),
-        **_fit(inputs, around),
+        **_shape(inputs, candidate, context),
+        **_place(context),
+        **_fit(inputs, context),
         **_neighbours(inputs, candidate),
-        **_copies(inputs, candidate, around),
-        **_material(inputs, candidate, around),
-        **_handle(around),
-        **blocked_shares(around, inputs.config.segmentation),
-        **exposure(around, inputs.config.segmentation),
-        **space_behind(around),
+        **_copies(inputs, candidate, context),
+        **_material(inputs, candidate, context),
+        **_handle(context),
+        **blocked_shares(context, inputs.config.segmentation),
+        **exposure(context, inputs.config.segmentation),
+        **space_behind(context),
     }
 
 
@@ -72,20 +72,20 @@ def _ratio(a: float, b: float) -> float:
     return float(np.clip(a / max(b, 1e-12), 0, MAX_RATIO))
 
 
-def _shape(inputs: FeatureInputs, candidate: int, around: PartContext) -> dict[str, float]:
-    core, outline, candidates = around.body_obb, around.outline, inputs.candidates
+def _shape(inputs: FeatureInputs, candidate: int, context: PartContext) -> dict[str, float]:
+    core, outline, candidates = context.body_obb, context.outline, inputs.candidates
     extents = np.sort(np.ptp(candidates.whole.shape.bounds, axis=0))
     box_area = 8 * float(core.half[0] * core.half[1] + core.half[1] * core.half[2] + core.half[0] * core.half[2])
     patches = candidates.members[candidate]
     return {
         "thinness": _ratio(core.half[2], core.half[1]),
         "width over length": _ratio(core.half[1], core.half[0]),
-        "size": around.part.box.diagonal / around.diagonal,
-        "thickness": float(2 * core.half[2] / around.diagonal),
+        "size": context.part.box.diagonal / context.diagonal,
+        "thickness": float(2 * core.half[2] / context.diagonal),
         "area share": float(candidates.area[candidate] / candidates.contacts.patch_area.sum()),
         "face share": _ratio(4 * core.half[0] * core.half[1], extents[1] * extents[2]),
-        "area over box": _ratio(around.part.area, box_area),
-        "closed": float(around.part.solid @ around.part.areas / max(around.part.area, 1e-300)),
+        "area over box": _ratio(context.part.area, box_area),
+        "closed": float(context.part.solid @ context.part.areas / max(context.part.area, 1e-300)),
         "roundness": outline.roundness,
         "height over radius": _ratio(outline.height, outline.radius),
         "largest patch": float(candidates.contacts.patch_area[patches].max() / max(candidates.area[candidate], 1e-300)),
@@ -93,12 +93,12 @@ def _shape(inputs: FeatureInputs, candidate: int, around: PartContext) -> dict[s
     }
 
 
-def _place(around: PartContext) -> dict[str, float]:
-    low, high = around.bounds
+def _place(context: PartContext) -> dict[str, float]:
+    low, high = context.bounds
     extent = np.maximum(high - low, 1e-12)
-    mine = around.part.bounds
+    mine = context.part.bounds
     center = (mine.mean(0) - low) / extent
-    reached = np.abs(np.array([mine[0] - low, high - mine[1]])) < AT_BORDER * around.diagonal
+    reached = np.abs(np.array([mine[0] - low, high - mine[1]])) < AT_BORDER * context.diagonal
     aside = np.linalg.norm(2 * center[:2] - 1)
     return {
         "height": float(center[2]),
@@ -108,21 +108,21 @@ def _place(around: PartContext) -> dict[str, float]:
         "sides reached": float(reached[:, :2].sum()),
         "width share": float(((mine[1] - mine[0]) / extent)[:2].max()),
         "height share": float((mine[1, 2] - mine[0, 2]) / extent[2]),
-        "faces up": float(around.opening_direction[2]),
-        "visibility": around.visibility,
-        "thin side towards opening": float(np.abs(around.body_obb.axes[2] @ around.opening_direction)),
-        "offset from the center": float((mine.mean(0) - around.center) @ around.opening_direction / around.diagonal),
+        "faces up": float(context.opening_direction[2]),
+        "visibility": context.visibility,
+        "thin side towards opening": float(np.abs(context.body_obb.axes[2] @ context.opening_direction)),
+        "offset from the center": float((mine.mean(0) - context.center) @ context.opening_direction / context.diagonal),
         "object height over width": _ratio(extent[2], float(extent[:2].max())),
     }
 
 
-def _fit(inputs: FeatureInputs, around: PartContext) -> dict[str, float]:
+def _fit(inputs: FeatureInputs, context: PartContext) -> dict[str, float]:
     settings = inputs.config.segmentation
-    near, normals = touching(around, 2 * settings.touch * around.diagonal)
-    sides, flush = fit_of_rim(around, settings)
-    gaps = np.quantile(around.gap, [0.05, 0.5]) / around.diagonal
-    depth = around.depth_in_parent(around.opening_direction)
-    outer = around.part.samples.normals @ around.opening_direction
+    near, normals = touching(context, 2 * settings.touch * context.diagonal)
+    sides, flush = fit_of_rim(context, settings)
+    gaps = np.quantile(context.gap, [0.05, 0.5]) / context.diagonal
+    depth = context.depth_in_parent(context.opening_direction)
+    outer = context.part.samples.normals @ context.opening_direction
     back = outer < -FACING_COSINE
     return {
         "rims with clearance": float(sides),
@@ -131,23 +131,23 @@ def _fit(inputs: FeatureInputs, around: PartContext) -> dict[str, float]:
         "back touches": float(near[back].mean()) if back.sum() > 3 else 0.0,
         "log10 near gap": float(np.log10(gaps[0] + 1e-5)),
         "log10 middle gap": float(np.log10(gaps[1] + 1e-5)),
-        "enclosed": enclosed_share(around),
-        "depth": _ratio(depth, 2 * float(around.body_obb.half[1])),
-        "two pivots": two_pivots(around, near, normals),
-        "on axis": float(on_axis(around)),
-        "axle level": float(abs(around.outline.axis[2]) < FACING_COSINE),
-        **_contact_layout(around, near),
+        "enclosed": enclosed_share(context),
+        "depth": _ratio(depth, 2 * float(context.body_obb.half[1])),
+        "two pivots": two_pivots(context, near, normals),
+        "on axis": float(on_axis(context)),
+        "axle level": float(abs(context.outline.axis[2]) < FACING_COSINE),
+        **_contact_layout(context, near),
     }
 
 
-def _contact_layout(around: PartContext, near: np.ndarray) -> dict[str, float]:
+def _contact_layout(context: PartContext, near: np.ndarray) -> dict[str, float]:
     """Return features of the contact's position on the part's face: spread over it, or gathered at one side."""
     if near.sum() < 2:
         return {"contact spread": 0.0, "contact off the middle": 0.0, "contact upright": 0.0}
-    local = around.body_obb.local(around.part.samples.points[near]) / np.maximum(around.body_obb.half, 1e-12)
-    face = local[:, around.face_axes]
+    local = context.body_obb.local(context.part.samples.points[near]) / np.maximum(context.body_obb.half, 1e-12)
+    face = local[:, context.face_axes]
     middle, spread = face.mean(0), face.std(0)
-    upright = np.abs(around.body_obb.axes[around.face_axes][::-1, 2])  # along each axis, of the other one
+    upright = np.abs(context.body_obb.axes[context.face_axes][::-1, 2])  # along each axis, of the other one
     return {
         "contact spread": float(spread.min()),
         "contact off the middle": float(np.abs(middle).max()),
@@ -175,12 +175,12 @@ def _neighbours(inputs: FeatureInputs, candidate: int) -> dict[str, float]:
     }
 
 
-def _copies(inputs: FeatureInputs, candidate: int, around: PartContext) -> dict[str, float]:
+def _copies(inputs: FeatureInputs, candidate: int, context: PartContext) -> dict[str, float]:
     """Return features of the copies of a candidate: how many there are, and whether one lies on its axis."""
     candidates = inputs.candidates
     copies = candidates.overlap.copies[candidate]
     middles = candidates.bounds[copies].mean(1)
-    outline = around.outline
+    outline = context.outline
     arm = middles - outline.center
     across = np.linalg.norm(arm - (arm @ outline.axis)[:, None] * outline.axis, axis=1)
     return {
@@ -189,7 +189,7 @@ def _copies(inputs: FeatureInputs, candidate: int, around: PartContext) -> dict[
     }
 
 
-def _material(inputs: FeatureInputs, candidate: int, around: PartContext) -> dict[str, float]:
+def _material(inputs: FeatureInputs, candidate: int, context: PartContext) -> dict[str, float]:
     """Return how well the part's most frequent material separates it from the rest."""
     total = inputs.material.sum(0)
     mine = inputs.candidates.members[candidate] @ inputs.material
@@ -200,8 +200,8 @@ def _material(inputs: FeatureInputs, candidate: int, around: PartContext) -> dic
     }
 
 
-def _handle(around: PartContext) -> dict[str, float]:
-    handle = around.handle
+def _handle(context: PartContext) -> dict[str, float]:
+    handle = context.handle
     if handle is None:
         return {"handle": 0.0, "handle size": 0.0, "handle off the middle": 0.0, "bar handle": 0.0}
     return {

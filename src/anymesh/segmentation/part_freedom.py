@@ -16,64 +16,67 @@ BACK_RAYS = 9  # rays along each side of the back
 UP = np.array([0.0, 0.0, 1.0])
 
 
-def blocked_shares(around: PartContext, config: SegmentationConfig) -> dict[str, float]:
+def blocked_shares(context: PartContext, config: SegmentationConfig) -> dict[str, float]:
     """Return the share of the part's surface that meets the rest when it moves by its own extent, along its box axes.
 
     Surface that faces along the way counts, on sheets without an inside both sides.
     """
-    points, touch = around.part.samples.points[::STRIDE], config.touch * around.diagonal
+    points, touch = context.part.samples.points[::STRIDE], config.touch * context.diagonal
 
     def blocked(direction: Float[np.ndarray, " 3"], extent: float) -> float:
-        ahead = points[around.facing(direction)[::STRIDE] > MIN_AHEAD_COSINE]
+        ahead = points[context.facing(direction)[::STRIDE] > MIN_AHEAD_COSINE]
         if len(ahead) < 2:
             return 0.0
-        way = max(extent, MIN_WAY * around.diagonal) + 2 * touch
+        way = max(extent, MIN_WAY * context.diagonal) + 2 * touch
         # start slightly inside, since a ray that starts on a surface would miss it
-        hits = around.rest.scene.first_hit(ahead - 2 * touch * direction, np.repeat(way * direction[None], len(ahead), 0), 1.0)
+        hits = context.rest.scene.first_hit(ahead - 2 * touch * direction, np.repeat(way * direction[None], len(ahead), 0), 1.0)
         return float((hits.face >= 0).mean())
 
-    axes, extents = around.body_obb.axes, 2 * around.body_obb.half
-    sideways = [blocked(sign * axes[k], extents[k]) for k in around.face_axes for sign in (1.0, -1.0)]
-    deep = extents[outward_axis(around.body_obb, around.opening_direction)]
+    axes, extents = context.body_obb.axes, 2 * context.body_obb.half
+    sideways = [blocked(sign * axes[k], extents[k]) for k in context.face_axes for sign in (1.0, -1.0)]
+    deep = extents[outward_axis(context.body_obb, context.opening_direction)]
     return {
-        "blocked outward": blocked(around.opening_direction, deep),
-        "blocked inward": blocked(-around.opening_direction, deep),
+        "blocked outward": blocked(context.opening_direction, deep),
+        "blocked inward": blocked(-context.opening_direction, deep),
         "blocked sideways least": min(sideways),
         "blocked sideways most": max(sideways),
     }
 
 
-def exposure(around: PartContext, config: SegmentationConfig) -> dict[str, float]:
+def exposure(context: PartContext, config: SegmentationConfig) -> dict[str, float]:
     """Return which shares of the part's surface see the outside along their normal, face outward, and face up.
 
     Open sheets count with either side.
     """
-    samples, off = around.part.samples.take(np.arange(0, len(around.part.samples), STRIDE)), 2 * config.touch * around.diagonal
-    sheet = ~around.part.solid[samples.faces]
+    samples, off = (
+        context.part.samples.take(np.arange(0, len(context.part.samples), STRIDE)),
+        2 * config.touch * context.diagonal,
+    )
+    sheet = ~context.part.solid[samples.faces]
 
     def sees(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
-        return around.rest.scene.first_hit(points + off * normals, 2 * around.diagonal * normals, 1.0).face < 0
+        return context.rest.scene.first_hit(points + off * normals, 2 * context.diagonal * normals, 1.0).face < 0
 
     exposed = sees(samples.points, samples.normals)
     exposed[sheet] |= sees(samples.points[sheet], -samples.normals[sheet])
     return {
         "exposed": float(exposed.mean()),
-        "facing outward": float((around.facing(around.opening_direction) > FACING_COSINE).mean()),
-        "facing up": float((around.facing(UP) > ALONG_COSINE).mean()),
+        "facing outward": float((context.facing(context.opening_direction) > FACING_COSINE).mean()),
+        "facing up": float((context.facing(UP) > ALONG_COSINE).mean()),
     }
 
 
-def space_behind(around: PartContext) -> dict[str, float]:
+def space_behind(context: PartContext) -> dict[str, float]:
     """Return what is behind the part's back.
 
     "space behind": median distance to it relative to the diagonal, which also stands for nothing; "nothing behind": share with
     nothing behind; "open behind": share with an opening, free for three thicknesses and at least MIN_WAY.
     """
-    points, direction = points_behind(around, BACK_RAYS), around.opening_direction
-    hits = around.rest.scene.first_hit(points, np.repeat(-around.diagonal * direction[None], len(points), 0), 1.0)
+    points, direction = points_behind(context, BACK_RAYS), context.opening_direction
+    hits = context.rest.scene.first_hit(points, np.repeat(-context.diagonal * direction[None], len(points), 0), 1.0)
     nothing, face = hits.face < 0, np.maximum(hits.face, 0)
-    inside = ~nothing & around.rest.solid[face] & (around.rest.normals[face] @ direction < 0)
-    thick = 2 * around.body_obb.half[outward_axis(around.body_obb, direction)] / around.diagonal
+    inside = ~nothing & context.rest.solid[face] & (context.rest.normals[face] @ direction < 0)
+    thick = 2 * context.body_obb.half[outward_axis(context.body_obb, direction)] / context.diagonal
     return {
         "space behind": float(np.median(np.where(nothing, 1.0, hits.distance))),
         "nothing behind": float(nothing.mean()),
@@ -81,11 +84,11 @@ def space_behind(around: PartContext) -> dict[str, float]:
     }
 
 
-def points_behind(around: PartContext, count: int) -> Float[np.ndarray, "n 3"]:
+def points_behind(context: PartContext, count: int) -> Float[np.ndarray, "n 3"]:
     """Return a grid of `count` points a side, just behind the back of the part's box [m]."""
-    core, grid = around.body_obb, np.linspace(-0.85, 0.85, count)
-    behind = core.half[outward_axis(core, around.opening_direction)] + 1e-4 * around.diagonal
+    core, grid = context.body_obb, np.linspace(-0.85, 0.85, count)
+    behind = core.half[outward_axis(core, context.opening_direction)] + 1e-4 * context.diagonal
     local = np.zeros((count**2, 3))
-    for axis, value in zip(around.face_axes, np.meshgrid(grid, grid), strict=True):
+    for axis, value in zip(context.face_axes, np.meshgrid(grid, grid), strict=True):
         local[:, axis] = value.reshape(-1) * core.half[axis]
-    return core.world(local) - behind * around.opening_direction
+    return core.world(local) - behind * context.opening_direction

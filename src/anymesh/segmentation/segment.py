@@ -90,8 +90,8 @@ def examine_candidates(
         if limit.late(SEGMENT):
             limit.leave_out("segmentation: some candidates for parts were not examined")
             return None
-        around = candidate_context(inputs, k)
-        return None if around is None else (around.place, part_features(inputs, k, around))
+        context = candidate_context(inputs, k)
+        return None if context is None else (context.place, part_features(inputs, k, context))
 
     kept, places, features = [], [], []
     with ThreadPoolExecutor(usable_cores()) as threads:  # ray casts and distances release the interpreter lock
