@@ -97,6 +97,16 @@ def test_a_bad_answer_is_asked_again_with_what_was_wrong(fault: str) -> None:
     assert [e.answer for e in answerer.exchanges] == [kept, json.dumps(GOOD)]
 
 
+@pytest.mark.parametrize(("who", "left"), [("files", True), ("openai:gpt-4o", False)])
+def test_a_replayed_answer_that_leaves_the_question_to_geometry_is_no_bad_one(who: str, left: bool) -> None:
+    """From a model, the word is no answer."""
+    model, other = ScriptedModel(['"geometry"', json.dumps(GOOD)], name=who), Other()
+    answerer = VlmAnswerer(model, other)
+    assert answerer.ask(ARROWS) == ((2,) if left else (3,))
+    assert (answerer.warnings, len(model.requests), bool(other.asked)) == ((), 1 if left else 2, left)
+    assert (answerer.exchanges[0].verdict == "left to geometry") == left
+
+
 @pytest.mark.parametrize("fault", FAULTS)
 def test_after_two_bad_answers_another_answers_that_question_and_it_is_told(fault: str) -> None:
     bad, words = FAULTS[fault]

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from anymesh.errors import OptionError
 from anymesh.vlm.asking import BadAnswerError
-from anymesh.vlm.file_answerer import check_answer, is_left_to_geometry, open_questions
-from anymesh.vlm.question_files import QuestionFolder, find_questions
+from anymesh.vlm.file_answerer import check_answer, open_questions
+from anymesh.vlm.question_files import QuestionFolder, find_questions, is_left_to_geometry
 from anymesh.vlm.shorthand import answer_text
 
 

@@ -17,12 +17,13 @@ from anymesh.vlm.asking import Answer, BadAnswerError, Question, VisualAnswerer
 from anymesh.vlm.question_files import (
     ANSWER,
     CHECK,
-    LEAVE,
+    LEFT,
     NAME,
     REFUSED,
     SHEET,
     WORDS,
     QuestionFolder,
+    is_left_to_geometry,
     wait_for_answer,
 )
 from anymesh.vlm.question_store import QuestionStore
@@ -32,7 +33,6 @@ from anymesh.vlm.saved_question import pack_question, unpack_question
 from anymesh.vlm.vision import Reply, Request
 from anymesh.vlm.vlm_answerer import exchange_of, request_of
 
-LEFT = f"left to {LEAVE}"  # verdict on a question left to geometry
 POLL = 1.0  # [s] interval between checks for an answer
 
 
@@ -95,11 +95,6 @@ class FileAnswerer:
         reply = Reply(text, NAME, 0, 0, cost=0.0, seconds=seconds)
         self._exchanges.append(exchange_of(NAME, request, reply, LEFT if left else "accepted"))
         return answer
-
-
-def is_left_to_geometry(text: str) -> bool:
-    """Return whether an answer leaves its question to geometry."""
-    return text.strip().strip('"') == LEAVE
 
 
 def check_answer(folder: QuestionFolder, text: str) -> bool:

@@ -24,7 +24,13 @@ FORMAT = "anymesh-question-1"
 QUESTION, ANSWER, REFUSED, SCHEMA, WORDS = "question.json", "answer.json", "refused.md", "schema.json", "question.md"
 SHEET, CHECK, OWNER, SUGGESTION = "sheet.png", "check.npz", "object.json", "suggestion.json"
 LEAVE = "geometry"  # an answer.json with this word leaves the question to geometry
+LEFT = f"left to {LEAVE}"  # verdict on such a question
 LARGEST_ANSWER = 1_000_000  # [bytes]
+
+
+def is_left_to_geometry(text: str) -> bool:
+    """Return whether an answer leaves its question to geometry."""
+    return text.strip().strip('"') == LEAVE
 
 
 @dataclass(frozen=True)
