@@ -125,6 +125,14 @@ FAMILIES = {
     "wheelchair": "wheelchair",
     "workshop": "mitre_saw",
     "worktops": "kitchen_island school_desk workbench_drawers",
+    "still_buildings": "castle_tower temple bridge_model fence_run well_head",
+    "still_creatures": "four_legged_animal bird_figure fish_figure human_figure stuffed_toy insect_figure",
+    "still_food": "cake_stand_cake fruit_bowl burger_plate bottle_group tea_set",
+    "still_gear": "sword_rack helmet trophy dumbbell_set candle_holder",
+    "still_models": "rocket_model ship_hull_model cannon_monument crate_stack lantern_stand",
+    "still_plants": "broadleaf_tree conifer palm_tree cactus_group mushroom_group hedge_row",
+    "still_seats": "side_chair park_seat stool_set chaise pew_row side_table",
+    "still_street": "road_sign monument_cross bollard_row statue_fountain market_stall tent",
 }
 RESERVED_FAMILIES = {  # nothing is ever trained or tuned on them
     "reserved_rooms": "cash_register jewellery_box bird_cage pet_carrier aquarium hose_cabinet wine_rack phone_booth "
