@@ -13,10 +13,11 @@ from typing import Protocol
 
 import numpy as np
 
-from anymesh.evaluation.changes import changed
+from anymesh.evaluation.changes import changed, moved
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.protocols import prepared
+from anymesh.geometry.yaw import straightening
 
 WriteRows = Callable[[Path, EvalSample, str, str], None]  # file, object, source, form
 
@@ -53,10 +54,11 @@ def nameless(sample: EvalSample) -> EvalSample:
 
 
 def open_object(spec: str, name: str, form: str) -> EvalSample:
-    """Return an object of a data set, nameless and in the given form, with its true parts and joints."""
+    """Return an object of a data set, nameless, in the given form and turned straight, with its true parts and joints."""
     with tempfile.TemporaryDirectory() as folder:
         sample = nameless(prepared(open_dataset(spec).truth(name, Path(folder))))
-    return changed(form, sample) if form else sample
+    sample = changed(form, sample) if form else sample
+    return moved(sample, straightening(sample.mesh.face_normals, sample.mesh.face_areas))
 
 
 def collect(write: WriteRows, spec: str, source: str, name: str, form: str, folder: Path) -> str:

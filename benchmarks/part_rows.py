@@ -24,7 +24,7 @@ from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_candidates import part_candidates
 from anymesh.segmentation.segment import examine_candidates
 
-ARRAYS = ("features", "members", "area", "place", "contact", "near")
+ARRAYS = ("features", "members", "area", "place", "spread", "contact", "near")
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,6 +46,7 @@ class PartRows:
     moving: tuple[int, ...]
     carried: tuple[tuple[int, ...], ...]
     place: Float32[np.ndarray, "n 12"]
+    spread: Float32[np.ndarray, "n 3"]
     contact: Float32[np.ndarray, "P P"]
     near: Int[np.ndarray, "k 2"]
 
@@ -98,7 +99,7 @@ def rows_of(sample: EvalSample, source: str, form: str = "") -> PartRows:
         source, kind_of(truth.name, truth.category), truth.name, form, names,
         np.array([[row[n] for n in names] for row in rows], np.float32), examined.members, area,
         tuple(parent), tuple(tuple(k for k in parent if top in _line(k, parent)) for top in parent),
-        place.astype(np.float32), contacts.area_matrix, contacts.near,
+        place.astype(np.float32), examined.spread.astype(np.float32), contacts.area_matrix, contacts.near,
     )  # fmt: skip
 
 

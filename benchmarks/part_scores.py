@@ -41,7 +41,7 @@ class Counts:
 def overlap_of(rows: PartRows) -> Overlap:
     """Return what the candidates of an object have in common."""
     shared = (rows.members * rows.area.sum(1)) @ rows.members.T.astype(float)
-    return Overlap(rows.features[:, rows.names.index("size")].astype(float), shared)
+    return Overlap(rows.spread.astype(float), shared)
 
 
 def owners(rows: PartRows, chosen: list[int]) -> Int[np.ndarray, " P"]:

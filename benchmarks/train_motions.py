@@ -144,9 +144,8 @@ def main(argv: Sequence[str] | None = None) -> None:
         "## Trained on all other sources", "", *table(rows, *by_source, called), "",
         "## Trained on other kinds (4 folds, a kind in one fold)", "", *table(rows, *by_kind, called), "",
         "## Confidence", "",
-        f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f}",
-        "(`articulation/rank_motions.py`). Where a model answers, all motions are swept:",
-        f"slope {slope_of_all:.2f} (`articulation/answer_evidence.py`).",
+        f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f}. Where a model answers, all motions",
+        f"are swept: slope {slope_of_all:.2f}. Both are in the manifest of the classifier.",
         "", *calibration_table(answers, slope, offset), "", "The same on other sources:", "",
         *calibration_table(confidences(*by_source), slope, offset), "",
     ]  # fmt: skip
@@ -155,12 +154,13 @@ def main(argv: Sequence[str] | None = None) -> None:
     if options.write:
         scores = {"right, other sources": right_of(*by_source), "right, other kinds": right_of(*by_kind)}
         objects = sorted({(r.source, r.kind, r.name) for r in rows})
-        for file, names, some, models in (
-            ("motion_classifier.npz", rows[0].names, samples, MODELS),
-            ("unswept_classifier.npz", unswept_names(rows), unswept_samples(rows), UNSWEPT_MODELS),
+        confidence = {"slope": round(slope, 2), "offset": round(offset, 2), "slope, all swept": round(slope_of_all, 2)}
+        for file, names, some, models, more in (
+            ("motion_classifier.npz", rows[0].names, samples, MODELS, {"confidence": confidence}),
+            ("unswept_classifier.npz", unswept_names(rows), unswept_samples(rows), UNSWEPT_MODELS, {}),
         ):
             settings = [asdict(m) for m in models]
-            manifest = manifest_of(names, objects, models=settings, joints=len(rows), scores=scores)
+            manifest = manifest_of(names, objects, models=settings, joints=len(rows), scores=scores, **more)
             write(WRITTEN / file, manifest, fit(some, models))
 
 

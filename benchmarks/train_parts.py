@@ -8,6 +8,7 @@ FOLDER: rows as `benchmarks/part_rows.py` writes them. Needs lightgbm and torch.
     python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen sweethome3d metaworld libero examples \
         scene-synthesizer static:KINDS@kinds
     python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds --change fused --most 180
+    python benchmarks/part_rows.py FOLDER static:KINDS@kinds --change fused --most 60
     python benchmarks/part_rows.py FOLDER labelled:INFINIGEN@infinigen --change fused --most 53
     python benchmarks/part_rows.py FOLDER sweethome3d --change fused --most 12
     python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds --change C --most N  with N = 240 for C = detailed and misplaced,
@@ -36,7 +37,7 @@ from set_training import CandidateSet, train_all
 
 from anymesh.scoring.classifier import Classifier
 from anymesh.segmentation.candidate_relations import relations
-from anymesh.segmentation.part_assignment import assign_parts
+from anymesh.segmentation.part_assignment import MIN_SCORE, assign_parts
 from anymesh.segmentation.part_classifier import combined, is_cut
 
 MODELS = (Model(150, 0), Model(250, 1, True), Model(150, 2), Model(250, 3, True))
@@ -112,7 +113,7 @@ def counts(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> Counts:
 
 def table(rows: Sequence[PartRows], scores: Sequence[np.ndarray], of: Callable[[PartRows], str]) -> list[str]:
     """Return lines of a table, one for each group of objects."""
-    ideal = [np.where((iou := r.iou()) > 0.5, iou, -1.0) for r in rows]
+    ideal = [np.where((iou := r.iou()) > 0.5, iou, MIN_SCORE - 1) for r in rows]
     lines = [
         "| | objects | parts | precision | recall | F1 | F1, mean over kinds | F1 of the best choice |",
         "|---|---|---|---|---|---|---|---|",
@@ -184,7 +185,7 @@ def write_page(rows: Sequence[PartRows], by_source: Scores, by_kind: Scores) -> 
         *table(rows, by_kind, called), "",
         f"On {len(still)} objects without movable parts, {wrong} parts were found.", "",
         "## Confidence", "",
-        f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f} (`segmentation/segment.py`).", "",
+        f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f}, in the classifier's manifest.", "",
         *calibration_table(chosen, slope, offset), "", "The same on other sources:", "",
         *calibration_table(confidences(rows, by_source), slope, offset), "",
     ]  # fmt: skip
@@ -209,7 +210,12 @@ def main(argv: Sequence[str] | None = None) -> None:
         return
     f1 = {"F1, other sources": f1_of(rows, by_source), "F1, other kinds": f1_of(rows, by_kind)}
     (networks,) = train_all(sets, [range(len(rows))], EPOCHS, SEEDS)
-    told = {"scores": f1, "networks": {"epochs": EPOCHS, "seeds": SEEDS, "objects": len(rows)}}
+    slope, offset = fit_confidence(confidences(rows, by_kind))
+    told = {
+        "scores": f1,
+        "confidence": {"slope": round(slope, 2), "offset": round(offset, 2)},
+        "networks": {"epochs": EPOCHS, "seeds": SEEDS, "objects": len(rows)},
+    }
     objects = sorted({(r.source, r.kind, r.name) for r in rows})
     models = [asdict(m) for m in MODELS]
     candidates = sum(len(r.features) for r in rows)

@@ -99,5 +99,5 @@ def test_no_two_constants_of_the_inner_stages_share_a_name() -> None:
                 if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store) and re.fullmatch("[A-Z][A-Z0-9_]+", node.id):
                     places[node.id].add(path.relative_to(SOURCE).as_posix())
     shared = {name for name, found in places.items() if len(found) > 1}
-    # each of the two classifiers has its own calibration; NONE is a member of an enum, and a number that stands for no node
-    assert shared == {"CALIBRATION_SLOPE", "CALIBRATION_OFFSET", "NONE"}, {name: places[name] for name in shared}
+    # NONE is a member of an enum, and a number that stands for no node
+    assert shared == {"NONE"}, {name: places[name] for name in shared}

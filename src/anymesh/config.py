@@ -13,7 +13,7 @@ FACING_COSINE = 0.5  # 60 degrees: minimum cosine between a normal or a motion a
 LEVEL_COSINE = 0.8  # 37 degrees: minimum cosine between the vertical and the normal of a level face
 ACROSS_COSINE = 0.3  # 73 degrees: maximum cosine between two directions that are across each other
 SAME_AXIS_COSINE = 0.97  # 14 degrees: minimum cosine between axes that a user sees as one
-SAME_SIZE = 0.02  # maximum relative difference of the diagonals of copies
+SAME_SIZE = 0.02  # maximum relative difference of the diagonals, or of the spreads, of copies
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class PatchConfig:
     soft_faces: int = 3000  # components with fewer faces have sharp creases only
     seams: bool = False  # also divide where creases are closed in places; on if pictures are answered (`Solver`)
     reach: float = 0.01  # distance from a soft crease within which the surface defines its angle
-    crumb: float = 0.03  # regions smaller than this, left by a cut, join their neighbour
+    crumb: float = 0.02  # regions smaller than this, left by a cut, join their neighbour
     most_faces: int = 8000  # denser meshes are simplified for questions of shape and motion, never in the output
     least_faces: int = 60  # minimum number of faces kept of a patch
     most_patches: int = 1500  # number of patches above which small ones join their nearest larger one

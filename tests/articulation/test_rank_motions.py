@@ -6,17 +6,16 @@ import numpy as np
 import pytest
 from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, X, Y, Z
 
+from anymesh.articulation.motion_classifier import shipped_classifier
 from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts, SlideDirection
 from anymesh.articulation.rank_motions import (
-    CALIBRATION_OFFSET,
-    CALIBRATION_SLOPE,
     motion_scores,
     rank_motions,
     reason,
     same_joints,
     share_of_best,
 )
-from anymesh.scoring.classifier import MAX_CONFIDENCE, confidence_of
+from anymesh.scoring.classifier import MAX_CONFIDENCE
 from anymesh.types import JointType, Motion, Sweep
 
 
@@ -56,8 +55,8 @@ def test_the_confidence_grows_with_the_share_of_the_best_motion() -> None:
     assert share_of_best(np.zeros(4), np.array([True, True, False, False])) == pytest.approx(0.5)
     told = [asked(PLATE, [EDGE, FAR_EDGE], [lead, 0.0]).confidence for lead in (0.0, 0.5, 1.0, 3.0, 40.0)]
     assert told == sorted(told)
-    assert told[0] == pytest.approx(confidence_of(0.0, CALIBRATION_SLOPE, CALIBRATION_OFFSET))
-    assert told[3] == pytest.approx(confidence_of(3.0, CALIBRATION_SLOPE, CALIBRATION_OFFSET))
+    assert told[0] == pytest.approx(shipped_classifier().confidence(0.0))
+    assert told[3] == pytest.approx(shipped_classifier().confidence(3.0))
     assert told[-1] == MAX_CONFIDENCE
 
 

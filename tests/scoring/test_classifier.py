@@ -1,10 +1,10 @@
-"""Test that the reasons of a learned score name features that a candidate has."""
+"""Test the reasons of a learned score, which name features that a candidate has, and its calibration."""
 
 import numpy as np
 import pytest
 
 from anymesh.scoring.boosted_trees import BoostedTrees
-from anymesh.scoring.classifier import MISSING, Classifier
+from anymesh.scoring.classifier import MAX_CONFIDENCE, MIN_CONFIDENCE, MISSING, Classifier
 from anymesh.scoring.set_network import SetNetwork
 
 
@@ -38,3 +38,11 @@ def test_the_score_among_others_is_the_mean_of_the_networks(monkeypatch: pytest.
 def test_a_value_of_minus_zero_is_printed_as_zero() -> None:
     classifier = Classifier(stump(1), (), ("size", "support"), {})
     assert classifier.reasons(classifier.table([{"size": 0.0, "support": -0.0}])) == ["support 0"]
+
+
+def test_confidence_is_the_calibrated_probability_within_its_range() -> None:
+    """With slope 2 and offset -1, log-odds of .5 are even, and of 1 are e : 1."""
+    classifier = Classifier(stump(0), (), ("size",), {"confidence": {"slope": 2.0, "offset": -1.0}})
+    assert classifier.confidence(0.5) == 0.5
+    assert classifier.confidence(1.0) == pytest.approx(np.e / (1 + np.e))
+    assert (classifier.confidence(-50.0), classifier.confidence(50.0)) == (MIN_CONFIDENCE, MAX_CONFIDENCE)

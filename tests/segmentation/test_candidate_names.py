@@ -17,7 +17,7 @@ def test_names_that_begin_alike_are_one_part() -> None:
     mesh, _ = mesh_of([box((k, 0, 0), (k + 0.5, 1, 1)) for k in range(5)])
     whole = object_shape(mesh, 0, Config().patches)
     members = np.array([[1, 1, 0, 0, 0], [0, 1, 0, 0, 0], [1, 1, 1, 0, 0], [1, 1, 1, 1, 1], [1, 0, 0, 0, 1]], bool)
-    tree = PartCandidates(whole, find_contacts(whole, SegmentationConfig()), members, np.ones(5), names)
+    tree = PartCandidates(whole, find_contacts(whole, SegmentationConfig()), members, names)
     assert [shared_name(tree, k) for k in range(5)] == ["drawer top", "drawer_top_wood", "", "", "drawer"]
 
 

@@ -11,7 +11,7 @@ NAMES = (
 )  # fmt: skip
 AREA = np.array([4.0, 4.0, 1.0, 8.0])  # of the patches: a door and its copy, a knob, the case
 MEMBERS = np.array([[1, 0, 0, 0], [0, 1, 0, 0], [1, 0, 1, 0], [0, 0, 0, 1], [0, 0, 1, 1]], bool)
-SIZE = np.array([1.0, 1.0, 1.1, 2.0, 2.0])
+SPREAD = np.array([1.0, 1.0, 1.1, 2.0, 2.0])[:, None] * np.ones(3)
 CONTACT = np.zeros((4, 4))  # the copy only has a clearance
 CONTACT[0, 3] = CONTACT[3, 0] = 1.0
 CONTACT[0, 2], CONTACT[2, 0] = 0.25, 0.5
@@ -23,7 +23,7 @@ def place(*centers: tuple[float, float, float]) -> np.ndarray:
 
 
 def found(places: np.ndarray, pair: tuple[int, int]) -> dict[str, float]:
-    overlap = Overlap(SIZE, (MEMBERS * AREA) @ MEMBERS.T.astype(float))
+    overlap = Overlap(SPREAD, (MEMBERS * AREA) @ MEMBERS.T.astype(float))
     values = relations(overlap, MEMBERS, CONTACT, NEAR, places)[pair]
     return {name: round(float(value), 4) for name, value in zip(NAMES, values, strict=True) if value}
 

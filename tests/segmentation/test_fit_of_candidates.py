@@ -47,7 +47,7 @@ def test_the_shape_of_an_inset_door() -> None:
     total = sum(AREA) + sum(WALL_AREA)
     expected = {
         "thinness": 0.03 / 0.89, "width over length": 1, "size": np.linalg.norm([0.89, 0.07, 0.89]) / DIAGONAL,
-        "thickness": 0.03 / DIAGONAL, "area share": sum(AREA) / total, "face share": 0.89**2, "closed": 1,
+        "thickness": 0.03 / DIAGONAL, "area share": sum(AREA) / total, "face share": 0.89**2, "solid": 1,
         "area over box": sum(AREA) / AREA[0], "largest patch": AREA[0] / sum(AREA), "log patches of the object": np.log1p(7),
     }  # fmt: skip
     assert door() == pytest.approx(door() | expected, abs=1e-3)
@@ -58,7 +58,7 @@ def test_the_neighbours_of_an_inset_door() -> None:
     expected = {
         "contact with the first": 0, "contact area": 0, "parted by creases": 0, "separate": 1, "enclosed": 1,
         "contact within": 2 * 0.0016 / sum(AREA),
-        "depth": 0.03 / 0.89, "on axis": 0, "axle level": 1, "log copies": 0,
+        "insertion depth": 0.03 / 0.89, "on axis": 0, "axle level": 1, "log copies": 0,
         "copy on the axis": 0, "bar handle": 0, "handle size": 0.04 / np.linalg.norm([0.89, 0.03, 0.89]),
     }  # fmt: skip
     assert door() == pytest.approx(door() | expected, abs=0.01)
@@ -82,6 +82,16 @@ def test_equal_doors_are_copies() -> None:
     mesh = mesh_of([box((0, 0.1, 0), (3, 1, 2)), *blocks, higher, smaller])[0]
     f = features(mesh, {1})
     assert f["log copies"] == pytest.approx(np.log1p(3))
+    assert features(mesh, {5})["log copies"] == 0
+
+
+def test_blades_around_a_hub_are_copies_in_any_direction() -> None:
+    corners, faces = box((0.2, -0.02, -0.1), (1.2, 0.02, 0.1))
+    turns = [np.array([[np.cos(a), -np.sin(a), 0], [np.sin(a), np.cos(a), 0], [0, 0, 1]]) for a in np.deg2rad([10, 130, 250])]
+    mirrored = corners @ turns[0].T * [1, -1, 1], faces[:, ::-1]
+    wider = box((0.2, -0.02, 2), (1.2, 0.02, 2.22))
+    mesh = mesh_of([box((-0.2, -0.2, -1), (0.2, 0.2, 1)), *((corners @ T.T, faces) for T in turns), mirrored, wider])[0]
+    assert features(mesh, {1})["log copies"] == pytest.approx(np.log1p(3))
     assert features(mesh, {5})["log copies"] == 0
 
 

@@ -28,7 +28,7 @@ def sampled() -> SampledObject:
 
 
 MAKERS = {
-    "overlap": lambda: Overlap(np.ones(1), np.eye(1)),
+    "overlap": lambda: Overlap(np.ones((1, 3)), np.eye(1)),
     "tree": lambda: candidates([BODY, *LEAF, HANDLE]),
     "features": lambda: FeatureInputs(candidates([BODY, HANDLE]), Config(), np.ones((2, 1))),
     "proposal": lambda: Proposal(0, np.ones((2, 2), np.int64), (1,)),

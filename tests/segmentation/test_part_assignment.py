@@ -17,7 +17,7 @@ from anymesh.segmentation.part_candidates import Overlap
 
 
 def overlap(members: np.ndarray, patch: np.ndarray) -> Overlap:
-    return Overlap(members @ patch, (members * patch) @ members.T.astype(float))
+    return Overlap(np.ones((len(members), 3)), (members * patch) @ members.T.astype(float))
 
 
 @pytest.mark.parametrize("seed", range(12))
@@ -68,7 +68,7 @@ def test_a_knob_on_a_door_is_a_part_and_the_door_without_its_trim_is_not() -> No
     assert clash[2, 3]
     assert not clash.diagonal().any()
     assert assign_parts(candidates, np.array([2.0, 1.0, 1.5, 0.5])) == [0, 1]
-    assert assign_parts(candidates, np.array([-1.0, -1.0, -1.0, -1.0])) == []
+    assert assign_parts(candidates, np.full(4, MIN_SCORE - 0.1)) == []
 
 
 def test_what_only_a_part_holds_goes_with_it() -> None:

@@ -46,7 +46,7 @@ def test_an_inset_door_with_a_knob() -> None:
     assert f["log copies"] == 0
     assert f["bottom"] == pytest.approx(0.055, abs=1e-6)
     assert f["height"] == pytest.approx(0.5, abs=1e-6)
-    assert abs(f["faces up"]) < 1e-6
+    assert abs(f["opening direction up"]) < 1e-6
 
 
 def test_a_wall_is_held_and_not_free() -> None:
@@ -81,10 +81,10 @@ def test_the_place_of_the_door_in_the_object() -> None:
         "sides reached": 1,  # the front
         "width share": 0.89,
         "height share": 0.89,
-        "faces up": 0,
+        "opening direction up": 0,
         "visibility": 1,
         "thin side towards opening": 1,
         "offset from the center": (0.235 - 0.005) / diagonal,
-        "object height over width": 1,
+        "object height": 1,
     }
     assert {name: f[name] for name in expected} == pytest.approx(expected, abs=1e-6)

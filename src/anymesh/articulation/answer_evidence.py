@@ -15,12 +15,10 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.articulation.cases import PartCase
+from anymesh.articulation.motion_classifier import shipped_classifier
 from anymesh.articulation.offers import MotionOffers, fits, moves_as
 from anymesh.vlm.prompting import JointAppearance
 
-# calibration of the log-odds by geometry where all motions are swept, fitted to kinds left out of training; where only the
-# likeliest are swept see `rank_motions`
-ALL_SWEPT_SLOPE = 0.68
 RELIABILITIES = (0.97, 0.9, 0.7, 0.4, 0.1)
 SHARES = (0.55, 0.27, 0.1, 0.05, 0.03)  # of answerers with each reliability, before any of their answers is known
 MISLED_SHARE = 0.1  # share of the parts about whose motion geometry says nothing
@@ -48,8 +46,12 @@ class PartAnswers:
     picks: tuple[ShownPick, ...] = ()
 
     def prior(self) -> Float[np.ndarray, " m"]:
-        """Return the log-probability of each motion by geometry, of another one and of none, before any answer."""
-        calibrated = np.maximum(self.offers.shares, 1e-12) ** ALL_SWEPT_SLOPE
+        """Return the log-probability of each motion by geometry, of another one and of none, before any answer.
+
+        Where answers are evidence, all motions are swept, which has its own calibration.
+        """
+        slope = shipped_classifier().manifest["confidence"]["slope, all swept"]
+        calibrated = np.maximum(self.offers.shares, 1e-12) ** slope
         shares = (1 - MISLED_SHARE) * calibrated / calibrated.sum() + MISLED_SHARE / len(calibrated)
         moves = (1 - FIXED_SHARE) * np.append(OFFERED_SHARE * shares, 1 - OFFERED_SHARE)
         return np.log(np.append(moves, FIXED_SHARE))

@@ -6,10 +6,10 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.articulation.adjacent_panels import outer_side, pair_side
-from anymesh.articulation.part_values import MAX_LENGTH_RATIO
 from anymesh.config import ALONG_COSINE
 from anymesh.geometry.revolution import share_in_place
 from anymesh.motion.part_context import PartContext
+from anymesh.motion.part_shape import MAX_LENGTH_RATIO
 from anymesh.scoring.classifier import MISSING
 from anymesh.types import Motion
 

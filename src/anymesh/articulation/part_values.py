@@ -8,53 +8,30 @@ from jaxtyping import Float
 from anymesh.articulation.contact_metrics import MIN_GAP_FACTOR
 from anymesh.config import ALONG_COSINE, LEVEL_COSINE
 from anymesh.motion.part_context import PartContext
+from anymesh.motion.part_shape import MAX_LENGTH_RATIO, shape_features
 from anymesh.types import JointType, Motion
 
 # [deg] rotations about its axis; a body of revolution looks the same after all of them
 ASYMMETRY_ANGLES_DEG = (37, 90, 141, 200, 285)
-MAX_LENGTH_RATIO = 4.0  # upper limit of ratios of lengths, of a part and of its motions
-MAX_HEIGHT_OVER_RADIUS = 8.0
 RIM_RAYS = 300  # rays from the rim of a round part
 ROUND_RIM_RATIO = 0.85  # of the radius: samples farther from the axis belong to the rim of a round part
 
 
 def part_values(context: PartContext, contact: Float[np.ndarray, "n 3"]) -> dict[str, float]:
     """Return the features of a part. contact: its points in contact with the parent [m]."""
-    handle, core, outline = context.handle, context.body_obb, context.outline
-    length, width, thickness = core.half
-    low, high = context.bounds
-    extent, middle = np.maximum(high - low, 1e-12), context.part.bounds.mean(0)
     spread = np.sort(contact.std(0))[::-1] if len(contact) > 1 else np.zeros(3)
-    box_area = 8 * float(length * width + width * thickness + length * thickness)
     return {
-        "size": context.part.box.diagonal / context.diagonal,
-        "thinness": float(thickness / max(width, 1e-12)),
-        "width over length": float(width / max(length, 1e-12)),
-        "thickness": float(2 * thickness / context.diagonal),
-        "roundness": outline.roundness,
-        "height over radius": min(outline.height / max(outline.radius, 1e-12), MAX_HEIGHT_OVER_RADIUS),
-        "opening direction up": float(context.opening_direction[2]),
-        "visibility": context.visibility,
-        "insertion depth": min(context.insertion_depth, MAX_LENGTH_RATIO),
+        **shape_features(context),
         "log2 height over width": _face_aspect(context),
-        "height": float((middle[2] - low[2]) / extent[2]),
         "back contact": _back_contact(context),
         "free rim": _free_rim(context) if context.is_round else 0.0,
         "covers an opening": _covers_opening(context) if context.is_round else 0.0,
         "rotational asymmetry": min(_rotational_asymmetry(context), MAX_LENGTH_RATIO) if context.is_round else 1.0,
-        "handle": float(handle is not None),
-        "handle size": handle.size if handle else 0.0,
-        "handle off the middle": max(abs(a) for a in handle.across) if handle else 0.0,
-        "bar handle": float(handle is not None and handle.along is not None),
         "contact share": float(len(contact) / len(context.gap)),
         "contact length": float(spread[0] / max(context.part.box.diagonal, 1e-12)),
         "contact width": float(spread[1] / max(context.part.box.diagonal, 1e-12)),
         "log10 gap": float(np.log10(max(float(context.gap.min()) / context.diagonal, 1e-4))),
         "parts": float(np.log1p(len(context.other_parts))),
-        "object height": float(np.clip(extent[2] / extent[:2].max(), 0, MAX_LENGTH_RATIO)),
-        "solid": float(context.part.solid @ context.part.areas / max(context.part.area, 1e-300)),
-        "horizontal offset": float(np.linalg.norm(((middle - low) / extent * 2 - 1)[:2])),
-        "area over box": float(np.clip(context.part.area / max(box_area, 1e-300), 0, MAX_LENGTH_RATIO)),
     }
 
 

@@ -7,15 +7,13 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Bool, Float
 
+from anymesh.articulation.motion_classifier import shipped_classifier
 from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts
 from anymesh.config import SAME_AXIS_COSINE
-from anymesh.scoring.classifier import confidence_of
 from anymesh.types import JointType
 from anymesh.vocabulary import typical_motion
 
 NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint without a plausible motion
-# calibration of the log-odds of a confidence, fitted to kinds left out of training (benchmarks/train_motions.py)
-CALIBRATION_SLOPE, CALIBRATION_OFFSET = 0.61, -0.01
 SAME_LINE_RATIO = 0.1  # of the part's size: maximum distance between lines that a user sees as one
 BLOCKED_SCORE = -4.0  # [log-odds] penalty of a motion that the sweep finds blocked
 LABEL_PRIOR = {  # [log-odds] added by a label to a hinge, to a rotation about the axis of a round outline, to a slide
@@ -41,7 +39,7 @@ def rank_motions(question: MotionQuestion) -> MotionAnswer:
     if not best.is_free:
         return MotionAnswer(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "no candidate motion is free and plausible")
     share = np.clip(share_of_best(_scores_by_geometry(question), same), 1e-6, 1 - 1e-6)
-    confidence = confidence_of(float(np.log(share / (1 - share))), CALIBRATION_SLOPE, CALIBRATION_OFFSET)
+    confidence = shipped_classifier().confidence(float(np.log(share / (1 - share))))
     return MotionAnswer(ranking, joint_type(best), confidence, described(question, ranking[0]))
 
 

@@ -25,7 +25,8 @@ class Classifier:
     """Classifier of candidates.
 
     trees: score each candidate by itself; networks: score all candidates of an object together, none for a classifier of
-    trees alone; names: features in the order of columns; manifest: training data and settings.
+    trees alone; names: features in the order of columns; manifest: training data, settings, and the calibration of confidences,
+    which is fitted to kinds left out of training.
     """
 
     trees: BoostedTrees
@@ -61,6 +62,12 @@ class Classifier:
         ways = [turned(place, quarters) for quarters in range(4)]
         return np.mean([network.score(own, way, relations) for network in self.networks for way in ways], axis=0)
 
+    def confidence(self, log_odds: float) -> float:
+        """Return the probability that a choice with these log-odds is right."""
+        calibration = self.manifest["confidence"]
+        right = 1 / (1 + np.exp(-calibration["slope"] * log_odds - calibration["offset"]))
+        return float(np.clip(right, MIN_CONFIDENCE, MAX_CONFIDENCE))
+
     def reasons(self, own: Float[np.ndarray, "n k"]) -> list[str]:
         """Return the names of the features that raised each score by the trees the most."""
         return [self._reason(row, g) for row, g in zip(own, self.trees.contributions(own), strict=True)]
@@ -68,11 +75,3 @@ class Classifier:
     def _reason(self, row: Float[np.ndarray, " k"], gain: Float[np.ndarray, " k"]) -> str:
         best = [int(k) for k in np.argsort(-gain, kind="stable") if gain[k] > 0 and row[k] != MISSING][:REASONS]
         return ", ".join(f"{self.names[k]} {row[k] + 0.0:.2g}" for k in best) or "no feature of its own"
-
-
-def confidence_of(log_odds: float, slope: float, offset: float) -> float:
-    """Return the probability that a choice with these log-odds is right.
-
-    slope, offset: calibration, fitted to held-out data.
-    """
-    return float(np.clip(1 / (1 + np.exp(-slope * log_odds - offset)), MIN_CONFIDENCE, MAX_CONFIDENCE))

@@ -18,7 +18,6 @@ MAX_BEND_DEG = 40.0  # [deg] maximum bend of a face
 # minimum length of the mean normal of a face; 0.92 is a part of a cylinder with the maximum bend, 1 is plane
 MIN_FACE_FLATNESS = 0.96
 SAMPLES = 20_000  # sample points on a face, for finding the rectangle that it fills
-MIN_KNOB_FACE_RATIO = 0.3  # of a side of the object: minimum size of a face that has panels with knobs
 MAX_PANEL_THICKNESS_RATIO = 0.35  # maximum thickness over smaller side of a region that is already a panel
 MAX_TRIANGLE_RATIO = 0.25  # maximum area of the largest triangle over the smallest panel; coarser faces cannot show the borders
 
@@ -34,6 +33,9 @@ def split_panels(surface: MeshSurface, region: Int[np.ndarray, " F"]) -> Int[np.
         if (new_region[faces] < count).all():
             _divide(surface, new_region, faces, handles)
             _through(surface, new_region, new)
+            if (new_region >= new).any():
+                for handle in handles:  # each stays a patch, so that it is a candidate with its panel and without it
+                    new_region[handle.faces] = int(new_region.max()) + 1
     return np.unique(new_region, return_inverse=True)[1].reshape(-1)
 
 
@@ -53,8 +55,8 @@ def _faces_with_handles(surface: MeshSurface, region: np.ndarray) -> list[tuple[
 def _of_a_kind(surface: MeshSurface, faces: np.ndarray, handles: list[SurfaceHandle]) -> list[SurfaceHandle]:
     """Return the handles that imply panels: bars that are parallel or perpendicular to each other, otherwise knobs.
 
-    Knobs count only on a large upright face without bars. Beside bars and on small panels, knobs are controls, and under an
-    object they are feet. Round surfaces have none.
+    Knobs count only on an upright face without bars: beside bars they are controls, and under an object they are feet. Round
+    surfaces have none.
     """
     normal = surface.shape.areas[faces] @ surface.shape.normals[faces]
     if np.linalg.norm(normal) < MIN_FACE_FLATNESS * surface.shape.areas[faces].sum():
@@ -62,10 +64,7 @@ def _of_a_kind(surface: MeshSurface, faces: np.ndarray, handles: list[SurfaceHan
     bars = [g for g in handles if g.axis is not None]
     if bars:
         return [g for g in bars if aligned(bars[0], g)]
-    across = np.ptp(surface.shape.triangles.reshape(-1, 3), axis=0)
-    side = across.prod() / across * np.abs(normal) / max(float(np.linalg.norm(normal)), 1e-300)
-    upright = abs(normal[2]) < FACING_COSINE * np.linalg.norm(normal)
-    return handles if upright and np.linalg.norm(normal) > MIN_KNOB_FACE_RATIO * side.sum() else []
+    return handles if abs(normal[2]) < FACING_COSINE * np.linalg.norm(normal) else []
 
 
 def _face_of(surface: MeshSurface, region: np.ndarray, handle: SurfaceHandle) -> Int[np.ndarray, " n"]:

@@ -16,6 +16,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.config import SAME_SIZE
+from anymesh.geometry.moments import principal_spread, surface_moments
 from anymesh.geometry.patches import ObjectShape
 from anymesh.segmentation.contacts import Contacts, dominated_by
 from anymesh.segmentation.merge_tree import merged_groups
@@ -29,12 +30,12 @@ MAX_DISJOINT_SHARE = 1e-3  # maximum shared part of the smaller candidate for tw
 
 @dataclass(frozen=True, eq=False)
 class Overlap:
-    """Sizes of candidates and their shared areas.
+    """Spreads of candidates and their shared areas.
 
-    size: (n,) in any unit; shared: (n, n) area in both candidates, with the area of each on the diagonal.
+    spread: (n, 3) as `PartCandidates.spread`; shared: (n, n) area in both candidates, with the area of each on the diagonal.
     """
 
-    size: Float[np.ndarray, " n"]
+    spread: Float[np.ndarray, "n 3"]
     shared: Float[np.ndarray, "n n"]
 
     @property
@@ -61,24 +62,23 @@ class Overlap:
 
     @cached_property
     def copies(self) -> Bool[np.ndarray, "n n"]:
-        """Return which pairs of candidates do not overlap and have the same area and size."""
-        area = np.maximum(self.area, 1e-300)
+        """Return which pairs of candidates do not overlap and have the same area and spread, in any rotation or mirrored."""
+        area, spread = np.maximum(self.area, 1e-300), self.spread
         same = ~self.meet & ~np.eye(len(area), dtype=bool) & (np.abs(np.log(area[:, None] / area[None])) < 2 * SAME_SIZE)
-        return same & (np.abs(self.size[:, None] - self.size[None]) < SAME_SIZE * self.size[:, None])
+        return same & (np.abs(spread[:, None] - spread[None]).max(2) < SAME_SIZE * spread[:, None, 2])
 
 
 @dataclass(frozen=True, eq=False)
 class PartCandidates:
     """Groups of patches that may be parts, largest first.
 
-    members: (n, P) which patches each group has; size: (n,) diagonal relative to the object's.
+    members: (n, P) which patches each group has; names: (P,) the recognized name of each patch's node or material, or "".
     """
 
     whole: ObjectShape
     contacts: Contacts
     members: Bool[np.ndarray, "n P"]
-    size: Float[np.ndarray, " n"]
-    names: tuple[str, ...]  # (P,) the recognized name of each patch's node or material, or ""
+    names: tuple[str, ...]
 
     @property
     def area(self) -> Float[np.ndarray, " n"]:
@@ -91,9 +91,16 @@ class PartCandidates:
         return np.array([_bounds(self.contacts.patch_bounds, m) for m in self.members]).reshape(-1, 2, 3)
 
     @cached_property
+    def spread(self) -> Float[np.ndarray, "n 3"]:
+        """Return the standard deviations of the surface of each group along its principal axes [m], the largest last."""
+        center = self.whole.shape.bounds.mean(0)
+        patches = np.array([surface_moments(shape.triangles - center) for shape in self.contacts.shapes])
+        return principal_spread(np.tensordot(self.members.astype(float), patches, 1))
+
+    @cached_property
     def overlap(self) -> Overlap:
         """Return the overlap of the groups [m^2]."""
-        return Overlap(self.size, (self.members * self.contacts.patch_area) @ self.members.T.astype(float))
+        return Overlap(self.spread, (self.members * self.contacts.patch_area) @ self.members.T.astype(float))
 
 
 def part_candidates(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size: float, max_candidates: int) -> PartCandidates:
@@ -107,8 +114,7 @@ def part_candidates(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size
     attached = (below for base in bases for below in dominated_by(contacts, group, int(group[base])).values())
     single = ([u] for u in range(int(group.max()) + 1))
     masks = (np.isin(group, chosen) for chosen in itertools.chain(single, attached, merged_groups(contacts, group)))
-    members, size = _largest(whole, contacts, _distinct(masks), min_size, max_candidates)
-    return PartCandidates(whole, contacts, members, size, names)
+    return PartCandidates(whole, contacts, _largest(whole, contacts, _distinct(masks), min_size, max_candidates), names)
 
 
 def _distinct(masks: Iterable[Bool[np.ndarray, " P"]]) -> list[Bool[np.ndarray, " P"]]:
@@ -118,15 +124,13 @@ def _distinct(masks: Iterable[Bool[np.ndarray, " P"]]) -> list[Bool[np.ndarray, 
 
 def _largest(
     whole: ObjectShape, contacts: Contacts, masks: list[np.ndarray], min_size: float, max_candidates: int
-) -> tuple[Bool[np.ndarray, "n P"], Float[np.ndarray, " n"]]:
-    """Return the largest groups and their diagonals relative to the object's."""
+) -> Bool[np.ndarray, "n P"]:
+    """Return the groups with the largest diagonals."""
     bounds = contacts.patch_bounds
     size = np.array([float(np.linalg.norm(np.ptp(_bounds(bounds, m), axis=0))) for m in masks]) / whole.diagonal
     area = contacts.patch_area
     order = [int(k) for k in np.lexsort((np.arange(len(masks)), -size)) if size[k] >= min_size and area[masks[k]].sum() > 0]
-    order = order[:max_candidates]
-    members = np.array([masks[k] for k in order], bool).reshape(len(order), len(bounds))
-    return members, size[order]
+    return np.array([masks[k] for k in order[:max_candidates]], bool).reshape(-1, len(bounds))
 
 
 def _bounds(patches: Float[np.ndarray, "P 2 3"], members: Bool[np.ndarray, " P"]) -> Float[np.ndarray, "2 3"]:

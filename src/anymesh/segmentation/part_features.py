@@ -9,6 +9,7 @@ from jaxtyping import Float
 
 from anymesh.config import FACING_COSINE, Config
 from anymesh.motion.part_context import PartContext
+from anymesh.motion.part_shape import MAX_LENGTH_RATIO, shape_features
 from anymesh.segmentation.part_candidates import PartCandidates
 from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, on_axis, touching, two_pivots
 from anymesh.segmentation.part_freedom import blocked_shares, exposure, space_behind
@@ -16,7 +17,6 @@ from anymesh.types import Mesh
 
 AT_BORDER = 0.02  # of the diagonal: what is this close to a side of the object's bounds reaches it
 MIN_OFFSET = 0.1  # of the half extent: below this offset from the middle of the face, the side of a contact is chance
-MAX_RATIO = 8.0  # upper limit of ratios of lengths
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,39 +55,26 @@ def candidate_context(inputs: FeatureInputs, candidate: int) -> PartContext | No
 def part_features(inputs: FeatureInputs, candidate: int, context: PartContext) -> dict[str, float]:
     """Return all features of a candidate; the keys are the same for all."""
     return {
-        **_shape(inputs, candidate, context),
+        **shape_features(context),
+        **_extent(inputs, candidate, context),
         **_place(context),
         **_fit(inputs, context),
         **_neighbours(inputs, candidate),
         **_copies(inputs, candidate, context),
         **_material(inputs, candidate, context),
-        **_handle(context),
         **blocked_shares(context, inputs.config.segmentation),
         **exposure(context, inputs.config.segmentation),
         **space_behind(context),
     }
 
 
-def _ratio(a: float, b: float) -> float:
-    return float(np.clip(a / max(b, 1e-12), 0, MAX_RATIO))
-
-
-def _shape(inputs: FeatureInputs, candidate: int, context: PartContext) -> dict[str, float]:
-    core, outline, candidates = context.body_obb, context.outline, inputs.candidates
+def _extent(inputs: FeatureInputs, candidate: int, context: PartContext) -> dict[str, float]:
+    core, candidates = context.body_obb, inputs.candidates
     extents = np.sort(np.ptp(candidates.whole.shape.bounds, axis=0))
-    box_area = 8 * float(core.half[0] * core.half[1] + core.half[1] * core.half[2] + core.half[0] * core.half[2])
     patches = candidates.members[candidate]
     return {
-        "thinness": _ratio(core.half[2], core.half[1]),
-        "width over length": _ratio(core.half[1], core.half[0]),
-        "size": context.part.box.diagonal / context.diagonal,
-        "thickness": float(2 * core.half[2] / context.diagonal),
         "area share": float(candidates.area[candidate] / candidates.contacts.patch_area.sum()),
-        "face share": _ratio(4 * core.half[0] * core.half[1], extents[1] * extents[2]),
-        "area over box": _ratio(context.part.area, box_area),
-        "closed": float(context.part.solid @ context.part.areas / max(context.part.area, 1e-300)),
-        "roundness": outline.roundness,
-        "height over radius": _ratio(outline.height, outline.radius),
+        "face share": float(min(4 * core.half[0] * core.half[1] / max(extents[1] * extents[2], 1e-12), MAX_LENGTH_RATIO)),
         "largest patch": float(candidates.contacts.patch_area[patches].max() / max(candidates.area[candidate], 1e-300)),
         "log patches of the object": float(np.log1p(len(patches))),
     }
@@ -97,22 +84,15 @@ def _place(context: PartContext) -> dict[str, float]:
     low, high = context.bounds
     extent = np.maximum(high - low, 1e-12)
     mine = context.part.bounds
-    center = (mine.mean(0) - low) / extent
     reached = np.abs(np.array([mine[0] - low, high - mine[1]])) < AT_BORDER * context.diagonal
-    aside = np.linalg.norm(2 * center[:2] - 1)
     return {
-        "height": float(center[2]),
         "bottom": float((mine[0, 2] - low[2]) / extent[2]),
         "top": float((high[2] - mine[1, 2]) / extent[2]),
-        "horizontal offset": float(aside),
         "sides reached": float(reached[:, :2].sum()),
         "width share": float(((mine[1] - mine[0]) / extent)[:2].max()),
         "height share": float((mine[1, 2] - mine[0, 2]) / extent[2]),
-        "faces up": float(context.opening_direction[2]),
-        "visibility": context.visibility,
         "thin side towards opening": float(np.abs(context.body_obb.axes[2] @ context.opening_direction)),
         "offset from the center": float((mine.mean(0) - context.center) @ context.opening_direction / context.diagonal),
-        "object height over width": _ratio(extent[2], float(extent[:2].max())),
     }
 
 
@@ -121,7 +101,6 @@ def _fit(inputs: FeatureInputs, context: PartContext) -> dict[str, float]:
     near, normals = touching(context, 2 * settings.touch * context.diagonal)
     sides, flush = fit_of_rim(context, settings)
     gaps = np.quantile(context.gap, [0.05, 0.5]) / context.diagonal
-    depth = context.depth_in_parent(context.opening_direction)
     outer = context.part.samples.normals @ context.opening_direction
     back = outer < -FACING_COSINE
     return {
@@ -132,7 +111,6 @@ def _fit(inputs: FeatureInputs, context: PartContext) -> dict[str, float]:
         "log10 near gap": float(np.log10(gaps[0] + 1e-5)),
         "log10 middle gap": float(np.log10(gaps[1] + 1e-5)),
         "enclosed": enclosed_share(context),
-        "depth": _ratio(depth, 2 * float(context.body_obb.half[1])),
         "two pivots": two_pivots(context, near, normals),
         "on axis": float(on_axis(context)),
         "axle level": float(abs(context.outline.axis[2]) < FACING_COSINE),
@@ -197,16 +175,4 @@ def _material(inputs: FeatureInputs, candidate: int, context: PartContext) -> di
     return {
         "materials": float(np.log1p((total > 0).sum())),
         "material of its own": float(mine[k] / max(total[k], 1e-300)),
-    }
-
-
-def _handle(context: PartContext) -> dict[str, float]:
-    handle = context.handle
-    if handle is None:
-        return {"handle": 0.0, "handle size": 0.0, "handle off the middle": 0.0, "bar handle": 0.0}
-    return {
-        "handle": 1.0,
-        "handle size": handle.size,
-        "handle off the middle": max(abs(a) for a in handle.across),
-        "bar handle": float(handle.along is not None),
     }

@@ -18,21 +18,18 @@ from anymesh.cores import usable_cores
 from anymesh.deadline import SEGMENT, Deadline
 from anymesh.geometry.patches import ObjectShape
 from anymesh.progress import Progress, silent
-from anymesh.scoring.classifier import confidence_of
 from anymesh.segmentation.candidate_names import NAME_SCORE, name_class, shared_name
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import MIN_SCORE, assign_parts, conflicts, join_floating
 from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
-from anymesh.segmentation.part_classifier import score_parts
+from anymesh.segmentation.part_classifier import score_parts, shipped_classifier
 from anymesh.segmentation.part_features import FeatureInputs, candidate_context, part_features
 from anymesh.types import Mesh, Segmentation
 from anymesh.vocabulary import recognize
 
 LabelParts = Callable[[Segmentation], Sequence[str]]  # label per part except the base from its motion, "" if it cannot move
 MAX_ASSIGNMENTS = 3  # maximum number of assignments, each without the candidates that turned out to be fixed
-# calibration of the log-odds of a confidence, fitted to kinds left out of training (benchmarks/train_parts.py)
-CALIBRATION_SLOPE, CALIBRATION_OFFSET = 1.02, 0.07
 
 
 def segment_parts(
@@ -58,7 +55,7 @@ def segment_parts(
     known = [word.label if (word := recognize(w)) else "" for w in words]
 
     def segmentation(face_part: Int[np.ndarray, " F"], order: list[int], labels: list[str]) -> Segmentation:
-        confidence = [confidence_of(float(score[k]), CALIBRATION_SLOPE, CALIBRATION_OFFSET) for k in order]
+        confidence = [shipped_classifier().confidence(float(score[k])) for k in order]
         why = [_reason(learned, words[k], score[k]) for k, learned in zip(order, reasons(order), strict=True)]
         return named_parts(face_part, [known[k] or label for k, label in zip(order, labels, strict=True)], mesh.face_areas,
                            confidence, why)  # fmt: skip
@@ -101,7 +98,7 @@ def examine_candidates(
                 kept.append(k)
                 places.append(measured[0])
                 features.append(measured[1])
-    examined = replace(candidates, members=candidates.members[kept], size=candidates.size[kept])
+    examined = replace(candidates, members=candidates.members[kept])
     return examined, np.array(places).reshape(-1, 12), features
 
 
