@@ -122,6 +122,11 @@ def turned(solid: Trimesh, axis: Point, degrees: float, about: Point) -> Trimesh
     return solid
 
 
+def around(solid: Trimesh, count: int, begin: float = 0.0) -> list[Trimesh]:
+    """Copies of a solid in a ring about the vertical through the origin, the first turned by `begin` [deg]."""
+    return [turned(solid.copy(), (0, 0, 1), begin + 360 * k / count, (0, 0, 0)) for k in range(count)]
+
+
 def mirrored(solid: Trimesh) -> Trimesh:
     """A copy on the other side of x = 0."""
     copy = solid.copy()

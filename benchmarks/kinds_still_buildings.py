@@ -6,17 +6,12 @@ from itertools import pairwise
 
 import numpy as np
 from kinds_model import BASE, Model
-from kinds_solids import Span, arch, ball, box, loft, prism, rectangle, rod, turned, vec
+from kinds_solids import Span, arch, around, ball, box, loft, prism, rectangle, rod, turned, vec
 from kinds_static import boulder
 from kinds_still_plants import UP, out
 from kinds_wheels import beam, lathe
 from shapely.geometry import Polygon
 from trimesh import Trimesh
-
-
-def around(solid: Trimesh, count: int, begin: float = 0.0) -> list[Trimesh]:
-    """Copies of a solid in a ring about the vertical."""
-    return [turned(solid.copy(), UP, begin + 360 * k / count, (0, 0, 0)) for k in range(count)]
 
 
 def stage(profile: list[tuple[float, float]], sides: int) -> Trimesh:

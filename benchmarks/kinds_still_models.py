@@ -6,8 +6,8 @@ from itertools import pairwise
 
 import numpy as np
 from kinds_model import BASE, Model
-from kinds_solids import ball, box, cut, loft, moved, prism, rectangle, ring, rod, tube, turned, vec
-from kinds_still_street import around, letters, ngon, pedestal, spun
+from kinds_solids import around, ball, box, cut, loft, moved, prism, rectangle, ring, rod, tube, turned, vec
+from kinds_still_street import letters, ngon, pedestal, spun
 from kinds_wheels import beam
 from shapely.geometry import Polygon
 from trimesh import Trimesh

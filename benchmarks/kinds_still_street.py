@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Float
 from kinds_model import BASE, Model
-from kinds_solids import Point, Span, ball, box, loft, moved, prism, rectangle, ring, rod, tube, turned, vec
+from kinds_solids import Point, Span, around, ball, box, loft, moved, prism, rectangle, ring, rod, tube, turned, vec
 from kinds_static import boulder, statue
 from kinds_wheels import beam
 from shapely.geometry import LineString, Polygon
@@ -32,11 +32,6 @@ def gores(n: int, profile: Point) -> list[Trimesh]:
     rings = np.array([np.c_[ngon(n, r), np.full(n, z)] for r, z in profile])
     faces = [f for k in range(0, 2 * len(profile) - 2, 2) for f in ([k, k + 1, k + 3], [k, k + 3, k + 2])]
     return [Trimesh(rings[:, [k, (k + 1) % n]].reshape(-1, 3), faces, process=False) for k in range(n)]
-
-
-def around(solid: Trimesh, count: int, phase: float = 0.0) -> list[Trimesh]:
-    """Copies of a solid in a ring about the vertical through the origin."""
-    return [turned(solid.copy(), (0, 0, 1), phase + 360 * k / count, (0, 0, 0)) for k in range(count)]
 
 
 def letters(m: Model, x: Span, y: Span, z: Span) -> list[Trimesh]:
