@@ -179,6 +179,15 @@ def test_a_new_export_keeps_the_corrections(tmp_path):
     assert (folder / "corrections.json").exists()
 
 
+def test_a_new_export_keeps_the_other_formats(tmp_path):
+    folder = write_output(tmp_path / "out")
+    before = json.loads((folder / "asset.json").read_text())["files"]
+    assert set(before) == {"urdf", "mjcf", "sdf", "glb"}
+    pipeline.export_asset(folder, formats="urdf")
+    assert json.loads((folder / "asset.json").read_text())["files"] == before
+    assert all((folder / file).exists() for file in before.values())
+
+
 def test_no_run_takes_corrections_away(tmp_path):
     folder = write_output(tmp_path / "out")
     save_asset(corrected(open_asset(folder), FlipSign("door")))

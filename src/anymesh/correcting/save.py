@@ -8,8 +8,8 @@ from pathlib import Path
 from anymesh.correcting.history import History
 from anymesh.correcting.log import pack_log, unpack_log
 from anymesh.errors import OutputError
-from anymesh.export import Base, Driven, Format, write_asset
-from anymesh.export.formats import DEFAULT
+from anymesh.export import write_asset
+from anymesh.export.options import ExportOptions
 from anymesh.files import read_json, write_json
 from anymesh.pipeline.results import CorrectionResult
 from anymesh.pipeline.storage.atomic_folder import locked
@@ -64,11 +64,9 @@ def _write(run: RunFolder, history: History) -> None:
     key = stage_key(stage, previous=run.last_key(edited=False), config={"log": log})
     run.save(stage, key, CorrectionResult(asset.segmentation, asset.joints, asset.warnings, tuple(log)))
     with run.timed("export"):
-        written = read_json(run.target / "asset.json") or {}
-        formats = tuple(Format(name) for name in written.get("files", {})) or DEFAULT
-        base = Base(written.get("base", Base.FIXED))
-        driven = Driven(written.get("drives", Driven.PASSIVE))
-        write_asset(run.asset(), run.folder, base=base, formats=formats, driven=driven, cache=cache_folder("shapes"))
+        how = ExportOptions.of(read_json(run.target / "asset.json") or {})
+        cache = cache_folder("shapes")
+        write_asset(run.asset(), run.folder, base=how.base, formats=how.formats, driven=how.driven, cache=cache)
         write_preview(asset, run.folder / "preview.png")
     before = () if stage is CORRECTION else run.corrections(CORRECTION)
     write_json(run.folder / CORRECTIONS, {"asset": asset.name, "corrections": [*before, *log]})

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
 
 from anymesh.errors import OptionError
 from anymesh.export import Base, Driven, Format, parse_formats
+from anymesh.export.formats import DEFAULT
 
 
 @dataclass(frozen=True)
@@ -24,3 +27,13 @@ class ExportOptions:
         if drives not in set(Driven):
             raise OptionError(f"--drives: found {drives!r}; valid are {', '.join(Driven)}")
         return cls(Base(base), parse_formats(formats), Driven(drives))
+
+    @classmethod
+    def of(cls, record: Mapping[str, Any]) -> ExportOptions:
+        """Return how an asset was written. record: its asset.json, which may be empty."""
+        formats = tuple(f for f in Format if f in record.get("files", {}))
+        return cls(Base(record.get("base", Base.FIXED)), formats or DEFAULT, Driven(record.get("drives", Driven.PASSIVE)))
+
+    def with_formats(self, others: tuple[Format, ...]) -> ExportOptions:
+        """Return the options with further formats."""
+        return replace(self, formats=tuple(f for f in Format if f in self.formats or f in others))

@@ -18,6 +18,11 @@ from anymesh.loading.pictures import picture_file, quiet_decoder
 from anymesh.types import Material, Mesh, Texture
 from anymesh.types.color import to_linear
 
+INTEGER, WITH_COMMA = rb"[+-]?\d+", rb"[+-]?\d+,\d+(?:[eE][+-]?\d+)?"
+NUMBERS_WITH_COMMAS = re.compile(
+    rb"(?:>|\bmeter\s*=\s*[\"'])\s*(?:%(int)b\s+)*%(comma)b(?:\s+(?:%(comma)b|%(int)b))*\s*[<\"']"
+    % {b"int": INTEGER, b"comma": WITH_COMMA}
+)
 ENCODINGS = ("utf-8", "us-ascii", "ascii", "iso-8859-1", "iso-8859-15", "windows-1252")  # supersets of ASCII
 
 
@@ -27,7 +32,9 @@ def read_dae(data: bytes, folder: Folder) -> Mesh:
     Raise InputError if it is not valid.
     """
     name = folder.path.name
-    root = parse_dae(name, data)
+    root, original, data = parse_dae(name, data), data, with_decimal_points(data)
+    if data != original:
+        folder.warn("found decimal commas, which are taken for points")
     _check_positions(name, root)
     textures = {uri: picture_file(folder, uri) for uri in dict.fromkeys(_pictures(root))}
     placed = []
@@ -58,9 +65,17 @@ def parse_dae(name: str, data: bytes) -> ET.Element:
     if b"<!DOCTYPE" in data or b"<!ENTITY" in data:
         raise InputError(f"{name} declares a document type; a COLLADA file needs none, and it is not read")
     try:
-        return ET.fromstring(data)
+        return ET.fromstring(with_decimal_points(data))
     except (ET.ParseError, ValueError, LookupError) as error:
         raise InputError(f"{name}: its XML is broken or truncated ({error})") from None
+
+
+def with_decimal_points(data: bytes) -> bytes:
+    """Return a document with points for the decimal commas that exporters write in some countries' settings.
+
+    Only the unit, and texts that are nothing but such numbers and integers, separated by spaces, are changed.
+    """
+    return NUMBERS_WITH_COMMAS.sub(lambda match: match[0].replace(b",", b"."), data)
 
 
 def _check_positions(name: str, root: ET.Element) -> None:
@@ -107,7 +122,8 @@ def _geometries(data: bytes, root: ET.Element, folder: Folder, textures: _Readab
     try:
         return _scene(data, textures, ignore_broken=False)
     except Exception as error:  # pycollada is strict, often about irrelevant faults
-        cause = f"{type(error).__name__}: {str(error)[:100]}"
+        kind = f"{type(error).__name__}: "
+        cause = kind + str(error).removeprefix(kind)[:100]  # pycollada's errors name their own type
     whole, plain = _scene(data, textures, ignore_broken=True), []
     with suppress(Exception):  # what can be read with materials need not be readable without
         plain = _scene(_without_materials(root), textures, ignore_broken=True)

@@ -14,13 +14,14 @@ from anymesh.export.archive import check_zip, write_zip
 from anymesh.export.formats import DEFAULT
 from anymesh.export.options import ExportOptions
 from anymesh.export.package import write_package
+from anymesh.files import read_json
 from anymesh.isolation import AHEAD, shared_pool
 from anymesh.pipeline.answering import choose_answerer, object_name
 from anymesh.pipeline.options import Answering, PlacementOptions
 from anymesh.pipeline.stages import Keyed, Run, estimate_joints, load, recognize, segment_parts, write_files
 from anymesh.pipeline.stopped_run import kept_transcript
 from anymesh.pipeline.storage.packing import MESH, SEGMENTATION
-from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.storage.run_folder import LAST, RunFolder
 from anymesh.progress import Progress, silent
 from anymesh.types import Asset, Joint, Segmentation
 
@@ -124,6 +125,8 @@ def export_asset(
 ) -> Asset:
     """Write the files of the asset that `segment` and `joints` saved in `folder`. Options as for `articulate`.
 
+    Formats that the folder holds are written anew, besides `formats`.
+
     package: folder for a ROS 2 package of the URDF; archive: a zip file of the asset.
     """
     how, deadline = ExportOptions.parse(base, formats, drives), Deadline(time_limit)
@@ -132,6 +135,8 @@ def export_asset(
     if archive is not None:
         check_zip(Path(archive))
     with RunFolder.open(Path(folder)) as run:
+        if written := read_json(run.target / LAST):
+            how = how.with_formats(ExportOptions.of(written).formats)
         asset = write_files(run, how, deadline, progress)
     if package is not None:
         write_package(Path(folder), Path(package), base=how.base)

@@ -43,7 +43,7 @@ def glb_path(folder: Path) -> Path:
     """Return the path of an asset's GLB. Raise InputError if it has none."""
     named = main_file(Format.GLB, str(_record(folder).get("name")))
     if Path(named).name != named or not (folder / named).is_file():
-        raise InputError(f"{folder} has no GLB; `anymesh export {folder} --formats urdf,glb` writes one")
+        raise InputError(f"{folder} has no GLB; `anymesh export {folder} --formats glb` writes one")
     return folder / named
 
 
