@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 from assets import box
-from made import X, Y, Z, context_of, slide, turn
+from made import X, Z, context_of, turn
 
-from anymesh.articulation.adjacent_panels import adjacent_sides, outer_side, overlap_gain, pair_side
+from anymesh.articulation.adjacent_panels import adjacent_sides, outer_side, pair_side
 from anymesh.motion.part_context import PartContext
 
 CASE = [box((0, 0, 0), (1.8, 0.4, 0.8))]
@@ -78,37 +78,3 @@ def test_a_panel_near_the_middle_has_less_of_an_outer_side() -> None:
     assert outer_side(context, turn(Z, (1.4, -0.012, 0))) == pytest.approx(2 * 0.2 / 0.9, abs=0.01)
     assert outer_side(context, turn(Z, (0.8, -0.012, 0))) == pytest.approx(-2 * 0.2 / 0.9, abs=0.01)
     assert outer_side(context, turn(X)) == pytest.approx(0, abs=0.01)  # in the middle of its height
-
-
-PANE = [box((0.0, -0.1, 0.0), (0.6, -0.08, 0.8))]
-FLOOR = box((-1, -1, -1.1), (2, 1, -1))
-
-
-def gain(*rest, free=(1.0, 1.0), axis: np.ndarray = X) -> float:
-    return overlap_gain(context_of(PANE, [FLOOR, *rest]), slide(axis), free)
-
-
-def sheet(x: tuple[float, float], y: float) -> tuple:
-    return box((x[0], y, 0), (x[1], y + 0.01, 0.8))
-
-
-def test_a_sash_covers_its_neighbour_when_it_is_open() -> None:
-    neighbour = sheet((0.6, 1.2), -0.05)
-    assert gain(neighbour) == 1
-    assert gain(neighbour, axis=-X) == 1  # by closing
-    assert gain(neighbour, free=(1.0, 0.4)) == 1
-    assert gain(neighbour, free=(0.4, 1.0)) == 0  # not free for its width in that direction
-    assert gain(sheet((0.6, 1.2), -0.14)) == 1  # in front of it as well
-    assert gain(neighbour, axis=Z) == 0
-    assert gain(neighbour, axis=Y) == 0  # not along its plane
-
-
-def test_the_gain_is_the_newly_covered_share_over_a_half() -> None:
-    """After a shift by 0.54 m, a neighbour of 0.15 m covers a quarter of the pane."""
-    assert gain(sheet((0.6, 0.75), -0.05)) == pytest.approx(0.5, abs=0.06)
-    assert gain(sheet((0.0, 1.2), -0.05)) == 0  # covered before as well
-
-
-def test_what_is_far_behind_or_on_both_sides_is_no_neighbour() -> None:
-    assert gain(sheet((0.6, 1.2), 0.02)) == 0
-    assert gain(sheet((0.6, 1.2), -0.05), sheet((0.6, 1.2), -0.14)) == 0  # a cavity

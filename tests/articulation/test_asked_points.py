@@ -99,35 +99,12 @@ def upright(*pieces) -> list:
 
 
 @pytest.mark.parametrize("height", [0.02, 0.2])
-def test_a_lid_on_a_pot_covers_its_opening_however_thick_it_is(height: float) -> None:
+def test_the_height_of_a_round_lid_is_over_its_radius(height: float) -> None:
     pot = annulus(0.16, 0.2, 0.3, sections=64)
     lid = upright(prism(0.2, (0.152, 0.152 + height), 0.0, 0.0, 64))
     values = part_values(context_of(lid, [(np.asarray(pot.vertices), np.asarray(pot.faces))]), NONE)
-    assert values["covers an opening"] > 0.1  # the share of its rim that is near the pot
-    assert values["free rim"] > 0.9
-    assert values["rotational asymmetry"] < 0.05
     assert values["height over radius"] == pytest.approx(height / 0.2, abs=0.02)
     assert values["log2 height over width"] == 0
-
-
-def test_the_free_rim_does_not_depend_on_the_order_of_faces() -> None:
-    """A wheel with a wall beside a part of its rim."""
-    ((corners, faces),) = upright(prism(0.2, (-0.02, 0.02), 0.0, 0.0, 64))
-    wall = [box((0.22, -1, -1), (0.3, 1, 1))]
-    first = np.argsort(corners[faces].mean(1)[:, 0], kind="stable")
-    shares = [part_values(context_of([(corners, faces[order])], wall), NONE)["free rim"] for order in (first, first[::-1])]
-    assert 0.1 < shares[0] < 0.9
-    assert shares[0] == pytest.approx(shares[1], abs=0.1)
-
-
-def test_a_disc_in_a_hole_has_no_free_rim_and_an_oval_one_is_no_body_of_revolution() -> None:
-    ring = annulus(0.21, 0.4, 0.1, sections=64)
-    hole = [(np.asarray(ring.vertices), np.asarray(ring.faces))]
-    disc = upright(prism(0.2, (-0.02, 0.02), 0.0, 0.0, 64))
-    assert part_values(context_of(disc, hole), NONE)["free rim"] < 0.1
-    oval = [(v * [1.04, 0.96, 1], f) for v, f in disc]
-    plain, squeezed = (part_values(context_of(p, hole), NONE)["rotational asymmetry"] for p in (disc, oval))
-    assert plain < 0.02 < 0.05 < squeezed
 
 
 def test_the_values_of_an_upright_panel() -> None:
@@ -135,7 +112,7 @@ def test_the_values_of_an_upright_panel() -> None:
     values = part_values(panel, panel.part.samples.points)
     size = np.linalg.norm([0.6, 0.3, 0.028])
     expected = {
-        "log2 height over width": -1, "height": 0.35, "back contact": 1, "opening direction up": 0, "contact share": 1,
+        "log2 height over width": -1, "height": 0.35, "opening direction up": 0, "contact share": 1,
         "thinness": 0.028 / 0.3, "width over length": 0.5, "thickness": 0.028 / panel.diagonal, "size": size / panel.diagonal,
     }  # fmt: skip
     assert values == pytest.approx(values | expected)

@@ -4,12 +4,10 @@ import numpy as np
 import pytest
 from assets import box
 from scenes import Scene, built
-from trimesh.creation import annulus, cylinder
 
 from anymesh.articulation.cases import make_cases
 from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.moved_points import MovedPoints
-from anymesh.articulation.part_values import part_values
 from anymesh.config import Config
 from anymesh.motion.part_context import PartContext
 from anymesh.segmentation.divide import object_shape
@@ -66,33 +64,6 @@ def test_lines_are_distinct_beyond_a_distance_or_an_angle(off: float, turned: fl
     axis = np.array([np.sin(np.deg2rad(turned)), 0, np.cos(np.deg2rad(turned))])
     motions = [Motion(JointType.REVOLUTE, Z, np.zeros(3), "one"), Motion(JointType.REVOLUTE, -axis, off * Y, "other")]
     assert len(distinct([("edge", m) for m in motions], 1.0)) == count
-
-
-def lid_values(base, *handle) -> dict[str, float]:
-    """Return the values of a round lid of 0.4 x 0.01 m, 2 mm above a base whose top is at 0.3 m."""
-    lid = cylinder(0.2, 0.01, sections=64)
-    lid.apply_translation((0, 0, 0.307))
-    base.apply_translation((0, 0, 0.15))
-    scene = {"base": [(base.vertices, base.faces)], "lid": [(lid.vertices, lid.faces), *handle]}
-    pieces = {k: [(np.asarray(v, float), np.asarray(f)) for v, f in some] for k, some in scene.items()}
-    return part_values(context_of(pieces), np.zeros((0, 3)))
-
-
-def test_a_lid_on_a_pot_covers_an_opening_and_one_on_a_block_does_not() -> None:
-    pot, block = lid_values(annulus(0.16, 0.2, 0.3, sections=64)), lid_values(cylinder(0.2, 0.3, sections=64))
-    assert pot["covers an opening"] > 0.9
-    assert block["covers an opening"] < 0.1
-    assert pot["roundness"] > 0.95
-    assert pot["height over radius"] == pytest.approx(0.05, abs=0.01)
-    assert pot["free rim"] == 1
-    assert block["back contact"] > 0.95
-    assert pot["back contact"] == pytest.approx(1 - 0.16**2 / 0.2**2, abs=0.1)  # the ring's share of the disc
-
-
-def test_a_bar_makes_a_round_lid_asymmetric_in_rotation() -> None:
-    bar = box((-0.15, -0.01, 0.312), (0.15, 0.01, 0.36))
-    plain, barred = (lid_values(annulus(0.16, 0.2, 0.3, sections=64), *some) for some in ((), (bar,)))
-    assert plain["rotational asymmetry"] < 0.05 < 0.15 < barred["rotational asymmetry"]
 
 
 def test_slides_across_each_other_move_apart_by_the_diagonal() -> None:

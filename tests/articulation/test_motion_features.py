@@ -104,29 +104,15 @@ def test_a_drawer_slides_out_and_is_held() -> None:
     assert out["upwards"] == pytest.approx(0)
 
 
-def test_a_wheel_is_round_about_its_axle_and_has_contact_all_around_it() -> None:
+def test_a_wheel_is_round_about_its_axle_and_its_contact_turns_in_place() -> None:
     axle = Motion(JointType.REVOLUTE, Y, np.array([0, -0.035, 0.2]), "axle")
     found = features(wheel(), axle, "round")[0]
     assert found["round about the axis"] > 0.95
-    assert found["rotational misfit"] < 0.02
     assert found["circle off the axis"] < 0.02
-    assert found["contact around the axis"] == 1
     assert found["contact turns in place"] > 0.9
     assert found["opening"] == found["closing"] == pytest.approx(1)
-    rim = Motion(JointType.REVOLUTE, Y, np.array([0.1, -0.035, 0.2]), "rim")
-    assert features(wheel(), rim)[0]["rotational misfit"] == MISSING  # far from its center
     across = Motion(JointType.REVOLUTE, X, np.array([0, -0.035, 0.2]), "diameter")
     assert features(wheel(), across)[0]["contact turns in place"] < 0.3
-
-
-def test_a_square_is_itself_after_a_quarter_turn_and_a_bracket_is_not() -> None:
-    axle = Motion(JointType.REVOLUTE, Y, np.array([0, -0.035, 0.2]), "axle")
-    base = wheel()["base"]
-    arms = [box((-0.1, -0.05, 0.19), (0.1, -0.02, 0.21)), box((-0.1, -0.05, 0.21), (-0.08, -0.02, 0.3))]
-    bracket = {"base": base, "bracket": [*arms, box((0.08, -0.05, 0.1), (0.1, -0.02, 0.14))]}
-    square = {"base": base, "square": [box((-0.1, -0.05, 0.1), (0.1, -0.02, 0.3))]}
-    assert features(square, axle)[0]["rotational misfit"] < 0.02
-    assert features(bracket, axle)[0]["rotational misfit"] > 0.05
 
 
 def test_features_do_not_depend_on_size_place_or_heading() -> None:

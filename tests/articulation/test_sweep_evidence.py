@@ -118,8 +118,8 @@ def test_the_limits_of_a_small_part_are_within_the_free_range_of_its_candidate()
 
 
 def test_a_hinge_that_is_blocked_to_one_side_turns_to_the_other_alone() -> None:
-    """A lever that lies flush on a large block, about its end."""
-    context = context_of([box((-0.001, -0.005, 0), (0.001, 0, 0.004))], [box((-0.3, 0, 0), (0.3, 0.4, 0.6))])
+    """A lever that lies flush on a large block, about a line above one of its corners there."""
+    context = context_of([box((0, -0.005, 0), (0.002, 0, 0.004))], [box((-0.3, 0, 0), (0.3, 0.4, 0.6))])
     stopped, free = sorted(sweep_candidates(context, [("edge", turn(Z, (0, -0.005, 0)))]), key=lambda c: c.opening)
     assert (stopped.opening, free.closing) == (0, 0)
     assert limits(context, free, JointType.REVOLUTE) == pytest.approx((0, 110 * DEG))

@@ -33,12 +33,12 @@ def square(x: float, low, high) -> list:
 
 def test_points_of_a_part_are_samples_and_corners_a_thousandth_inside() -> None:
     part = faces(((0, 0, 0), (3, 0, 0), (0, 6, 0)))
-    points = Obstacles(part, part, 0.01).part_points
-    assert len(points) == 375 + 3  # every eighth of 3000 samples
-    assert points[:375].tolist() == part.samples.points[::8].tolist()
-    assert points[375:] == pytest.approx(np.array([[0.001, 0.002, 0], [2.998, 0.002, 0], [0.001, 5.996, 0]]))
+    points = Obstacles(part, part, 0.01).part_points.points
+    assert len(points) == 350 + 3  # of 3000 samples
+    assert (points[:350][:, None] == part.samples.points).all(2).any(1).all()
+    assert points[350:] == pytest.approx(np.array([[0.001, 0.002, 0], [2.998, 0.002, 0], [0.001, 5.996, 0]]))
     fine = faces(*(((k, 0, 0), (k, 1, 0), (k, 0, 1)) for k in range(300)))
-    assert len(Obstacles(fine, part, 0.01).part_points) == 375 + 450  # every second of 900 corners
+    assert len(Obstacles(fine, part, 0.01).part_points) == 350 + 350  # of 900 corners
 
 
 @pytest.mark.parametrize("axis", range(3))
@@ -49,15 +49,26 @@ def test_static_surface_counts_within_three_quarters_of_the_diagonal_and_more_wi
     tiny = 0.001 * np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1.0]])[[[0, 1, 2], [0, 1, 3]]]
     for distance, parts in ((0.12, 2), (0.14, 1), (1.28, 1), (1.32, 0)):
         rest = faces(*(tiny + sign * (0.5 + distance) * row))
-        assert len(Obstacles(part, rest, 0.01).rest_points) == parts * (375 + 6)
+        assert len(Obstacles(part, rest, 0.01).rest_points) == parts * (350 + 6)
     empty = Obstacles(part, rest.take(np.zeros(2, bool)), 0.01)
-    assert empty.rest_points.shape == (0, 3)
+    assert empty.rest_points.points.shape == (0, 3)
     assert free_amount(empty, slide(X), 1, 1.0, 36) == (1.0, True)
+
+
+@pytest.mark.parametrize("side", [1.5, 3, 100])
+def test_a_sheet_with_its_edge_to_the_part_stops_it_however_large_its_triangles_are(side: float) -> None:
+    """No path of a point of the part meets the sheet."""
+    part = shape_of(box((-0.5, -0.5, -0.02), (0.5, 0.5, 0.02)))
+    around = Obstacles(part, faces(*square(0.0, (-side, 0.53), (side, side))), 0.01)
+    amount, clear = free_amount(around, slide(Z), 1, 1.0, 20)
+    assert not clear
+    assert 0.51 - 1e-3 <= amount <= 0.51 + 0.05
+    assert len(around.rest_points) > 300
 
 
 @pytest.mark.parametrize(("count", "clear"), [(1, True), (2, False)])
 def test_a_motion_is_free_if_less_than_six_of_a_thousand_points_are_stopped(count: int, clear: bool) -> None:
-    """Four of 768; on tiny triangles in the path lie their corners only, and the other static surface is beside the path."""
+    """Four of some 715; on tiny triangles in the path lie their corners only, and the other surface is beside the path."""
     part = faces(*square(0.0, (-0.5, -0.5), (0.5, 0.5)))
     rest = faces(*square(0.5, (-0.01, -0.01), (0.01, 0.01))[:count], *square(0.5, (0.55, -1), (2, 1)))
     amount, found = free_amount(Obstacles(part, rest, 0.01), slide(X), 1, 1.0, 20)

@@ -30,12 +30,13 @@ def joined(*shapes: TriangleSet) -> TriangleSet:
     return TriangleSet(parts[0], parts[1], parts[2], np.arange(len(parts[0])))
 
 
-def slides(points, target: TriangleSet, amounts, axes=(X,), tolerance: float = 0.01, off=None) -> Passage:
-    """Return points that move along each axis by the same amounts."""
+def slides(points, target: TriangleSet, amounts, axes=(X,), tolerance: float = 0.01, off=None, normals=None) -> Passage:
+    """Return points that move along each axis by the same amounts. normals: of their solids; None for open surfaces."""
     told = np.tile(np.asarray(amounts, float), (len(axes), 1))
     poses = np.tile(np.eye(4), (*told.shape, 1, 1))
     poses[..., :3, 3] = told[..., None] * np.asarray(axes)[:, None]
-    return Passage.of(np.asarray(points, float), poses, told, target, tolerance, off)
+    own = np.zeros((len(points), 3)) if normals is None else np.asarray(normals, float)
+    return Passage.of(np.asarray(points, float), own, poses, told, target, tolerance, off)
 
 
 def stops(passage: Passage, begin: int, end: int) -> np.ndarray:
@@ -116,10 +117,39 @@ def test_a_turning_point_is_stopped_at_the_angle_of_the_surface() -> None:
     """A sheet in the plane x = 0, before a point on a circle about z, reached after a right angle."""
     motion, amounts = Motion(JointType.REVOLUTE, Z, np.array([0.0, 5, 0]), ""), np.linspace(0, 3, 40)
     target = of_triangles(sheet(0, half=0.5).triangles + 6 * Y)
-    passage = Passage.of(np.array([[1.0, 5, 0]]), motion.transforms(amounts)[None], amounts[None], target, 0.01, None)
+    passage = Passage.of(
+        np.array([[1.0, 5, 0]]), np.zeros((1, 3)), motion.transforms(amounts)[None], amounts[None], target, 0.01, None
+    )
     assert stops(passage, 0, 39)[0] == pytest.approx([np.pi / 2], abs=1e-3)
 
 
 def test_no_point_passes_without_motion() -> None:
     assert stops(slides(POINTS, sheet(0.0), np.zeros(4)), 0, 3)[0].tolist() == [np.inf] * 4
     assert stops(slides(POINTS, shape_of(box((5, 5, 5), (6, 6, 6))), [0, 1, 2]), 0, 2)[0].tolist() == [np.inf] * 4
+
+
+def test_points_of_a_solid_are_stopped_where_it_moves_forward_alone() -> None:
+    """Points on the front, the side and the back of a solid, and one of an open surface."""
+    points = [(0, 0.1, 0.2), (0, 1, -1), (0, -1, 0), (0, -1, 1)]
+    passage = slides(points, sheet(1.1), np.linspace(0, 2, 9), normals=(X, Y, -X, np.zeros(3)))
+    assert stops(passage, 0, 8) == pytest.approx(np.array([[1.1, 1.1, np.inf, 1.1]]), abs=1e-5)
+
+
+def test_the_front_of_a_solid_that_turns_turns_with_it() -> None:
+    """Two points beside a wall, on opposite sides of a solid; after 90 degrees the front one is the back one."""
+    motion = Motion(JointType.REVOLUTE, Z, np.zeros(3), "")
+    amounts = np.linspace(0, np.pi, 37)
+    for normal, expected in ((Y, np.inf), (-Y, np.pi / 2 + np.arcsin(0.5))):
+        passage = Passage.of(np.array([[0, 1.0, 0]]), normal[None], motion.transforms(amounts)[None], amounts[None],
+                             sheet(-0.5, axis=1), 0.01)  # fmt: skip
+        assert stops(passage, 0, 36)[0, 0] == pytest.approx(expected, abs=1e-2)
+
+
+def test_a_path_along_a_face_that_it_begins_on_grazes_the_solid() -> None:
+    """It enters by a thousandth of its length, within the tolerance until it has passed the solid."""
+    cube = shape_of(box((0, 0, 0), (1, 0.2, 1)))
+    told = np.linspace(0, 2, 9)[None]
+    poses = np.tile(np.eye(4), (1, 9, 1, 1))
+    poses[..., :3, 3] = told[..., None] * (0.02, 0.9998, 0)
+    passage = Passage.of(np.array([[0.0, 0.1, 0.5]]), np.zeros((1, 3)), poses, told, cube, 0.01)
+    assert stops(passage, 0, 8)[0, 0] == np.inf

@@ -1,4 +1,4 @@
-"""Relations between adjacent panels: pairs of doors meet in the middle, sliding panels overlap when open."""
+"""Relations between adjacent panels: pairs of doors meet in the middle, and their hinges are at the outer sides."""
 
 from __future__ import annotations
 
@@ -11,8 +11,6 @@ from anymesh.types import Motion
 
 MAX_SIZE_DIFFERENCE = 0.25  # maximum relative difference of the sides of similar panels
 MAX_GAP_RATIO = 0.15  # of a panel's side: maximum gap between adjacent panels, and maximum offset along the common side
-BEHIND_THICKNESSES = 3.0  # [part thicknesses] surface within this distance of a panel lies directly behind it
-FULL_GAIN_RATIO = 0.5  # share of a panel that must newly overlap another surface for a full gain
 
 
 def adjacent_sides(context: PartContext) -> np.ndarray:
@@ -68,28 +66,3 @@ def outer_side(context: PartContext, motion: Motion) -> float:
             reach = float(np.abs(context.bounds - context.center).max(0) @ np.abs(direction))
             total += side * float(np.clip(2 * (away @ direction) / max(reach, 1e-9), -1, 1))
     return float(np.clip(total, -1, 1))
-
-
-def overlap_gain(context: PartContext, motion: Motion, free: tuple[float, float]) -> float:
-    """Return the gain in overlap when a part has moved by its own width, in either direction (0..1).
-
-    free: free travel along +axis and -axis [m]. Sashes and sliding doors overlap their neighbours when open.
-    """
-    width = float(np.ptp(context.part.corners @ motion.axis))
-    thin = max(2 * float(context.body_obb.half[2]), 0.004 * context.tolerance_length)
-    normal = context.body_obb.axes[2]
-    if abs(float(normal @ motion.axis)) > ACROSS_COSINE:
-        return 0.0
-    points = context.part.samples.points[::6]
-
-    def over(shift: float) -> float:
-        """Return the share of the part with a surface on one side only; surfaces on both sides would mean a cavity."""
-        start = points + shift * motion.axis
-        rays = np.repeat(normal[None] * (BEHIND_THICKNESSES + 1) * thin, len(points), 0)
-        front, back = (context.without_part.scene.first_hit(start, sign * rays, 1.0).face >= 0 for sign in (1.0, -1.0))
-        return float(max((front & ~back).mean(), (back & ~front).mean()))
-
-    rest = over(0.0)
-    shifts = [sign * 0.9 * width for sign, room in zip((1, -1), free, strict=True) if room > 0.8 * width]
-    gain = max((over(s) - rest for s in shifts), default=0.0)
-    return float(np.clip(gain / FULL_GAIN_RATIO, 0, 1))

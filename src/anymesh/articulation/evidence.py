@@ -8,7 +8,6 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.articulation.adjacent_panels import overlap_gain
 from anymesh.articulation.contact_metrics import contact_retention, hinge_support
 from anymesh.articulation.motion_question import Candidate, ProposedMotion, Role
 from anymesh.config import ACROSS_COSINE
@@ -67,7 +66,6 @@ def _swept_slide(context: PartContext, c: Candidate, sweep: Sweep, guided: float
     return replace(
         c, sweep=sweep, opening=sweep.forward / context.tolerance_length, closing=sweep.backward / context.tolerance_length,
         guided=guided, captured=_captured(context, sweep),
-        overlap_gain=overlap_gain(context, c.motion, (sweep.forward, sweep.backward)),
     )  # fmt: skip
 
 

@@ -1,9 +1,9 @@
-"""Named features of a hinge line: its place in the part, the contact and the handle, and symmetry about it."""
+"""Named features of a hinge line: its place in the part, the contact and the handle, and how round the part is about it."""
 
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Float
 
 from anymesh.articulation.adjacent_panels import outer_side, pair_side
 from anymesh.config import ALONG_COSINE
@@ -12,12 +12,6 @@ from anymesh.motion.part_context import PartContext
 from anymesh.motion.part_shape import MAX_LENGTH_RATIO
 from anymesh.scoring.classifier import MISSING
 from anymesh.types import Motion
-
-MAX_CENTRAL_RATIO = 0.2  # maximum distance of the center from an axis, over the reach, of a rotation about its own center
-RIM_RATIO = 0.15  # of the part's reach across a line: surface closer to the line is its rim
-MISFIT_ANGLES_RAD = np.deg2rad((60.0, 72.0, 90.0, 120.0, 180.0))
-MISFIT_POINTS = 60  # sample points of the part for the rotations
-SECTORS = 12  # angular sectors of a full turn
 
 
 def line_features(
@@ -32,7 +26,6 @@ def line_features(
     local = np.minimum(local, MAX_LENGTH_RATIO) * (np.abs(core.axes @ axis) < ALONG_COSINE)
     off = motion.distance(points)
     reach, length = max(float(off.max()), 1e-9), max(float(np.ptp(points @ axis)), 1e-9)
-    balance = float(motion.distance(context.part.centroid[None])[0] / reach)
     outline = context.outline_about(axis)
     held = motion.distance(contact)
     low, high = context.parent.bounds
@@ -42,22 +35,18 @@ def line_features(
         "off along width": float(local[1]),
         "off along thickness": float(local[2]),
         "off the part": float(off.min() / max(context.part.box.diagonal, 1e-12)),
-        "balance": balance,
+        "balance": float(motion.distance(context.part.centroid[None])[0] / reach),
         "round about the axis": outline.roundness,
         "circle off the axis": min(
             float(motion.distance(outline.center[None])[0] / max(outline.radius, 1e-9)), MAX_LENGTH_RATIO
         ),
-        "rotational misfit": _misfit(context, motion, reach) if balance < MAX_CENTRAL_RATIO else MISSING,
         "contact along the line": float(np.clip(np.ptp(contact @ axis) / length, 0, 1)),
         "contact off the line": float(held.mean() / reach),
         "contact middle off the line": float(motion.distance(contact.mean(0)[None])[0] / reach),
-        "contact around the axis": _coverage(contact, motion),
         "contact turns in place": share_in_place(context.contact_surfaces[0], axis, motion.origin),
         "off the parent's border": float(beside.min() / context.diagonal) if len(beside) else MISSING,
-        "barrel near": float(any(motion.distance(b.box.center[None])[0] < 0.05 * reach for b in context.barrel_candidates)),
         "log2 reach over length": float(np.log2(reach / length)),
         "contact proximity": 1 - float(np.median(held)) / reach,
-        "thick at the line": _thickness(context, off < RIM_RATIO * reach),
         "above": _height(context, motion),
         "pair": pair_side(context, motion, adjacent),
         "outer": outer_side(context, motion),
@@ -65,35 +54,10 @@ def line_features(
     }  # fmt: skip
 
 
-def _thickness(context: PartContext, rim: Bool[np.ndarray, " n"]) -> float:
-    """Return the thickness of the part at a line over its largest, 0..1: thin edges are free ones. rim: samples at the line."""
-    height = context.part.samples.points @ context.body_obb.axes[2]
-    return float(np.ptp(height[rim])) / max(float(np.ptp(height)), 1e-9) if rim.sum() > 3 else 0.0
-
-
 def _height(context: PartContext, motion: Motion) -> float:
     """Return the height of a line between the lowest (-1) and the highest (1) point of the part."""
     low, high = context.part.bounds[:, 2]
     return float(np.clip(2 * (motion.origin[2] - low) / max(high - low, 1e-9) - 1, -1, 1))
-
-
-def _misfit(context: PartContext, motion: Motion, reach: float) -> float:
-    """Return the smallest distance of a part from itself rotated by MISFIT_ANGLES_RAD, over its reach: 0 for propellers."""
-    points = context.part.samples.points
-    points = points[:: max(1, len(points) // MISFIT_POINTS)]
-    turned = np.concatenate([points @ T[:3, :3].T + T[:3, 3] for T in motion.transforms(MISFIT_ANGLES_RAD)])
-    off = context.part.tree.distance(turned).reshape(len(MISFIT_ANGLES_RAD), -1)
-    return float(min(np.quantile(off, 0.9, axis=1).min() / reach, 1.0))
-
-
-def _coverage(points: Float[np.ndarray, "n 3"], motion: Motion) -> float:
-    """Return the share of angular sectors about an axis that contain points: 1 for a ring, small for a hinge line."""
-    helper = np.eye(3)[np.abs(motion.axis).argmin()]
-    u = np.cross(motion.axis, helper)
-    v = np.cross(motion.axis, u)
-    arm = points - motion.origin
-    angle = np.arctan2(arm @ v, arm @ u)
-    return len(np.unique(np.floor(angle / (2 * np.pi) * SECTORS))) / SECTORS
 
 
 def _handle_place(context: PartContext, motion: Motion, reach: float) -> dict[str, float]:
@@ -119,9 +83,9 @@ def _handle_place(context: PartContext, motion: Motion, reach: float) -> dict[st
 NO_LINE = dict.fromkeys(
     (
         "off along length", "off along width", "off along thickness", "off the part", "balance", "round about the axis",
-        "circle off the axis", "rotational misfit", "contact along the line", "contact off the line",
-        "contact middle off the line", "contact around the axis", "contact turns in place", "off the parent's border",
-        "barrel near", "log2 reach over length", "contact proximity", "thick at the line", "above", "pair", "outer",
+        "circle off the axis", "contact along the line", "contact off the line",
+        "contact middle off the line", "contact turns in place", "off the parent's border",
+        "log2 reach over length", "contact proximity", "above", "pair", "outer",
         "handle distance", "handle off the hinge's middle", "bar handle along",
     ),
     MISSING,

@@ -16,8 +16,9 @@ from anymesh.articulation.contact_metrics import contact_points
 from anymesh.articulation.evidence import initial_direction, sides
 from anymesh.articulation.line_features import NO_LINE, line_features
 from anymesh.articulation.motion_question import Candidate
-from anymesh.articulation.part_values import MAX_LENGTH_RATIO, part_values
+from anymesh.articulation.part_values import part_values
 from anymesh.motion.part_context import PartContext
+from anymesh.motion.part_shape import MAX_LENGTH_RATIO
 from anymesh.scoring.classifier import MISSING
 from anymesh.types import JointType
 
@@ -26,7 +27,7 @@ MAX_ROOM = 8.0  # upper limit of the free travel over the part's extent
 # features of the sweep and of the opening direction; the others are known of a part at rest
 SWEPT_FEATURES = (
     "opening", "closing", "free both ways", "outward", "contact retention", "initial slope", "upwards", "guided", "captured",
-    "overlap gain", "room over extent", "visible ahead", "visible behind", "away from the middle",
+    "room over extent", "visible ahead", "visible behind", "away from the middle",
 )  # fmt: skip
 Features = dict[str, float]
 
@@ -107,7 +108,6 @@ def _swept(context: PartContext, c: Candidate, way: Float[np.ndarray, " 3"]) -> 
     extent = float(np.ptp(context.part.corners @ axis)) / context.tolerance_length
     slide = {
         "guided": c.guided,
-        "overlap gain": c.overlap_gain,
         "captured": float(c.captured),
         "room over extent": min((c.opening + c.closing) / max(extent, 1e-9), MAX_ROOM),
         "upwards": float(c.opening_sign * axis[2]),

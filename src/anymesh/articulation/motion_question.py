@@ -77,7 +77,6 @@ class Candidate:
     handle_side: float = 0.0  # -1..1: 1 if the handle is opposite the hinge, 0 if there is none or it is level with the hinge
     guided: float = 0.0  # 0..1, for a slide: share of the sideways directions in which the part is guided
     captured: bool = False  # whether a slide is stopped in both directions, with free travel between
-    overlap_gain: float = 0.0  # 0..1, for a slide: gain in overlap with other surfaces
     contact_retention: float = 0.0  # 0..1, share of the contact that remains when the part opens slightly
 
     @property

@@ -12,6 +12,8 @@ from anymesh.geometry.triangle_set import TriangleSet
 
 LOOK_AHEAD = 2  # further steps used to decide whether a point continues behind a hit surface
 ONWARD = np.float32(1e-4)  # share of a segment between the first hit and the start of the second pass
+TOUCH = np.float32(1e-2)  # of the tolerance: a path that begins this near to a surface touches it
+TURNED_AWAY = np.float32(-1e-3)  # cosine between a path and the outward normal at its point: below, the solid moves off there
 MARGIN = 1e-5  # of the target's longest side: margin of its bounds in the test of segments
 
 
@@ -19,12 +21,14 @@ MARGIN = 1e-5  # of the target's longest side: margin of its bounds in the test 
 class Passage:
     """Points that move past a target along T motions, in the unit frame of the target's ray scene.
 
-    points: homogeneous; poses: rigid transforms of the points at each of k steps, the first at rest; amounts: of the motions at
-    these steps; off: returns the directions in which points (indices) move off faces of the target (indices) that they touch,
-    None if contact at rest stops them.
+    points: homogeneous; normals: of the closed solids that points lie on, outward, 0 for points of open surfaces: a point is
+    stopped only where its solid moves forward; poses: rigid transforms of the points at each of k steps, the first at rest;
+    amounts: of the motions at these steps; off: returns the directions in which points (indices) move off faces of the target
+    (indices) that they touch, None if contact at rest stops them.
     """
 
     points: Float32[np.ndarray, "4 n"]
+    normals: Float32[np.ndarray, "3 n"]
     poses: Float32[np.ndarray, "3 T k 4"]
     amounts: Float[np.ndarray, "T k"]
     target: TriangleSet
@@ -35,6 +39,7 @@ class Passage:
     def of(
         cls,
         points: Float[np.ndarray, "n 3"],
+        normals: Float[np.ndarray, "n 3"],
         poses: Float[np.ndarray, "T k 4 4"],
         amounts: Float[np.ndarray, "T k"],
         target: TriangleSet,
@@ -47,7 +52,7 @@ class Passage:
         unit[..., 3] = (poses[:, :, :3, :3] @ scene.center + poses[:, :, :3, 3] - scene.center) * scene.scale
         homogeneous = np.concatenate([scene.to_unit(points).T, np.ones((1, len(points)), np.float32)])
         placed = unit.astype(np.float32).transpose(2, 0, 1, 3)
-        return cls(homogeneous, placed, amounts, target, tolerance * scene.scale, off)
+        return cls(homogeneous, normals.T.astype(np.float32), placed, amounts, target, tolerance * scene.scale, off)
 
     def stops(
         self, motions: Int[np.ndarray, " t"], passing: Bool[np.ndarray, "t n"], begin: int, end: int
@@ -62,7 +67,8 @@ class Passage:
         path = np.einsum("rk,kn->rn", poses.reshape(-1, 4), self.points).reshape(3, count, known, n)
         t, k, i = self._near(path, passing, steps)
         path = path.reshape(3, -1)  # column (t * known + k) * n + i: point i at step k of motion t
-        live = (t * known + k) * n + i
+        live = self._forward(path, poses, (t * known + k) * n + i)
+        t, k, i = np.unravel_index(live, (count, known, n))
         ends = (t * known + known - 1) * n + i  # the last known step
         start = _rows(path, live)
         span = _rows(path, live + n) - start
@@ -101,6 +107,14 @@ class Passage:
             t, k, i = t[kept], k[kept], i[kept]
         return t, k, i
 
+    def _forward(self, path: np.ndarray, poses: np.ndarray, live: Int[np.ndarray, " s"]) -> Int[np.ndarray, " f"]:
+        """Return the segments (columns of the path) along which the solid of the point moves forward at that point."""
+        n = self.points.shape[1]
+        normals = np.einsum("rk,kn->rn", poses[..., :3].reshape(-1, 3), self.normals).reshape(3, -1)
+        normal, span = normals.take(live, axis=1), path.take(live + n, axis=1) - path.take(live, axis=1)
+        length = np.sqrt(np.einsum("ij,ij->j", span, span))
+        return live[np.einsum("ij,ij->j", normal, span) >= TURNED_AWAY * length]
+
     def _counts(
         self,
         ahead: Sequence[np.ndarray],
@@ -116,7 +130,7 @@ class Passage:
         """
         point = start + span * where[:, None]
         normal = self.target.normals[face].astype(np.float32)
-        counts = ~(self.target.solid[face] & (np.einsum("ij,ij->i", span, normal) >= 0))
+        counts = ~self._leaves(face, span)
         behind = [np.einsum("ij,ij->i", later - point, normal) for later in ahead]
         counts &= np.abs(behind).max(0) > self.tolerance
         chosen = np.flatnonzero(counts)
@@ -148,12 +162,17 @@ class Passage:
         v = np.cross(along, u)
         offset = np.float32(self.tolerance) * np.concatenate([u, -u, v, -v])
         origin, reach = np.tile(start, (4, 1)), np.tile(span + along * np.float32(2 * self.tolerance), (4, 1))
-        struck = self.target.scene.first_hit_unit(origin, offset).face >= 0
+        hits = self.target.scene.first_hit_unit(origin, offset)
+        struck = (hits.face >= 0) & ~((hits.distance < TOUCH) & self._leaves(hits.face, offset))  # a path may begin on a face
         todo = np.flatnonzero(~struck)
         face = self.target.scene.first_hit_unit(origin[todo] + offset[todo], reach[todo]).face
-        leaves = self.target.solid[face] & (np.einsum("ij,ij->i", span[todo % n], self.target.normals[face]) >= 0)
+        leaves = self._leaves(face, span[todo % n])
         struck[todo] = (face >= 0) & ~leaves
         return np.logical_and.reduce(struck.reshape(4, n))
+
+    def _leaves(self, face: Int[np.ndarray, " h"], span: Float32[np.ndarray, "h 3"]) -> Bool[np.ndarray, " h"]:
+        """Return which paths through a face of the target leave a closed solid there."""
+        return self.target.solid[face] & (np.einsum("ij,ij->i", span, self.target.normals[face]) >= 0)
 
 
 def _rows(path: Float32[np.ndarray, "3 k"], columns: Int[np.ndarray, " m"]) -> Float32[np.ndarray, "m 3"]:

@@ -3,7 +3,8 @@
 A point of the part is stopped if its path crosses the surface of the rest and continues behind it by more than a tolerance. The
 same applies to a point of the rest whose path, relative to the part, crosses the part. Paths are cut into short segments and
 cast as rays, so open shells, thin boards and bad winding count like solids. Leaving a closed solid is free, and so is leaving a
-surface that the part touches at rest, to the side of the part's own shape.
+surface that the part touches at rest, to the side of the part's own shape. A point of a closed solid is stopped only where the
+solid moves forward, since its other points follow those.
 """
 
 from __future__ import annotations
@@ -15,15 +16,21 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Float, Float32
+from jaxtyping import Float, Float32, Int
 
 from anymesh.cores import usable_cores
+from anymesh.geometry.boxes import within
 from anymesh.geometry.passage import Passage
+from anymesh.geometry.sampling import SurfacePoints, spread_points
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import JointType, Motion, Sweep
+from anymesh.types.triangles import normals_and_areas, pieces_within
 
 CHUNKS = (3, 6, 9, 18)  # steps cast at a time, where the last size repeats; most blocked motions are blocked early
 AT_ONCE = 8  # motions swept together; more do not fit into a core's cache
+REACH_RATIO = 0.75  # of the diagonal of the part's bounds: distance from them within which the rest has sample points
+CLOSE_RATIO = 0.1  # of this distance: the nearest regions, which have as many again
+OVERSAMPLED = 3  # points drawn for each that is used, since some lie beyond the region
 SHARE_STOPPED = 0.006  # minimum share of stopped points; fewer may be stopped by mesh flaws
 
 
@@ -39,14 +46,10 @@ class Obstacles:
     tolerance: float
     count: int = 350
 
-    @property
-    def part_points(self) -> Float[np.ndarray, "n 3"]:
-        """Return sample points of the part."""
-        return self._part_spread[0]
-
     @cached_property
-    def _part_spread(self) -> tuple[np.ndarray, np.ndarray]:
-        return _spread(self.part, self.count)
+    def part_points(self) -> SurfacePoints:
+        """Return sample points of the part."""
+        return _spread(self.part, self.part.samples, np.arange(len(self.part.triangles)), self.count)
 
     @cached_property
     def part_normals(self) -> Float32[np.ndarray, "F 3"]:
@@ -56,15 +59,12 @@ class Obstacles:
         return np.where(turned[:, None], -self.part.normals, self.part.normals).astype(np.float32)
 
     @cached_property
-    def rest_points(self) -> Float[np.ndarray, "m 3"]:
+    def rest_points(self) -> SurfacePoints:
         """Return sample points of the static geometry near the part, denser in the nearest regions."""
         low, high = self.part.bounds
-        reach = 0.75 * float(np.linalg.norm(high - low))
-        center = self.rest.triangles.mean(1)
-        near = np.flatnonzero(((center > low - reach) & (center < high + reach)).all(1))
-        close = np.flatnonzero(((center > low - 0.1 * reach) & (center < high + 0.1 * reach)).all(1))
-        samples = [_spread(self.rest.take(index), self.count)[0] for index in (near, close) if len(index)]
-        return np.concatenate(samples) if samples else np.zeros((0, 3))
+        reach = REACH_RATIO * float(np.linalg.norm(high - low))
+        near, close = (_spread_within(self.rest, low - r, high + r, self.count) for r in (reach, CLOSE_RATIO * reach))
+        return near.joined(close)
 
     def prepare(self) -> None:
         """Compute the cached values before threads use them."""
@@ -78,32 +78,49 @@ class Obstacles:
         """Return the passages of the part's points past the rest, and of the rest's points, moved inversely, past the part."""
         there = np.array([m.transforms(a) for m, a in zip(motions, signed, strict=True)])
         back = np.array([m.transforms(-a) for m, a in zip(motions, signed, strict=True)])
-        outward, face_of = self.part_normals, self._part_spread[1]
+        outward, mine, theirs = self.part_normals, self.part_points, self.rest_points
 
         def off_rest(point: np.ndarray, face: np.ndarray) -> np.ndarray:
-            return -outward[face_of[point]]
+            return -outward[mine.faces[point]]
 
         def off_part(point: np.ndarray, face: np.ndarray) -> np.ndarray:
             return outward[face]
 
-        ways = (self.part_points, there, self.rest, off_rest), (self.rest_points, back, self.part, off_part)
+        ways = (mine, self.part, there, self.rest, off_rest), (theirs, self.rest, back, self.part, off_part)
         return [
-            Passage.of(points, poses, amounts, target, self.tolerance, off)
-            for points, poses, target, off in ways
-            if len(points) and len(target.triangles)
+            Passage.of(at.points, at.normals * own.solid[at.faces, None], poses, amounts, target, self.tolerance, off)
+            for at, own, poses, target, off in ways
+            if len(at) and len(target.triangles)
         ]
 
 
-def _spread(shape: TriangleSet, count: int) -> tuple[np.ndarray, np.ndarray]:
-    """Return surface points and points a thousandth inside of the corners, about `count` of each, and the face of each."""
-    samples = shape.samples
-    step = max(1, len(samples) // count)
-    corners = shape.triangles.reshape(-1, 3)
-    centers = shape.triangles.mean(1).repeat(3, 0)
-    stride = max(1, len(corners) // count)
-    inside = corners[::stride] + 1e-3 * (centers[::stride] - corners[::stride])
-    face = np.arange(0, len(corners), stride) // 3
-    return np.concatenate([samples.points[::step], inside]), np.concatenate([samples.faces[::step], face])
+def _spread(shape: TriangleSet, samples: SurfacePoints, faces: Int[np.ndarray, " m"], count: int) -> SurfacePoints:
+    """Return at most `count` of the samples of a shape, and as many points a thousandth inside of corners of some faces."""
+    corner = _evenly(3 * len(faces), count)
+    face = faces[corner // 3]
+    triangles = shape.triangles[face]
+    inside = 0.999 * triangles[np.arange(len(face)), corner % 3] + 0.001 * triangles.mean(1)
+    return samples.take(_evenly(len(samples), count)).joined(SurfacePoints(inside, shape.normals[face], face))
+
+
+def _spread_within(shape: TriangleSet, low: np.ndarray, high: np.ndarray, count: int) -> SurfacePoints:
+    """Return such points of the surface within a box, however large its triangles are."""
+    near = np.flatnonzero(((shape.highest >= low) & (shape.lowest <= high)).all(1))
+    pieces, piece_face = pieces_within(shape.triangles[near], low, high)
+    face = near[piece_face]
+    points, piece = spread_points(pieces, normals_and_areas(pieces)[1], OVERSAMPLED * count, shape.seed)
+    inside = within(points, low, high)
+    samples = SurfacePoints(points, shape.normals[face[piece]], face[piece]).take(inside)
+    faces = np.unique(face)
+    corners = shape.triangles[faces]
+    met = within(corners.reshape(-1, 3), low, high).reshape(-1, 3).any(1)
+    spread = _spread(shape, samples, faces[met], count)
+    return spread.take(within(spread.points, low, high))
+
+
+def _evenly(available: int, count: int) -> Int[np.ndarray, " n"]:
+    """Return at most `count` indices, evenly spread over those available."""
+    return np.linspace(0, max(available - 1, 0), min(available, count)).astype(int)
 
 
 def free_amounts(

@@ -8,7 +8,7 @@ from scipy.spatial.distance import cdist
 from anymesh.geometry.boxes import within
 from anymesh.geometry.sampling import spread_points
 from anymesh.geometry.triangle_set import TriangleSet
-from anymesh.types.triangles import normals_and_areas, quartered
+from anymesh.types.triangles import meet_box, normals_and_areas, quartered
 
 PROBES = 160  # sample points per patch for the distance to another patch
 COARSE = 6  # every how many of these points are measured first
@@ -63,16 +63,12 @@ def crosses(a: TriangleSet, b: TriangleSet) -> bool:
 def area_in_contact(a: TriangleSet, b: TriangleSet, tolerance: float) -> float:
     """Return the area of a within the tolerance of b [m^2], from samples of a near b."""
     low, high = b.bounds[0] - tolerance, b.bounds[1] + tolerance
-    triangles = _beside(a.triangles, low, high)
+    triangles = a.triangles[meet_box(a.triangles, low, high)]
     areas = normals_and_areas(triangles)[1]
     while 0 < len(triangles) <= MAX_DIVIDED and areas.sum() > b.area:
-        triangles = _beside(quartered(triangles), low, high)
+        parts = quartered(triangles)
+        triangles = parts[meet_box(parts, low, high)]
         areas = normals_and_areas(triangles)[1]
     points, _ = spread_points(triangles, areas, AREA_POINTS, a.seed)
     gap = b.tree.distance(points[within(points, low, high)])
     return float(areas.sum()) * float((gap < tolerance).sum()) / max(len(points), 1)
-
-
-def _beside(triangles: np.ndarray, low: np.ndarray, high: np.ndarray) -> np.ndarray:
-    """Return the triangles whose boxes meet a box."""
-    return triangles[((triangles.max(1) > low) & (triangles.min(1) < high)).all(1)]

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float, Int
+
+MAX_PIECES = 20_000  # pieces up to which triangles are divided
 
 
 def face_cross(triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, "F 3"]:
@@ -31,3 +33,27 @@ def quartered(triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, "G 3 3
     a, b, c = triangles.transpose(1, 0, 2)
     ab, bc, ca = (a + b) / 2, (b + c) / 2, (c + a) / 2
     return np.concatenate([np.stack(part, 1) for part in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))])
+
+
+def meet_box(
+    triangles: Float[np.ndarray, "F 3 3"], low: Float[np.ndarray, " 3"], high: Float[np.ndarray, " 3"]
+) -> Bool[np.ndarray, " F"]:
+    """Return which triangles have a box that meets an axis-aligned box."""
+    return ((triangles.max(1) >= low) & (triangles.min(1) <= high)).all(1)
+
+
+def pieces_within(
+    triangles: Float[np.ndarray, "F 3 3"], low: Float[np.ndarray, " 3"], high: Float[np.ndarray, " 3"]
+) -> tuple[Float[np.ndarray, "P 3 3"], Int[np.ndarray, " P"]]:
+    """Return the pieces of triangles near an axis-aligned box, none longer than half of it, and the triangle of each."""
+    size = float((high - low).max()) / 2
+    face = np.flatnonzero(meet_box(triangles, low, high))
+    pieces = triangles[face]
+    while len(pieces) <= MAX_PIECES:
+        large = np.ptp(pieces, axis=1).max(1, initial=0.0) > size
+        if not large.any() or size <= 0:
+            break
+        parts, of = quartered(pieces[large]), np.tile(face[large], 4)
+        met = meet_box(parts, low, high)
+        pieces, face = np.concatenate([pieces[~large], parts[met]]), np.concatenate([face[~large], of[met]])
+    return pieces, face
