@@ -11,7 +11,7 @@ from anymesh.geometry import sweep as sweep_module
 from anymesh.geometry.sweep import Obstacles, free_amount, free_amounts, sweep, sweep_all
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import JointType, Motion
-from anymesh.types.triangles import normals_and_areas
+from anymesh.types.triangles import normals_and_areas, pieces_within
 
 X, Y, Z = np.eye(3)
 
@@ -64,6 +64,17 @@ def test_a_sheet_with_its_edge_to_the_part_stops_it_however_large_its_triangles_
     assert not clear
     assert 0.51 - 1e-3 <= amount <= 0.51 + 0.05
     assert len(around.rest_points) > 300
+
+
+@pytest.mark.parametrize("size", [0.0, 1e-16, 1e-9, 0.1, 5.0])
+def test_pieces_cover_a_triangle_within_a_box_of_any_size(size: float) -> None:
+    corners = np.array([[(0.0, 0, 0), (3, 0, 0), (0, 3, 0)], [(9, 9, 9), (10, 9, 9), (9, 10, 9)]])
+    at = np.array([1.0, 1.0, 0.0])
+    pieces, of = pieces_within(corners, at - size / 2, at + size / 2)
+    assert set(of.tolist()) == {0}
+    assert normals_and_areas(pieces)[1].sum() >= min(size**2, 4.5) * (1 - 1e-6)  # of the triangle in the box
+    assert np.ptp(pieces, axis=1).max() <= max(size / 2, 1e-11)
+    assert len(pieces) < 400
 
 
 @pytest.mark.parametrize(("count", "clear"), [(1, True), (2, False)])

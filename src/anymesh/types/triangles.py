@@ -6,6 +6,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 MAX_PIECES = 20_000  # pieces up to which triangles are divided
+MAX_HALVINGS = 40  # of a side, which a box of the size of a rounding error would need without end
 
 
 def face_cross(triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, "F 3"]:
@@ -49,9 +50,9 @@ def pieces_within(
     size = float((high - low).max()) / 2
     face = np.flatnonzero(meet_box(triangles, low, high))
     pieces = triangles[face]
-    while len(pieces) <= MAX_PIECES:
+    for _ in range(MAX_HALVINGS):
         large = np.ptp(pieces, axis=1).max(1, initial=0.0) > size
-        if not large.any() or size <= 0:
+        if not large.any() or len(pieces) > MAX_PIECES:
             break
         parts, of = quartered(pieces[large]), np.tile(face[large], 4)
         met = meet_box(parts, low, high)
