@@ -8,6 +8,7 @@ from models import CONFIG, model_of, with_meshes
 
 from anymesh.errors import MissingExtraError, OptionError
 from anymesh.export.formats import DEFAULT, WRITERS, Format, load_libraries, main_file, parse_formats, write_formats
+from anymesh.export.options import ExportOptions
 
 
 def test_formats_are_read_once_each_in_the_order_of_the_set():
@@ -45,3 +46,15 @@ def test_a_missing_package_is_one_error_that_says_how_it_is_had(kind, package, t
     if kind == "usd":
         with pytest.raises(MissingExtraError, match=told):
             load_libraries([Format.URDF, Format.USD])
+
+
+def test_the_options_of_an_asset_are_those_that_it_was_written_with() -> None:
+    asset = {"files": {"usd": "a.usda", "mjcf": "a.xml"}, "base": "free", "drives": "position"}
+    assert ExportOptions.of(asset) == ExportOptions.parse("free", "mjcf,usd", "position")
+    assert ExportOptions.of({}) == ExportOptions.parse("fixed", "urdf,mjcf,sdf,glb", "passive")
+
+
+@pytest.mark.parametrize("damaged", [{"base": "fixd"}, {"base": ["fixed"]}, {"drives": 1}])
+def test_a_damaged_record_of_an_asset_gives_one_clear_error(damaged: dict) -> None:
+    with pytest.raises(OptionError, match="found .*; valid are"):
+        ExportOptions.of(damaged)

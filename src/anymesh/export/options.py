@@ -30,9 +30,13 @@ class ExportOptions:
 
     @classmethod
     def of(cls, record: Mapping[str, Any]) -> ExportOptions:
-        """Return how an asset was written. record: its asset.json, which may be empty."""
-        formats = tuple(f for f in Format if f in record.get("files", {}))
-        return cls(Base(record.get("base", Base.FIXED)), formats or DEFAULT, Driven(record.get("drives", Driven.PASSIVE)))
+        """Return how an asset was written. record: its asset.json, which may be empty.
+
+        Raise OptionError for a value that no asset has.
+        """
+        formats = tuple(f for f in Format if f in record.get("files", {})) or DEFAULT
+        base, drives = (str(record.get(name, usual)) for name, usual in (("base", Base.FIXED), ("drives", Driven.PASSIVE)))
+        return cls.parse(base, ",".join(formats), drives)
 
     def with_formats(self, others: tuple[Format, ...]) -> ExportOptions:
         """Return the options with further formats."""
