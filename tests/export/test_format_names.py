@@ -56,5 +56,5 @@ def test_the_options_of_an_asset_are_those_that_it_was_written_with() -> None:
 
 @pytest.mark.parametrize("damaged", [{"base": "fixd"}, {"base": ["fixed"]}, {"drives": 1}])
 def test_a_damaged_record_of_an_asset_gives_one_clear_error(damaged: dict) -> None:
-    with pytest.raises(OptionError, match="found .*; valid are"):
+    with pytest.raises(OptionError, match=r"found .*; valid are"):
         ExportOptions.of(damaged)
