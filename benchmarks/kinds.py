@@ -270,7 +270,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0, help="of everything that varies")
     parser.add_argument("--count", type=int, default=2, help="objects of each kind")
     parser.add_argument("--reserved", action="store_true", help="the reserved kinds, which nothing is trained on")
-    options = parser.parse_args()
+    options = parser.parse_intermixed_args()
     if unknown := sorted(set(options.kinds) - set(KINDS | RESERVED)):
         parser.error(f"kinds: found {', '.join(unknown)}; valid are {', '.join(sorted(KINDS | RESERVED))}")
     for kind in options.kinds or (RESERVED if options.reserved else KINDS):

@@ -12,7 +12,7 @@ import numpy as np
 from anymesh.articulation.closed_pose import away_from_closed
 from anymesh.articulation.evidence import sweep_candidates, swept, unswept
 from anymesh.articulation.hypotheses import propose
-from anymesh.articulation.limits import limits, opening_as_answered
+from anymesh.articulation.limits import limits
 from anymesh.articulation.motion_classifier import PartMotionScores, likeliest
 from anymesh.articulation.motion_features import swept_features, unswept_features
 from anymesh.articulation.motion_question import BOX_RIM_ROLES, Candidate, MotionAnswer, MotionQuestion
@@ -142,14 +142,12 @@ def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
 def estimate_joint(context: PartContext, name: str, parent: str, question: MotionQuestion) -> Joint:
     """Estimate the joint of one part."""
     answer, best = choose_motion(context, question)
-    if answer.type is not JointType.FIXED:
-        opened = away_from_closed(context, best)
-        why = described(question, _index_of(opened, question.candidates, answer.ranking[0]))
-        return joint_of(context, name, parent, opened, answer.type, answer.confidence, why)
-    # the part is known to move, so a fixed answer is replaced by the best motion
-    return joint_of(
-        context, name, parent, best, best.motion.kind, answer.confidence, f"{answer.reason}; most likely: {best.motion.source}"
-    )
+    opened = away_from_closed(context, best)
+    if answer.type is JointType.FIXED:  # the part is known to move
+        kind, why = best.motion.kind, f"{answer.reason}; most likely: {best.motion.source}"
+    else:
+        kind, why = answer.type, described(question, _index_of(opened, question.candidates, answer.ranking[0]))
+    return joint_of(context, name, parent, opened, kind, answer.confidence, why)
 
 
 def _index_of(c: Candidate, candidates: tuple[Candidate, ...], otherwise: int) -> int:
@@ -172,7 +170,6 @@ def joint_of(
 
     Positive values open. The limits come from the sweep, within the answered range if there is one.
     """
-    best = away_from_closed(context, best) if answered is None else opening_as_answered(best, answered)
     motion = best.opening_motion
     return Joint(
         name=f"{name}_joint",

@@ -12,10 +12,11 @@ import numpy as np
 
 from anymesh.articulation.candidate_points import axis_points, cluster_points, followed, superpoint_centres, with_more
 from anymesh.articulation.cases import PartCase, ask_each, make_cases
+from anymesh.articulation.closed_pose import away_from_closed
 from anymesh.articulation.contradictions import contradictions
 from anymesh.articulation.decode import hinge, prismatic, surface_directions
 from anymesh.articulation.estimate import joint_of
-from anymesh.articulation.limits import answered_range
+from anymesh.articulation.limits import answered_range, opening_as_answered
 from anymesh.articulation.own_axes import pivots
 from anymesh.articulation.relabel import labels_by_name, relabelled, unlabelled
 from anymesh.articulation.unverified import as_answered, normal_outwards, opening_slide
@@ -222,4 +223,5 @@ def _joint(case: PartCase, choice: Choice, verify: str) -> Joint:
         endless = case.answer.endless and (verify != "motion" or choice.best.is_endless)
         kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if endless else JointType.REVOLUTE
     answered = answered_range(case.recognized, kind)
-    return joint_of(case.context, case.name, case.parent, choice.best, kind, choice.confidence, choice.reason, answered)
+    best = away_from_closed(case.context, choice.best) if answered is None else opening_as_answered(choice.best, answered)
+    return joint_of(case.context, case.name, case.parent, best, kind, choice.confidence, choice.reason, answered)
