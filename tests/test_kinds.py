@@ -21,9 +21,9 @@ from kinds_model import Link, Model, without_hidden  # noqa: E402
 @pytest.fixture(scope="module")
 def models() -> dict[str, Model]:
     """One of each kind, upright and complete."""
-    made = {kind: Model(np.random.default_rng([7, crc32(kind.encode())])) for kind in kinds.KINDS | kinds.RESERVED}
+    made = {kind: Model(np.random.default_rng([7, crc32(kind.encode())])) for kind in kinds.ALL}
     for kind, model in made.items():
-        (kinds.KINDS | kinds.RESERVED)[kind](model)
+        kinds.ALL[kind](model)
     return made
 
 
