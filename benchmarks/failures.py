@@ -20,7 +20,7 @@ from jaxtyping import Int
 from part_rows import PartRows, read_rows
 from part_scores import RIGHT, Counts, overlap_of, owners, scored
 from PIL import Image
-from train_parts import read_scores
+from train_parts import calibrated, chances, read_scores
 from worst_rows import sheet_options, with_objects, write_sheet
 
 from anymesh.config import Config
@@ -63,7 +63,9 @@ def failures(folder: Path) -> list[Failure]:
     rows = read_rows(folder)
     found = []
     scores = read_scores(folder, rows)
-    for r, source, kind in zip(rows, scores["source"], scores["kind"], strict=True):
+    calibration = calibrated(rows, scores["kind"])
+    on_sources, on_kinds = (chances(scores[left], *calibration) for left in ("source", "kind"))
+    for r, source, kind in zip(rows, on_sources, on_kinds, strict=True):
         chosen = assign_parts(overlap_of(r), kind if r.source == OWN else source)
         found.append(Failure(r, scored(r, chosen), owners(r, chosen)))
     return sorted(found, key=lambda f: (f.counts.f1, -f.errors, f.caption))

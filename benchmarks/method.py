@@ -28,7 +28,7 @@ from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.part_assignment import assign_parts
 from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
-from anymesh.segmentation.part_classifier import score_parts
+from anymesh.segmentation.part_classifier import score_parts, shipped_classifier
 from anymesh.segmentation.segment import examine_candidates
 from anymesh.types import JointType, Mesh, Picture
 
@@ -91,7 +91,7 @@ def main() -> None:
     ranked = [(float(scores[k]), question.candidates[k]) for k in np.argsort(-scores, kind="stable")]
     drawn = {
         "patches": patches(studio, mesh, tree),
-        "candidates": candidates(studio, tree, score, assign_parts(tree.overlap, score)),
+        "candidates": candidates(studio, tree, score, assign_parts(tree.overlap, shipped_classifier().probability(score))),
         "motions": motions(
             studio, found.face_part == options.part, ranked, context.tolerance_length, context.part.box.diagonal
         ),

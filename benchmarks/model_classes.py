@@ -17,12 +17,11 @@ from jaxtyping import Bool, Float
 from part_rows import PartRows, read_rows
 from scipy.optimize import minimize
 from set_training import knots_of
-from train_parts import counts, of_both, read_scores, samples_of, sets_of
+from train_parts import calibrated, chances, counts, f1_of, of_both, read_scores, samples_of, sets_of
 
 from anymesh.scoring.set_network import scaled
 
 PENALTY = 1e-3  # of the squared weights of a log-linear score
-SHIFTS = (-0.5, -0.25, 0.0, 0.25, 0.5)  # [log-odds] added to all scores; each kind of classifier has the best for it
 
 
 def log_linear(samples: Sequence[Sample], knots: Float[np.ndarray, "q k"]) -> Float[np.ndarray, " w"]:
@@ -59,16 +58,10 @@ def log_linear_without(
 
 
 def best_f1(rows: Sequence[PartRows], scores: Scores) -> str:
-    """Return the F1 of all objects, and in brackets its mean over sources and forms."""
-    groups = sorted({(r.source, r.form) for r in rows})
-    of = [[k for k, r in enumerate(rows) if (r.source, r.form) == g] for g in groups]
-
-    def f1(shift: float) -> tuple[float, float]:
-        shifted = [s + shift for s in scores]
-        some = [counts([rows[k] for k in ks], [shifted[k] for k in ks]).f1 for ks in of]
-        return counts(rows, shifted).f1, float(np.mean(some))
-
-    return "{:.3f} ({:.3f})".format(*max(f1(shift) for shift in SHIFTS))
+    """Return the F1 of all objects with calibrated scores, and in brackets its mean over sources and forms."""
+    probability = chances(scores, *calibrated(rows, scores))
+    each = f1_of(rows, probability).values()
+    return f"{counts(rows, probability).f1:.3f} ({np.mean(list(each)):.3f})"
 
 
 def main() -> None:

@@ -37,7 +37,7 @@ from set_training import CandidateSet, train_all
 
 from anymesh.scoring.classifier import Classifier
 from anymesh.segmentation.candidate_relations import relations
-from anymesh.segmentation.part_assignment import MIN_SCORE, assign_parts
+from anymesh.segmentation.part_assignment import assign_parts, likely_parts
 from anymesh.segmentation.part_classifier import combined, is_cut
 
 MODELS = (Model(150, 0), Model(250, 1, True), Model(150, 2), Model(250, 3, True))
@@ -106,41 +106,58 @@ def of_both(rows: Sequence[PartRows], trees: Scores, networks: Scores) -> Scores
     return [combined(t, n, is_cut(r.features, r.names)) for r, t, n in zip(rows, trees, networks, strict=True)]
 
 
-def counts(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> Counts:
+def calibrated(rows: Sequence[PartRows], scores: Scores) -> tuple[float, float]:
+    """Return slope and offset of the log-odds that make them those of being a part, of all that are not unlikely."""
+    return fit_confidence(
+        confidences(rows, scores, [likely_parts(overlap_of(r), p) for r, p in zip(rows, chances(scores), strict=True)])
+    )
+
+
+def chances(scores: Scores, slope: float = 1.0, offset: float = 0.0) -> Scores:
+    """Return the probability that each candidate is a part."""
+    return [1 / (1 + np.exp(-slope * s - offset)) for s in scores]
+
+
+def choices(rows: Sequence[PartRows], probability: Scores) -> list[list[int]]:
+    """Return the candidates of each object that are taken for parts."""
+    return [assign_parts(overlap_of(r), p) for r, p in zip(rows, probability, strict=True)]
+
+
+def counts(rows: Sequence[PartRows], probability: Scores) -> Counts:
     """Count parts that are true, found and right (IoU .5)."""
-    return sum((scored(r, assign_parts(overlap_of(r), s)) for r, s in zip(rows, scores, strict=True)), Counts())
+    return sum((scored(r, c) for r, c in zip(rows, choices(rows, probability), strict=True)), Counts())
 
 
-def table(rows: Sequence[PartRows], scores: Sequence[np.ndarray], of: Callable[[PartRows], str]) -> list[str]:
+def table(rows: Sequence[PartRows], probability: Scores, of: Callable[[PartRows], str]) -> list[str]:
     """Return lines of a table, one for each group of objects."""
-    ideal = [np.where((iou := r.iou()) > 0.5, iou, MIN_SCORE - 1) for r in rows]
+    ideal = [np.where((iou := r.iou()) > RIGHT_IOU, iou, 0.0) for r in rows]
     lines = [
         "| | objects | parts | precision | recall | F1 | F1, mean over kinds | F1 of the best choice |",
         "|---|---|---|---|---|---|---|---|",
     ]
     for group in [*sorted({of(r) for r in rows}), "all"]:
         chosen = [k for k, r in enumerate(rows) if group in (of(r), "all")]
-        mine = [rows[k] for k in chosen]
-        c, best = counts(mine, [scores[k] for k in chosen]), counts(mine, [ideal[k] for k in chosen])
-        shares = c.precision, c.recall, c.f1, over_kinds(mine, [scores[k] for k in chosen]), best.f1
+        mine, p = [rows[k] for k in chosen], [probability[k] for k in chosen]
+        c, best = counts(mine, p), counts(mine, [ideal[k] for k in chosen])
+        shares = c.precision, c.recall, c.f1, over_kinds(mine, p), best.f1
         lines.append(f"| {group} | {len(mine)} | {c.true} | {' | '.join(f'{share:.2f}' for share in shares)} |")
     return lines
 
 
-def over_kinds(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> float:
+def over_kinds(rows: Sequence[PartRows], probability: Scores) -> float:
     """Return the mean over the kinds that have parts of the F1 of each."""
     of: dict[str, list[int]] = {}
     for k, r in enumerate(rows):
         of.setdefault(r.kind, []).append(k)
-    each = [counts([rows[k] for k in some], [scores[k] for k in some]) for some in of.values()]
+    each = [counts([rows[k] for k in some], [probability[k] for k in some]) for some in of.values()]
     return float(np.mean([c.f1 for c in each if c.true]))
 
 
-def f1_of(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> dict[str, float]:
+def f1_of(rows: Sequence[PartRows], probability: Scores) -> dict[str, float]:
     """Return the F1 of each group of objects, as in tables."""
     groups = sorted({called(r) for r in rows})
     of = {g: [k for k, r in enumerate(rows) if called(r) == g] for g in groups}
-    return {g: round(counts([rows[k] for k in of[g]], [scores[k] for k in of[g]]).f1, 3) for g in groups}
+    return {g: round(counts([rows[k] for k in of[g]], [probability[k] for k in of[g]]).f1, 3) for g in groups}
 
 
 def save_scores(folder: Path, scores: dict[str, Scores]) -> None:
@@ -161,33 +178,32 @@ def read_scores(folder: Path, rows: Sequence[PartRows]) -> dict[str, Scores]:
     return found | {left: of_both(rows, found[f"{left} trees"], found[f"{left} networks"]) for left in ("source", "kind")}
 
 
-def confidences(rows: Sequence[PartRows], scores: Sequence[np.ndarray]) -> Scored:
+def confidences(rows: Sequence[PartRows], scores: Scores, chosen: Sequence[Sequence[int]]) -> Scored:
     """Return the scores of the chosen candidates, and whether they are parts."""
-    chosen = [
-        (r, s[k], r.iou()[k] > RIGHT_IOU) for r, s in zip(rows, scores, strict=True) for k in assign_parts(overlap_of(r), s)
-    ]
-    return Scored(np.array([s for _, s, _ in chosen]), np.array([y for _, _, y in chosen]), [called(r) for r, _, _ in chosen])
+    all_chosen = [(r, s[k], r.iou()[k] > RIGHT_IOU) for r, s, some in zip(rows, scores, chosen, strict=True) for k in some]
+    odds, right = np.array([s for _, s, _ in all_chosen]), np.array([y for _, _, y in all_chosen])
+    return Scored(odds, right, [called(r) for r, _, _ in all_chosen])
 
 
-def write_page(rows: Sequence[PartRows], by_source: Scores, by_kind: Scores) -> None:
-    """Write parts.md, from the scores of objects left out of training by source and by kind."""
+def write_page(rows: Sequence[PartRows], by_source: Scores, by_kind: Scores, slope: float, offset: float) -> None:
+    """Write parts.md, from the scores of objects left out of training by source and by kind, and their calibration."""
     still = [k for k, r in enumerate(rows) if not r.moving]
-    wrong = counts([rows[k] for k in still], [by_kind[k] for k in still]).found
-    chosen = confidences(rows, by_kind)
-    slope, offset = fit_confidence(chosen)
+    on_sources, on_kinds = chances(by_source, slope, offset), chances(by_kind, slope, offset)
+    wrong = counts([rows[k] for k in still], [on_kinds[k] for k in still]).found
     text = [
         "# Parts found by the classifier, on objects that it was not trained on", "",
         "`python benchmarks/train_parts.py ROWS`; stage A only, parts matched at IoU .5, without names of nodes and materials.",
         "The last column is what the best choice among the candidates would reach. These classifiers have one network each;",
         "the shipped one has three. Networks score each object in four quarter turns.", "",
-        "## Trained on all other sources", "", *table(rows, by_source, called), "",
+        "## Trained on all other sources", "", *table(rows, on_sources, called), "",
         f"## Trained on other kinds ({FOLDS} folds, a kind in one fold)", "",
-        *table(rows, by_kind, called), "",
+        *table(rows, on_kinds, called), "",
         f"On {len(still)} objects without movable parts, {wrong} parts were found.", "",
         "## Confidence", "",
         f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f}, in the classifier's manifest.", "",
-        *calibration_table(chosen, slope, offset), "", "The same on other sources:", "",
-        *calibration_table(confidences(rows, by_source), slope, offset), "",
+        *calibration_table(confidences(rows, by_kind, choices(rows, on_kinds)), slope, offset), "",
+        "The same on other sources:", "",
+        *calibration_table(confidences(rows, by_source, choices(rows, on_sources)), slope, offset), "",
     ]  # fmt: skip
     (HERE / "parts.md").write_text("\n".join(text), encoding="utf-8")
     print("\n".join(text))
@@ -205,12 +221,15 @@ def main(argv: Sequence[str] | None = None) -> None:
     save_scores(options.folder, by_sources | held_out(rows, samples, sets, leave_kinds_out(samples), "kind"))
     scores = read_scores(options.folder, rows)
     by_source, by_kind = scores["source"], scores["kind"]
-    write_page(rows, by_source, by_kind)
+    slope, offset = calibrated(rows, by_kind)
+    write_page(rows, by_source, by_kind, slope, offset)
     if not options.write:
         return
-    f1 = {"F1, other sources": f1_of(rows, by_source), "F1, other kinds": f1_of(rows, by_kind)}
+    f1 = {
+        "F1, other sources": f1_of(rows, chances(by_source, slope, offset)),
+        "F1, other kinds": f1_of(rows, chances(by_kind, slope, offset)),
+    }
     (networks,) = train_all(sets, [range(len(rows))], EPOCHS, SEEDS)
-    slope, offset = fit_confidence(confidences(rows, by_kind))
     told = {
         "scores": f1,
         "confidence": {"slope": round(slope, 2), "offset": round(offset, 2)},

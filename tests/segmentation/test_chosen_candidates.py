@@ -18,7 +18,6 @@ from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.merge_tree import merged_groups
 from anymesh.segmentation.naming import named_parts
-from anymesh.segmentation.part_assignment import MIN_SCORE
 from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
 from anymesh.segmentation.part_classifier import Reasons
 from anymesh.types import Mesh, Node, Segmentation
@@ -92,7 +91,7 @@ def test_names_say_whether_a_candidate_moves(name: str, kind: NameClass) -> None
 
 def test_the_names_of_movable_parts_raise_scores_and_those_of_fixed_ones_lower_them() -> None:
     assert NAME_SCORE[NameClass.NONE] == 0
-    assert NAME_SCORE[NameClass.MOVABLE] > MIN_SCORE + 3 > 0 > MIN_SCORE - 3 > NAME_SCORE[NameClass.FIXED]
+    assert NAME_SCORE[NameClass.MOVABLE] > 2 > -4 > NAME_SCORE[NameClass.FIXED]
     assert 0 < NAME_SCORE[NameClass.HANDLE] < 1
 
 
@@ -130,9 +129,9 @@ def segmented(
     return {int(piece[found.face_part == k][0]): p for k, p in enumerate(found.parts) if k > 0}
 
 
-def test_candidates_with_a_score_above_the_threshold_are_parts(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_likely_candidates_are_parts(monkeypatch: pytest.MonkeyPatch) -> None:
     assert sorted(segmented(monkeypatch, [1.0, 2.0])) == [1, 2]
-    assert sorted(segmented(monkeypatch, [MIN_SCORE + 0.01, MIN_SCORE - 0.01])) == [1]
+    assert sorted(segmented(monkeypatch, [1.0, -3.0])) == [1]
     assert segmented(monkeypatch, [-3.0, -2.0]) == {}
 
 

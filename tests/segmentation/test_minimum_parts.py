@@ -11,7 +11,6 @@ from anymesh.errors import OptionError
 from anymesh.pipeline.solving import Solver
 from anymesh.segmentation import segment
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.part_assignment import MIN_SCORE
 from anymesh.segmentation.part_candidates import Overlap, PartCandidates
 from anymesh.segmentation.part_classifier import Reasons
 from anymesh.types import Segmentation
@@ -24,8 +23,8 @@ def parts(pieces, **settings) -> Segmentation:
 
 
 def no_part(tree: PartCandidates, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
-    """Score every candidate below the threshold, large ones lowest."""
-    return np.array([MIN_SCORE - 0.1 - row["size"] for row in features]), lambda chosen: ["nothing"] * len(chosen)
+    """Score every candidate as no part, large ones lowest."""
+    return np.array([-3 - row["size"] for row in features]), lambda chosen: ["nothing"] * len(chosen)
 
 
 def all_parts(tree: PartCandidates, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
@@ -37,7 +36,7 @@ def parts_below(largest: float) -> Callable[..., tuple[np.ndarray, Reasons]]:
     """Return a score by which small candidates are parts, and the others are not, large ones least."""
 
     def score(tree: PartCandidates, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
-        scores = [1.0 if row["size"] < largest else MIN_SCORE - row["size"] for row in features]
+        scores = [1.0 if row["size"] < largest else -3 - row["size"] for row in features]
         return np.array(scores), lambda chosen: ["size"] * len(chosen)
 
     return score

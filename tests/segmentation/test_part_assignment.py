@@ -12,7 +12,14 @@ from scipy.optimize import OptimizeResult, milp
 from anymesh.config import Config, SegmentationConfig
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.part_assignment import MIN_SCORE, assign_parts, conflicts, join_floating
+from anymesh.segmentation.part_assignment import (
+    MIN_PROBABILITY,
+    UNLIKELY,
+    assign_parts,
+    conflicts,
+    join_floating,
+    likely_parts,
+)
 from anymesh.segmentation.part_candidates import Overlap
 
 
@@ -21,19 +28,29 @@ def overlap(members: np.ndarray, patch: np.ndarray) -> Overlap:
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_no_set_without_conflicts_scores_higher(seed: int) -> None:
+def test_no_set_without_conflicts_has_more_parts_to_be_expected(seed: int) -> None:
     rng = np.random.default_rng(seed)
     members = rng.random((9, 6)) < 0.35
     members[np.arange(9), rng.integers(6, size=9)] = True  # no candidate is empty
     candidates = overlap(members, rng.uniform(0.1, 1, 6))
-    score = rng.normal(0.5, 1, 9)
+    probability = rng.uniform(0.1, 0.9, 9)
     clash = conflicts(candidates)
-    best = max(
-        sum(score[list(s)] - MIN_SCORE) for n in range(10) for s in combinations(range(9), n) if not clash[np.ix_(s, s)].any()
-    )
-    chosen = assign_parts(candidates, score)
+    free = [s for n in range(10) for s in map(list, combinations(range(9), n)) if not clash[np.ix_(s, s)].any()]
+    likely = likely_parts(candidates, probability)
+    assert (probability[likely] - UNLIKELY).sum() == pytest.approx(max((probability[s] - UNLIKELY).sum() for s in free))
+    expected = probability[likely].sum()
+    f1 = max(2 * probability[s].sum() / (len(s) + expected) for n in range(1, 10) for s in map(list, combinations(likely, n)))
+    least = max(f1 / 2, MIN_PROBABILITY)
+    chosen = assign_parts(candidates, probability)
     assert not clash[np.ix_(chosen, chosen)].any()
-    assert (score[chosen] - MIN_SCORE).sum() == pytest.approx(best)
+    assert (probability[chosen] - least).sum() == pytest.approx(max((probability[s] - least).sum() for s in free))
+
+
+def test_an_uncertain_candidate_is_a_part_only_where_the_others_are_uncertain_too() -> None:
+    apart = overlap(np.eye(6, dtype=bool), np.ones(6))
+    assert assign_parts(apart, np.full(6, 0.4)) == list(range(6))
+    assert assign_parts(apart, np.array([0.9, 0.9, 0.9, 0.9, 0.9, 0.4])) == list(range(5))
+    assert assign_parts(apart, np.full(6, MIN_PROBABILITY - 0.01)) == []
 
 
 def test_few_candidates_are_tried_and_ties_or_many_are_programmed(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -46,16 +63,16 @@ def test_few_candidates_are_tried_and_ties_or_many_are_programmed(monkeypatch: p
 
     monkeypatch.setattr(scipy.optimize, "milp", counted)
 
-    def chain(*score: float) -> list[int]:
-        n = len(score)
+    def chain(*probability: float) -> list[int]:
+        n = len(probability)
         members = np.eye(n, n + 1, dtype=bool) | np.eye(n, n + 1, 1, dtype=bool)
-        return assign_parts(overlap(members, np.ones(n + 1)), np.array(score))
+        return assign_parts(overlap(members, np.ones(n + 1)), np.array(probability))
 
-    assert (chain(1.0, 1.2, 1.1), programmed) == ([0, 2], [])
-    assert chain(*[2.0, 1.0] * 7) == [0, 2, 4, 6, 8, 10, 12]
-    assert programmed == [14]
-    assert chain(1.0, 1.0) in ([0], [1])
-    assert programmed == [14, 2]
+    assert (chain(0.7, 0.8, 0.75), programmed) == ([0, 2], [])
+    assert chain(*[0.9, 0.7] * 7) == [0, 2, 4, 6, 8, 10, 12]
+    assert set(programmed) == {14}
+    assert chain(0.7, 0.7) in ([0], [1])
+    assert programmed[-1] == 2
     assert chain() == []
 
 
@@ -67,8 +84,7 @@ def test_a_knob_on_a_door_is_a_part_and_the_door_without_its_trim_is_not() -> No
     assert clash[0, 2]
     assert clash[2, 3]
     assert not clash.diagonal().any()
-    assert assign_parts(candidates, np.array([2.0, 1.0, 1.5, 0.5])) == [0, 1]
-    assert assign_parts(candidates, np.full(4, MIN_SCORE - 0.1)) == []
+    assert assign_parts(candidates, np.array([0.9, 0.75, 0.8, 0.6])) == [0, 1]
 
 
 def test_what_only_a_part_holds_goes_with_it() -> None:

@@ -62,11 +62,14 @@ class Classifier:
         ways = [turned(place, quarters) for quarters in range(4)]
         return np.mean([network.score(own, way, relations) for network in self.networks for way in ways], axis=0)
 
-    def confidence(self, log_odds: float) -> float:
-        """Return the probability that a choice with these log-odds is right."""
+    def probability(self, log_odds: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+        """Return the probability that each candidate with these log-odds is right."""
         calibration = self.manifest["confidence"]
-        right = 1 / (1 + np.exp(-calibration["slope"] * log_odds - calibration["offset"]))
-        return float(np.clip(right, MIN_CONFIDENCE, MAX_CONFIDENCE))
+        return 1 / (1 + np.exp(-calibration["slope"] * log_odds - calibration["offset"]))
+
+    def confidence(self, log_odds: float) -> float:
+        """Return the probability that a choice with these log-odds is right, within the range of confidences."""
+        return float(np.clip(self.probability(np.array([log_odds]))[0], MIN_CONFIDENCE, MAX_CONFIDENCE))
 
     def reasons(self, own: Float[np.ndarray, "n k"]) -> list[str]:
         """Return the names of the features that raised each score by the trees the most."""

@@ -7,7 +7,6 @@ from enum import IntEnum
 
 import numpy as np
 
-from anymesh.segmentation.part_assignment import MIN_SCORE
 from anymesh.segmentation.part_candidates import PartCandidates
 from anymesh.vocabulary import is_fixed_name, recognize, words_of
 
@@ -22,7 +21,7 @@ class NameClass(IntEnum):
 
 
 # [log-odds] added to the score for the class of a name
-NAME_SCORE = {NameClass.NONE: 0.0, NameClass.MOVABLE: MIN_SCORE + 5, NameClass.FIXED: MIN_SCORE - 5, NameClass.HANDLE: 0.3}
+NAME_SCORE = {NameClass.NONE: 0.0, NameClass.MOVABLE: 4.0, NameClass.FIXED: -6.0, NameClass.HANDLE: 0.3}
 
 
 def name_class(name: str) -> NameClass:

@@ -1,4 +1,4 @@
-"""Choose parts among overlapping candidates: the conflict-free set of highest total score."""
+"""Choose parts among overlapping candidates: a set without conflicts, of those that raise its expected F1."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from anymesh.geometry.connected import label_connected
 from anymesh.segmentation.contacts import Contacts
 from anymesh.segmentation.part_candidates import Overlap
 
-MIN_SCORE = -1.05  # [log-odds] minimum score of a part; F1 on kinds left out of training is the same from -0.95 to -1.35
+MIN_PROBABILITY = 0.3  # of a part; F1 on kinds left out of training is the same from .25 to .35
+UNLIKELY = 0.05  # probability below which a candidate does not count
 MAX_TRIED = 10  # candidates in conflict, directly or through others, up to which all sets are tried
-TIE = 1e-6  # [log-odds] difference of sums of scores below which two sets are equally good
+TIE = 1e-6  # difference of sums of probabilities below which two sets are equally good
 MIN_DUPLICATE_IOU = 0.3  # minimum IoU at which a candidate within another one is the same part
 
 
@@ -24,25 +25,42 @@ def conflicts(overlap: Overlap) -> Bool[np.ndarray, "n n"]:
     return overlap.meet & (~overlap.nested | (overlap.iou > MIN_DUPLICATE_IOU))
 
 
-def assign_parts(overlap: Overlap, score: Float[np.ndarray, " n"]) -> list[int]:
+def assign_parts(overlap: Overlap, probability: Float[np.ndarray, " n"]) -> list[int]:
     """Return the indices of the candidates that are parts, in ascending order.
 
-    The set has no conflicts and the highest sum of scores above MIN_SCORE. All sets of few candidates are tried; the others,
-    and those with two best sets, are solved by mixed-integer programming.
+    The expected F1 of a set without conflicts is twice its expected number of parts, over its size and the expected number of
+    parts of the object together. A candidate raises it if its probability is above half of it, so beside certain parts, an
+    uncertain candidate is not taken. The set returned has the most parts to be expected above this minimum, and above
+    MIN_PROBABILITY.
 
-    score: log-odds that a candidate is a part.
+    probability: that each candidate is a part.
     """
-    likely = np.flatnonzero(score > MIN_SCORE)
-    gain, clash = score[likely] - MIN_SCORE, conflicts(overlap)[np.ix_(likely, likely)]
-    cluster = label_connected(len(likely), np.argwhere(clash)) if len(likely) else likely
-    chosen, hard = np.zeros(len(likely), bool), np.zeros(len(likely), bool)
+    likely = np.sort(probability[likely_parts(overlap, probability)])[::-1]
+    f1 = 2 * likely.cumsum() / (np.arange(1, len(likely) + 1) + likely.sum())
+    return _best_set(probability - max(f1.max(initial=0.0) / 2, MIN_PROBABILITY), conflicts(overlap))
+
+
+def likely_parts(overlap: Overlap, probability: Float[np.ndarray, " n"]) -> list[int]:
+    """Return the set without conflicts that has the most parts to be expected, with all that are not unlikely."""
+    return _best_set(probability - UNLIKELY, conflicts(overlap))
+
+
+def _best_set(gain: Float[np.ndarray, " n"], clash: Bool[np.ndarray, "n n"]) -> list[int]:
+    """Return the set without conflicts of the highest sum of gains, in ascending order.
+
+    All sets of few candidates are tried; the others, and those with two best sets, are solved by mixed-integer programming.
+    """
+    positive = np.flatnonzero(gain > 0)
+    gain, clash = gain[positive], clash[np.ix_(positive, positive)]
+    cluster = label_connected(len(positive), np.argwhere(clash)) if len(positive) else positive
+    chosen, hard = np.zeros(len(positive), bool), np.zeros(len(positive), bool)
     for mine in (np.flatnonzero(cluster == k) for k in np.unique(cluster)):
         best = _single_best(gain[mine], clash[np.ix_(mine, mine)]) if len(mine) <= MAX_TRIED else None
         hard[mine] = best is None
         chosen[mine] = False if best is None else best
     if hard.any():
         chosen[hard] = _by_programming(gain[hard], clash[np.ix_(hard, hard)])
-    return [int(k) for k in likely[chosen]]
+    return [int(k) for k in positive[chosen]]
 
 
 def _single_best(gain: Float[np.ndarray, " n"], clash: Bool[np.ndarray, "n n"]) -> Bool[np.ndarray, " n"] | None:

@@ -1,7 +1,7 @@
 """Stage A (paper, 3.2) by geometry: find the movable parts of an unlabelled mesh.
 
 Steps: patches and their contacts, candidate groups of patches, geometric features of each, a learned score, and the set of
-groups of highest total score. Groups that cannot move are removed, and the set is chosen again.
+groups with the most parts to be expected. Groups that cannot move are removed, and the set is chosen again.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from anymesh.progress import Progress, silent
 from anymesh.segmentation.candidate_names import NAME_SCORE, name_class, shared_name
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.naming import named_parts
-from anymesh.segmentation.part_assignment import MIN_SCORE, assign_parts, conflicts, join_floating
+from anymesh.segmentation.part_assignment import assign_parts, conflicts, join_floating
 from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
 from anymesh.segmentation.part_classifier import score_parts, shipped_classifier
 from anymesh.segmentation.part_features import FeatureInputs, candidate_context, part_features
@@ -52,29 +52,31 @@ def segment_parts(
     score, reasons = score_parts(examined, place, features)
     words = [shared_name(examined, k) for k in range(len(score))]
     score = score + np.array([NAME_SCORE[name_class(word)] for word in words])
+    classifier = shipped_classifier()
     known = [word.label if (word := recognize(w)) else "" for w in words]
 
-    def segmentation(face_part: Int[np.ndarray, " F"], order: list[int], labels: list[str]) -> Segmentation:
-        confidence = [shipped_classifier().confidence(float(score[k])) for k in order]
-        why = [_reason(learned, words[k], score[k]) for k, learned in zip(order, reasons(order), strict=True)]
+    def segmentation(face_part: Int[np.ndarray, " F"], order: list[int], labels: list[str], likely: list[int]) -> Segmentation:
+        confidence = [classifier.confidence(float(score[k])) for k in order]
+        why = [_reason(learned, words[k], k in likely) for k, learned in zip(order, reasons(order), strict=True)]
         return named_parts(face_part, [known[k] or label for k, label in zip(order, labels, strict=True)], mesh.face_areas,
                            confidence, why)  # fmt: skip
 
-    free = score.copy()  # -inf for candidates that turned out to be fixed
+    probability, likely = classifier.probability(score), list[int]()
+    free = probability.copy()  # 0 for candidates that turned out to be fixed
     for _ in range(MAX_ASSIGNMENTS):
-        chosen = _filled(examined, free, assign_parts(examined.overlap, free), settings.at_least)
-        face_part, order = _face_part(mesh, examined, chosen)
-        labels = list(label_parts(segmentation(face_part, order, ["part"] * len(order))))
+        likely = assign_parts(examined.overlap, free)
+        face_part, order = _face_part(mesh, examined, _filled(examined, free, likely, settings.at_least))
+        labels = list(label_parts(segmentation(face_part, order, ["part"] * len(order), likely)))
         fixed = [k for k, label in zip(order, labels, strict=True) if not label]
         if not fixed or deadline.late(SEGMENT):
             break
-        free[fixed] = -np.inf  # the same part with its handle, or another one, may move
+        free[fixed] = 0  # the same part with its handle, or another one, may move
     moving = {k: label for k, label in zip(order, labels, strict=True) if label}
     if len(moving) < settings.at_least:
-        face_part, order = _face_part(mesh, examined, _filled(examined, score, list(moving), settings.at_least))
+        face_part, order = _face_part(mesh, examined, _filled(examined, probability, list(moving), settings.at_least))
         labels = [moving.get(k, "part") for k in order]
     still = [n for n, label in enumerate(labels, start=1) if not label]
-    return segmentation(np.where(np.isin(face_part, still), 0, face_part), order, labels)
+    return segmentation(np.where(np.isin(face_part, still), 0, face_part), order, labels, likely)
 
 
 def examine_candidates(
@@ -102,19 +104,19 @@ def examine_candidates(
     return examined, np.array(places).reshape(-1, 12), features
 
 
-def _reason(learned: str, name: str, score: float) -> str:
+def _reason(learned: str, name: str, likely: bool) -> str:
     reasons = [f'named "{name}"'] if name_class(name) else []
-    reasons += ["stands out most, where parts were asked for"] if score <= MIN_SCORE else []
+    reasons += [] if likely else ["stands out most, where parts were asked for"]
     return "; ".join([*reasons, learned])
 
 
-def _filled(candidates: PartCandidates, score: Float[np.ndarray, " n"], chosen: list[int], count: int) -> list[int]:
+def _filled(candidates: PartCandidates, probability: Float[np.ndarray, " n"], chosen: list[int], count: int) -> list[int]:
     """Add the best other candidates without conflicts until there are at least `count`."""
     if len(chosen) >= count:
         return chosen
     apart = ~conflicts(candidates.overlap)
-    for k in np.argsort(-score, kind="stable"):
-        if len(chosen) < count and int(k) not in chosen and apart[k, chosen].all() and score[k] > -np.inf:
+    for k in np.argsort(-probability, kind="stable"):
+        if len(chosen) < count and int(k) not in chosen and apart[k, chosen].all() and probability[k] > 0:
             chosen = sorted([*chosen, int(k)])
     return chosen
 
