@@ -17,7 +17,7 @@ from jaxtyping import Bool, Float
 from part_rows import PartRows, read_rows
 from scipy.optimize import minimize
 from set_training import knots_of
-from train_parts import calibrated, chances, counts, f1_of, of_both, read_scores, samples_of, sets_of
+from train_parts import calibrated, chances, f1_of, of_both, outcomes, read_scores, samples_of, sets_of, total
 
 from anymesh.scoring.set_network import scaled
 
@@ -59,9 +59,8 @@ def log_linear_without(
 
 def best_f1(rows: Sequence[PartRows], scores: Scores) -> str:
     """Return the F1 of all objects with calibrated scores, and in brackets its mean over sources and forms."""
-    probability = chances(scores, *calibrated(rows, scores))
-    each = f1_of(rows, probability).values()
-    return f"{counts(rows, probability).f1:.3f} ({np.mean(list(each)):.3f})"
+    found = outcomes(rows, chances(scores, *calibrated(rows, scores)))
+    return f"{total(found).f1:.3f} ({np.mean(list(f1_of(rows, found).values())):.3f})"
 
 
 def main() -> None:

@@ -21,7 +21,7 @@ from __future__ import annotations
 
 import argparse
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 
@@ -123,41 +123,41 @@ def choices(rows: Sequence[PartRows], probability: Scores) -> list[list[int]]:
     return [assign_parts(overlap_of(r), p) for r, p in zip(rows, probability, strict=True)]
 
 
-def counts(rows: Sequence[PartRows], probability: Scores) -> Counts:
-    """Count parts that are true, found and right (IoU .5)."""
-    return sum((scored(r, c) for r, c in zip(rows, choices(rows, probability), strict=True)), Counts())
+def outcomes(rows: Sequence[PartRows], probability: Scores) -> list[Counts]:
+    """Return how many parts of each object are true, found and right (IoU .5)."""
+    return [scored(r, chosen) for r, chosen in zip(rows, choices(rows, probability), strict=True)]
 
 
-def table(rows: Sequence[PartRows], probability: Scores, of: Callable[[PartRows], str]) -> list[str]:
-    """Return lines of a table, one for each group of objects."""
-    ideal = [np.where((iou := r.iou()) > RIGHT_IOU, iou, 0.0) for r in rows]
+def total(found: Iterable[Counts]) -> Counts:
+    return sum(found, Counts())
+
+
+def table(rows: Sequence[PartRows], found: Sequence[Counts], best: Sequence[Counts]) -> list[str]:
+    """Return lines of a table, one for each source and change. best: of the best choice among the candidates."""
     lines = [
         "| | objects | parts | precision | recall | F1 | F1, mean over kinds | F1 of the best choice |",
         "|---|---|---|---|---|---|---|---|",
     ]
-    for group in [*sorted({of(r) for r in rows}), "all"]:
-        chosen = [k for k, r in enumerate(rows) if group in (of(r), "all")]
-        mine, p = [rows[k] for k in chosen], [probability[k] for k in chosen]
-        c, best = counts(mine, p), counts(mine, [ideal[k] for k in chosen])
-        shares = c.precision, c.recall, c.f1, over_kinds(mine, p), best.f1
-        lines.append(f"| {group} | {len(mine)} | {c.true} | {' | '.join(f'{share:.2f}' for share in shares)} |")
+    for group in [*sorted({called(r) for r in rows}), "all"]:
+        chosen = [k for k, r in enumerate(rows) if group in (called(r), "all")]
+        c, mine = total(found[k] for k in chosen), over_kinds([rows[k] for k in chosen], [found[k] for k in chosen])
+        shares = c.precision, c.recall, c.f1, mine, total(best[k] for k in chosen).f1
+        lines.append(f"| {group} | {len(chosen)} | {c.true} | {' | '.join(f'{share:.2f}' for share in shares)} |")
     return lines
 
 
-def over_kinds(rows: Sequence[PartRows], probability: Scores) -> float:
+def over_kinds(rows: Sequence[PartRows], found: Sequence[Counts]) -> float:
     """Return the mean over the kinds that have parts of the F1 of each."""
-    of: dict[str, list[int]] = {}
-    for k, r in enumerate(rows):
-        of.setdefault(r.kind, []).append(k)
-    each = [counts([rows[k] for k in some], [probability[k] for k in some]) for some in of.values()]
-    return float(np.mean([c.f1 for c in each if c.true]))
+    of: dict[str, Counts] = {}
+    for r, c in zip(rows, found, strict=True):
+        of[r.kind] = of.get(r.kind, Counts()) + c
+    return float(np.mean([c.f1 for c in of.values() if c.true]))
 
 
-def f1_of(rows: Sequence[PartRows], probability: Scores) -> dict[str, float]:
+def f1_of(rows: Sequence[PartRows], found: Sequence[Counts]) -> dict[str, float]:
     """Return the F1 of each group of objects, as in tables."""
     groups = sorted({called(r) for r in rows})
-    of = {g: [k for k, r in enumerate(rows) if called(r) == g] for g in groups}
-    return {g: round(counts([rows[k] for k in of[g]], [probability[k] for k in of[g]]).f1, 3) for g in groups}
+    return {g: round(total(c for r, c in zip(rows, found, strict=True) if called(r) == g).f1, 3) for g in groups}
 
 
 def save_scores(folder: Path, scores: dict[str, Scores]) -> None:
@@ -185,28 +185,37 @@ def confidences(rows: Sequence[PartRows], scores: Scores, chosen: Sequence[Seque
     return Scored(odds, right, [called(r) for r, _, _ in all_chosen])
 
 
-def write_page(rows: Sequence[PartRows], by_source: Scores, by_kind: Scores, slope: float, offset: float) -> None:
-    """Write parts.md, from the scores of objects left out of training by source and by kind, and their calibration."""
+def write_page(
+    rows: Sequence[PartRows], scores: Mapping[str, Scores], slope: float, offset: float
+) -> dict[str, dict[str, float]]:
+    """Write parts.md, and return the F1 of each group of objects.
+
+    scores: "source" and "kind", of objects left out of training by source and by kind; slope, offset: their calibration.
+    """
+    p = {left: chances(scores[left], slope, offset) for left in ("source", "kind")}
+    found = {left: outcomes(rows, some) for left, some in p.items()}
+    best = outcomes(rows, [np.where((iou := r.iou()) > RIGHT_IOU, iou, 0.0) for r in rows])
     still = [k for k, r in enumerate(rows) if not r.moving]
-    on_sources, on_kinds = chances(by_source, slope, offset), chances(by_kind, slope, offset)
-    wrong = counts([rows[k] for k in still], [on_kinds[k] for k in still]).found
+    wrong = total(found["kind"][k] for k in still).found
+    right = {left: confidences(rows, scores[left], choices(rows, some)) for left, some in p.items()}
     text = [
         "# Parts found by the classifier, on objects that it was not trained on", "",
         "`python benchmarks/train_parts.py ROWS`; stage A only, parts matched at IoU .5, without names of nodes and materials.",
         "The last column is what the best choice among the candidates would reach. These classifiers have one network each;",
         "the shipped one has three. Networks score each object in four quarter turns.", "",
-        "## Trained on all other sources", "", *table(rows, on_sources, called), "",
+        "## Trained on all other sources", "", *table(rows, found["source"], best), "",
         f"## Trained on other kinds ({FOLDS} folds, a kind in one fold)", "",
-        *table(rows, on_kinds, called), "",
+        *table(rows, found["kind"], best), "",
         f"On {len(still)} objects without movable parts, {wrong} parts were found.", "",
         "## Confidence", "",
         f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f}, in the classifier's manifest.", "",
-        *calibration_table(confidences(rows, by_kind, choices(rows, on_kinds)), slope, offset), "",
+        *calibration_table(right["kind"], slope, offset), "",
         "The same on other sources:", "",
-        *calibration_table(confidences(rows, by_source, choices(rows, on_sources)), slope, offset), "",
+        *calibration_table(right["source"], slope, offset), "",
     ]  # fmt: skip
     (HERE / "parts.md").write_text("\n".join(text), encoding="utf-8")
     print("\n".join(text))
+    return {f"F1, other {left}s": f1_of(rows, some) for left, some in found.items()}
 
 
 def main(argv: Sequence[str] | None = None) -> None:
@@ -220,15 +229,10 @@ def main(argv: Sequence[str] | None = None) -> None:
     by_sources = held_out(rows, samples, sets, leave_sources_out(samples), "source")
     save_scores(options.folder, by_sources | held_out(rows, samples, sets, leave_kinds_out(samples), "kind"))
     scores = read_scores(options.folder, rows)
-    by_source, by_kind = scores["source"], scores["kind"]
-    slope, offset = calibrated(rows, by_kind)
-    write_page(rows, by_source, by_kind, slope, offset)
+    slope, offset = calibrated(rows, scores["kind"])
+    f1 = write_page(rows, scores, slope, offset)
     if not options.write:
         return
-    f1 = {
-        "F1, other sources": f1_of(rows, chances(by_source, slope, offset)),
-        "F1, other kinds": f1_of(rows, chances(by_kind, slope, offset)),
-    }
     (networks,) = train_all(sets, [range(len(rows))], EPOCHS, SEEDS)
     told = {
         "scores": f1,

@@ -35,14 +35,19 @@ def assign_parts(overlap: Overlap, probability: Float[np.ndarray, " n"]) -> list
 
     probability: that each candidate is a part.
     """
-    likely = np.sort(probability[likely_parts(overlap, probability)])[::-1]
+    likely = probability[likely_parts(overlap, probability)]
     f1 = 2 * likely.cumsum() / (np.arange(1, len(likely) + 1) + likely.sum())
     return _best_set(probability - max(f1.max(initial=0.0) / 2, MIN_PROBABILITY), conflicts(overlap))
 
 
 def likely_parts(overlap: Overlap, probability: Float[np.ndarray, " n"]) -> list[int]:
-    """Return the set without conflicts that has the most parts to be expected, with all that are not unlikely."""
-    return _best_set(probability - UNLIKELY, conflicts(overlap))
+    """Return candidates without conflicts, likeliest first, each the likeliest that earlier ones allow."""
+    clash, left, chosen = conflicts(overlap), probability > UNLIKELY, []
+    for k in np.argsort(-probability, kind="stable"):
+        if left[k]:
+            chosen.append(int(k))
+            left &= ~clash[k]
+    return chosen
 
 
 def _best_set(gain: Float[np.ndarray, " n"], clash: Bool[np.ndarray, "n n"]) -> list[int]:
