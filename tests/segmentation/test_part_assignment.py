@@ -13,7 +13,7 @@ from anymesh.config import Config, SegmentationConfig
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_assignment import (
-    MIN_PROBABILITY,
+    MIN_PART_PROBABILITY,
     assign_parts,
     conflicts,
     join_floating,
@@ -40,7 +40,7 @@ def test_no_set_without_conflicts_has_more_parts_to_be_expected(seed: int) -> No
     assert all(k in likely or clash[k, [c for c in likely if probability[c] > probability[k]]].any() for k in range(9))
     expected = probability[likely].sum()
     f1 = max(2 * probability[s].sum() / (len(s) + expected) for n in range(1, 10) for s in map(list, combinations(likely, n)))
-    least = max(f1 / 2, MIN_PROBABILITY)
+    least = max(f1 / 2, MIN_PART_PROBABILITY)
     chosen = assign_parts(candidates, probability)
     assert not clash[np.ix_(chosen, chosen)].any()
     assert (probability[chosen] - least).sum() == pytest.approx(max((probability[s] - least).sum() for s in free))
@@ -50,7 +50,7 @@ def test_an_uncertain_candidate_is_a_part_only_where_the_others_are_uncertain_to
     apart = overlap(np.eye(6, dtype=bool), np.ones(6))
     assert assign_parts(apart, np.full(6, 0.4)) == list(range(6))
     assert assign_parts(apart, np.array([0.9, 0.9, 0.9, 0.9, 0.9, 0.4])) == list(range(5))
-    assert assign_parts(apart, np.full(6, MIN_PROBABILITY - 0.01)) == []
+    assert assign_parts(apart, np.full(6, MIN_PART_PROBABILITY - 0.01)) == []
 
 
 def test_few_candidates_are_tried_and_ties_or_many_are_programmed(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,7 +10,7 @@ from anymesh.geometry.connected import label_connected
 from anymesh.segmentation.contacts import Contacts
 from anymesh.segmentation.part_candidates import Overlap
 
-MIN_PROBABILITY = 0.3  # of a part; F1 on kinds left out of training is the same from .25 to .35
+MIN_PART_PROBABILITY = 0.3  # of a part; F1 on kinds left out of training is the same from .25 to .35
 UNLIKELY = 0.05  # probability below which a candidate does not count
 MAX_TRIED = 10  # candidates in conflict, directly or through others, up to which all sets are tried
 TIE = 1e-6  # difference of sums of probabilities below which two sets are equally good
@@ -31,13 +31,13 @@ def assign_parts(overlap: Overlap, probability: Float[np.ndarray, " n"]) -> list
     The expected F1 of a set without conflicts is twice its expected number of parts, over its size and the expected number of
     parts of the object together. A candidate raises it if its probability is above half of it, so beside certain parts, an
     uncertain candidate is not taken. The set returned has the most parts to be expected above this minimum, and above
-    MIN_PROBABILITY.
+    MIN_PART_PROBABILITY.
 
     probability: that each candidate is a part.
     """
     likely = probability[likely_parts(overlap, probability)]
     f1 = 2 * likely.cumsum() / (np.arange(1, len(likely) + 1) + likely.sum())
-    return _best_set(probability - max(f1.max(initial=0.0) / 2, MIN_PROBABILITY), conflicts(overlap))
+    return _best_set(probability - max(f1.max(initial=0.0) / 2, MIN_PART_PROBABILITY), conflicts(overlap))
 
 
 def likely_parts(overlap: Overlap, probability: Float[np.ndarray, " n"]) -> list[int]:
