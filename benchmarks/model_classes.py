@@ -17,7 +17,7 @@ from jaxtyping import Bool, Float
 from part_rows import PartRows, read_rows
 from scipy.optimize import minimize
 from set_training import knots_of
-from train_parts import calibrated, chances, f1_of, of_both, outcomes, read_scores, samples_of, sets_of, total
+from train_parts import calibrated, chances, choices, f1_of, of_both, outcomes, read_scores, samples_of, sets_of, total
 
 from anymesh.scoring.set_network import scaled
 
@@ -59,7 +59,7 @@ def log_linear_without(
 
 def best_f1(rows: Sequence[PartRows], scores: Scores) -> str:
     """Return the F1 of all objects with calibrated scores, and in brackets its mean over sources and forms."""
-    found = outcomes(rows, chances(scores, *calibrated(rows, scores)))
+    found = outcomes(rows, choices(rows, chances(scores, *calibrated(rows, scores))))
     return f"{total(found).f1:.3f} ({np.mean(list(f1_of(rows, found).values())):.3f})"
 
 

@@ -37,7 +37,7 @@ from set_training import CandidateSet, train_all
 
 from anymesh.scoring.classifier import Classifier
 from anymesh.segmentation.candidate_relations import relations
-from anymesh.segmentation.part_assignment import assign_parts, likely_parts
+from anymesh.segmentation.part_assignment import assign_parts, conflicts, likely_parts
 from anymesh.segmentation.part_classifier import combined, is_cut
 
 MODELS = (Model(150, 0), Model(250, 1, True), Model(150, 2), Model(250, 3, True))
@@ -109,7 +109,9 @@ def of_both(rows: Sequence[PartRows], trees: Scores, networks: Scores) -> Scores
 def calibrated(rows: Sequence[PartRows], scores: Scores) -> tuple[float, float]:
     """Return slope and offset of the log-odds that make them those of being a part, of all that are not unlikely."""
     return fit_confidence(
-        confidences(rows, scores, [likely_parts(overlap_of(r), p) for r, p in zip(rows, chances(scores), strict=True)])
+        confidences(
+            rows, scores, [likely_parts(conflicts(overlap_of(r)), p) for r, p in zip(rows, chances(scores), strict=True)]
+        )
     )
 
 
@@ -123,9 +125,9 @@ def choices(rows: Sequence[PartRows], probability: Scores) -> list[list[int]]:
     return [assign_parts(overlap_of(r), p) for r, p in zip(rows, probability, strict=True)]
 
 
-def outcomes(rows: Sequence[PartRows], probability: Scores) -> list[Counts]:
-    """Return how many parts of each object are true, found and right (IoU .5)."""
-    return [scored(r, chosen) for r, chosen in zip(rows, choices(rows, probability), strict=True)]
+def outcomes(rows: Sequence[PartRows], chosen: Sequence[list[int]]) -> list[Counts]:
+    """Return how many parts of each object are true, found and right (IoU .5), if these candidates are taken for parts."""
+    return [scored(r, some) for r, some in zip(rows, chosen, strict=True)]
 
 
 def total(found: Iterable[Counts]) -> Counts:
@@ -192,12 +194,12 @@ def write_page(
 
     scores: "source" and "kind", of objects left out of training by source and by kind; slope, offset: their calibration.
     """
-    p = {left: chances(scores[left], slope, offset) for left in ("source", "kind")}
-    found = {left: outcomes(rows, some) for left, some in p.items()}
-    best = outcomes(rows, [np.where((iou := r.iou()) > RIGHT_IOU, iou, 0.0) for r in rows])
+    taken = {left: choices(rows, chances(scores[left], slope, offset)) for left in ("source", "kind")}
+    found = {left: outcomes(rows, some) for left, some in taken.items()}
+    best = outcomes(rows, choices(rows, [np.where((iou := r.iou()) > RIGHT_IOU, iou, 0.0) for r in rows]))
     still = [k for k, r in enumerate(rows) if not r.moving]
     wrong = total(found["kind"][k] for k in still).found
-    right = {left: confidences(rows, scores[left], choices(rows, some)) for left, some in p.items()}
+    right = {left: confidences(rows, scores[left], some) for left, some in taken.items()}
     text = [
         "# Parts found by the classifier, on objects that it was not trained on", "",
         "`python benchmarks/train_parts.py ROWS`; stage A only, parts matched at IoU .5, without names of nodes and materials.",

@@ -18,6 +18,7 @@ from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.merge_tree import merged_groups
 from anymesh.segmentation.naming import named_parts
+from anymesh.segmentation.part_assignment import MIN_PART_PROBABILITY
 from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
 from anymesh.segmentation.part_classifier import Reasons
 from anymesh.types import Mesh, Node, Segmentation
@@ -91,7 +92,9 @@ def test_names_say_whether_a_candidate_moves(name: str, kind: NameClass) -> None
 
 def test_the_names_of_movable_parts_raise_scores_and_those_of_fixed_ones_lower_them() -> None:
     assert NAME_SCORE[NameClass.NONE] == 0
-    assert NAME_SCORE[NameClass.MOVABLE] > 2 > -4 > NAME_SCORE[NameClass.FIXED]
+    named = np.array([-3 + NAME_SCORE[NameClass.MOVABLE], 3 + NAME_SCORE[NameClass.FIXED]])
+    probability = segment.shipped_classifier().probability(named)
+    assert probability[0] > MIN_PART_PROBABILITY > probability[1]
     assert 0 < NAME_SCORE[NameClass.HANDLE] < 1
 
 

@@ -35,7 +35,7 @@ def test_no_set_without_conflicts_has_more_parts_to_be_expected(seed: int) -> No
     probability = rng.uniform(0.1, 0.9, 9)
     clash = conflicts(candidates)
     free = [s for n in range(10) for s in map(list, combinations(range(9), n)) if not clash[np.ix_(s, s)].any()]
-    likely = likely_parts(candidates, probability)
+    likely = likely_parts(clash, probability)
     assert likely == sorted(likely, key=lambda k: -probability[k])
     assert all(k in likely or clash[k, [c for c in likely if probability[c] > probability[k]]].any() for k in range(9))
     expected = probability[likely].sum()

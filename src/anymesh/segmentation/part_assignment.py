@@ -35,14 +35,18 @@ def assign_parts(overlap: Overlap, probability: Float[np.ndarray, " n"]) -> list
 
     probability: that each candidate is a part.
     """
-    likely = probability[likely_parts(overlap, probability)]
+    clash = conflicts(overlap)
+    likely = probability[likely_parts(clash, probability)]
     f1 = 2 * likely.cumsum() / (np.arange(1, len(likely) + 1) + likely.sum())
-    return _best_set(probability - max(f1.max(initial=0.0) / 2, MIN_PART_PROBABILITY), conflicts(overlap))
+    return _best_set(probability - max(f1.max(initial=0.0) / 2, MIN_PART_PROBABILITY), clash)
 
 
-def likely_parts(overlap: Overlap, probability: Float[np.ndarray, " n"]) -> list[int]:
-    """Return candidates without conflicts, likeliest first, each the likeliest that earlier ones allow."""
-    clash, left, chosen = conflicts(overlap), probability > UNLIKELY, []
+def likely_parts(clash: Bool[np.ndarray, "n n"], probability: Float[np.ndarray, " n"]) -> list[int]:
+    """Return candidates without conflicts, likeliest first, each the likeliest that earlier ones allow.
+
+    clash: as from `conflicts`; probability: that each candidate is a part.
+    """
+    left, chosen = probability > UNLIKELY, list[int]()
     for k in np.argsort(-probability, kind="stable"):
         if left[k]:
             chosen.append(int(k))
