@@ -23,7 +23,7 @@ def context_of(part: list, rest: list, *siblings: list, **changes: Any) -> PartC
     corners = np.concatenate([v for v, _ in [*part, *rest, *other]])
     low, high = corners.min(0), corners.max(0)
     return PartContext(
-        part=shape_of(*part), parent=shape_of(*rest), rest=shape_of(*rest),
+        part=shape_of(*part), parent=shape_of(*rest), rest=shape_of(*rest), other_surface=shape_of(*other) if other else None,
         without_part=shape_of(*rest, *other), diagonal=float(np.linalg.norm(high - low)), center=(low + high) / 2,
         **{
             "barrel_candidates": (), "config": ArticulationConfig(), "other_parts": tuple(shape_of(*s) for s in siblings),

@@ -73,18 +73,22 @@ def test_a_door_about_its_left_edge_and_about_its_free_edge() -> None:
     assert inwards["outward"] == -outwards["outward"]
     assert outwards["visible ahead"] > 0.95 > 0.05 > outwards["visible behind"]
     assert inwards["visible behind"] == outwards["visible ahead"]
+    assert outwards["contact along the line"] > 0.9
     assert outwards["hinge support"] == 1
     assert outwards["off along width"] == pytest.approx(1, abs=0.02)
     assert outwards["balance"] == pytest.approx(0.5, abs=0.05)
+    assert outwards["initial slope"] == pytest.approx(0, abs=0.02)
     assert outwards["handle distance"] > 0.85
+    assert outwards["bar handle along"] == pytest.approx(1)
     assert outwards["guided"] == MISSING
     free = features(door("left"), LEFT_EDGE)[1]
     assert free["handle distance"] < 0.15
 
 
-def test_a_lid_about_its_back_edge_opens_outwards() -> None:
+def test_a_lid_about_its_back_edge_rises() -> None:
     back = Motion(JointType.REVOLUTE, X, np.array([0.3, 0.4, 0.301]), "back edge")
     down, up = features(lid(), back)
+    assert up["initial slope"] == pytest.approx(1, abs=0.1)
     assert up["outward"] > 0.9
     assert down["opening"] < 0.1 < up["opening"]
 
@@ -96,6 +100,7 @@ def test_a_drawer_slides_out_and_is_held() -> None:
     assert out["visible ahead"] > 0.95
     assert out["guided"] >= 0.75
     assert out["depth"] > 1
+    assert out["initial slope"] == MISSING
     assert out["upwards"] == pytest.approx(0)
 
 

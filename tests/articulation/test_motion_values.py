@@ -16,6 +16,7 @@ from scenes import door, drawer, lid, wheel
 from test_motion_features import LEFT_EDGE, OUT, features
 from trimesh.creation import cylinder
 
+from anymesh.articulation.adjacent_panels import adjacent_sides
 from anymesh.articulation.barrels import find_barrel_candidates
 from anymesh.articulation.contact_metrics import contact_points, contact_retention, hinge_support
 from anymesh.articulation.line_features import line_features
@@ -43,10 +44,12 @@ def test_the_shape_and_place_of_a_door() -> None:
         "insertion depth": 0,
         "log2 height over width": np.log2(0.796 / 0.596),
         "height": 0.5,
+        "two pivots": 0,
         "handle": 1,
         "handle size": 0.2 / np.linalg.norm([0.596, 0.02, 0.796]),
         "handle off the middle": (0.5625 - 0.3) / 0.298,
         "bar handle": 1,
+        "log10 gap": np.log10(0.002 / DIAGONAL),
         "parts": 0,
         "object height": 0.8 / 0.6,
         "solid": 1,
@@ -60,7 +63,8 @@ def test_the_hinge_line_of_a_door() -> None:
     assert of_door()[1] == pytest.approx(of_door()[1] | {
         "prismatic": 0, "along length": 1, "along width": 0, "along thickness": 0, "along opening direction": 0, "vertical": 1,
         "upwards": MISSING, "opening": 1, "free both ways": 0, "outward": 1,
-        "off along length": 0, "off along width": 1, "off the part": 0, "above": 0,
+        "off along length": 0, "off along width": 1, "off along thickness": 0, "off the part": 0,
+        "another part along": 0, "support opposite": 1, "pair": 0, "outer": 0, "above": 0,
         "handle side": (0.5625 - 0.3) / 0.298,
         "handle off the hinge's middle": 0,
         "handle distance": 0.5605 / 0.596,
@@ -68,6 +72,9 @@ def test_the_hinge_line_of_a_door() -> None:
         "balance": 0.5,
         "off the parent's border": 0.002 / DIAGONAL,
         "away from the middle": 0.177 / DIAGONAL,
+        "bar handle along": 1,
+        "contact along the line": 1,
+        "contact middle off the line": 0.5,
     }, abs=0.02)  # fmt: skip
 
 
@@ -104,12 +111,15 @@ def test_a_drawer_that_slides_out() -> None:
 def test_a_lid_about_its_back_edge() -> None:
     """The plate is 0.6 x 0.4 x 0.019 m, 1 mm above a box of 0.3 m, with a tab of 25 mm in front."""
     (_, up) = features(lid(), turn(X, (0.3, 0.4, 0.301)))
+    diagonal = np.linalg.norm([0.6, 0.425, 0.32])
     expected = {
         "opening direction up": 1, "log2 height over width": 0, "height": 0.3105 / 0.32,
         "along length": 1, "vertical": 0, "above": -1,
-        "outward": 1, "opening": 1, "closing": 0,
-        "off along length": 0, "off along width": 1,
-        "hinge support": 1, "handle side": 1, "bar handle": 0, "log2 reach over length": np.log2(0.425 / 0.6),
+        "outward": 1, "initial slope": 1, "opening": 1, "closing": 0,
+        "off along length": 0, "off along width": 1, "off along thickness": 1,
+        "hinge support": 1, "support opposite": 0,  # the line mirrored at its center is 0.02 m in front, at its top
+        "handle side": 1, "bar handle": 0, "bar handle along": MISSING,
+        "log10 gap": np.log10(0.001 / diagonal), "log2 reach over length": np.log2(0.425 / 0.6),
         "handle distance": 0.4 / 0.425,
     }  # fmt: skip
     assert up == pytest.approx(up | expected, abs=0.03)
@@ -124,7 +134,7 @@ def test_a_wheel_about_its_axle() -> None:
         "height over radius": 0.3, "log2 height over width": 0,
         "thickness": 0.03 / diagonal, "height": 0.5, "horizontal offset": 1 - 2 * 0.045 / 0.28,
         "handle": 0,
-        "along thickness": 1, "balance": 0, "outward": 0,
+        "along thickness": 1, "balance": 0, "contact off the line": 0.3, "contact middle off the line": 0, "outward": 0,
         "log2 reach over length": np.log2(0.1 / 0.03), "off the part": 0, "contact retention": 1, "free both ways": 1,
         "handle distance": MISSING, "off the parent's border": 0.1 / diagonal,
         "contact proximity": 0.7,
@@ -151,22 +161,22 @@ def test_a_hinge_keeps_the_contact_at_its_line() -> None:
     assert contact_retention(context, [], []).tolist() == []
 
 
-def test_the_support_of_a_line_is_the_share_of_it_near_the_parent() -> None:
-    """The parent is along 40 % of the line at one side, 1 cm away; another part along 70 % of it does not count."""
+def test_the_support_of_a_line_is_the_share_of_it_near_the_parent_or_another_part() -> None:
+    """The parent is along 40 % of the line at one side, another part along 70 % of it, both 1 cm away."""
     plate, other = [box((0, 0, 0), (1, 0.02, 0.5))], [box((0.3, 0.03, -0.02), (1, 0.05, 0.02))]
     context = context_of(plate, [box((0, 0.03, -0.3), (0.4, 0.05, 0.3))], other)
     here, above, up = hinge_support(context, [turn(X, (0.5, 0.01, 0)), turn(X, (0.5, 0.01, 0.5)), turn(Z, (0, 0.01, 0))])
-    assert here == pytest.approx(0.4, abs=0.06)
-    assert above == 0
-    assert up == pytest.approx(0.6, abs=0.15)
-    assert hinge_support(context, []).shape == (0,)
+    assert here == pytest.approx([0.4, 0.7, 0], abs=0.06)
+    assert above == pytest.approx([0, 0, 0.4], abs=0.06)  # the line at the other side is the free one
+    assert up[0] == pytest.approx(0.6, abs=0.15)
+    assert hinge_support(context, []).shape == (0, 3)
 
 
 def test_the_lever_arm_of_a_plate_on_its_rim() -> None:
     """The plate is 0.5 m high; its contact is at the line."""
     context = context_of([box((0, 0, 0), (1, 0.02, 0.5))], [box((0, -0.2, -0.02), (1, 0.2, 0))])
     lines = turn(X, (0.3, 0.01, 0)), turn(X, (0.3, 0.01, 0.5))
-    near, far = (line_features(context, line, contact_points(context)) for line in lines)
+    near, far = (line_features(context, line, contact_points(context), adjacent_sides(context)) for line in lines)
     assert near["log2 reach over length"] == pytest.approx(np.log2(0.5 / 1), abs=0.02)
     assert near["contact proximity"] == pytest.approx(0.98, abs=0.015)
     assert far["contact proximity"] == pytest.approx(0.01, abs=0.02)

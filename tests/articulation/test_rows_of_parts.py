@@ -65,7 +65,7 @@ def test_a_hinge_has_no_evidence_of_slides_and_a_slide_none_of_hinges() -> None:
     context = context_of([box((0, -0.03, 0), (0.6, -0.002, 1))], [CASE])
     hinge, _, out, _ = sweep_candidates(context, [("edge", turn(Z, (0, -0.016, 0))), ("slide", slide(-Y))])
     assert (hinge.guided, hinge.captured) == (0, False)
-    assert (out.hinge_support, out.handle_side) == (0, 0)
+    assert (out.hinge_support, out.sibling, out.support_opposite, out.handle_side) == (0,) * 4
     made = candidate("edge", JointType.REVOLUTE, Z)
     assert made.contact_retention == 0
 
@@ -81,13 +81,18 @@ def test_what_is_visible_does_not_depend_on_the_unit(scale: float) -> None:
     out, back = features(context_of([leaf], [case]), ("slide", slide(-Y)))
     assert (out["visible ahead"], out["visible behind"]) == (1, pytest.approx(0, abs=0.1))
     assert (back["visible ahead"], back["visible behind"]) == (out["visible behind"], out["visible ahead"])
+    assert out["two pivots"] == 0
+    assert all(
+        way["two pivots"] == 1 for way in features(context_of([leaf], [case]), ("slide", slide(Z)), ("two_pivot", turn(X)))
+    )
     assert out["upwards"] == pytest.approx(0)
     (up, down) = features(context_of([leaf], [case]), ("slide", slide(Z)))
     assert (up["upwards"], down["upwards"]) == (1, -1)
     assert {name for name, value in up.items() if value == MISSING} >= {
         "hinge support",
         "balance",
-        "above",
+        "pair",
+        "initial slope",
         "handle side",
     }
 
@@ -174,8 +179,11 @@ def test_the_context_of_a_part_has_what_it_carries_and_what_is_static() -> None:
     shapes = [whole.of(np.flatnonzero(label == k)) for k in range(4)]
     found = {k: part_context(whole, label, shapes, parent, k, ArticulationConfig()) for k in (1, 2, 3)}
 
-    counts = {k: [len(s.triangles) for s in (a.part, a.parent, a.rest, a.without_part)] for k, a in found.items()}
-    assert counts == {1: [24, 12, 12, 24], 2: [12, 12, 24, 36], 3: [12, 12, 12, 36]}
+    def faces(shape) -> int:
+        return 0 if shape is None else len(shape.triangles)
+
+    counts = {k: [faces(s) for s in (a.part, a.parent, a.rest, a.other_surface, a.without_part)] for k, a in found.items()}
+    assert counts == {1: [24, 12, 12, 12, 24], 2: [12, 12, 24, 12, 36], 3: [12, 12, 12, 24, 36]}
     assert {k: len(a.other_parts) for k, a in found.items()} == {1: 1, 2: 1, 3: 2}
     assert found[2].parent.bounds == pytest.approx(np.array([[0, -0.1, 0], [1, -0.001, 1]]))
     assert found[1].center == pytest.approx([1, 0.4, 0.5])

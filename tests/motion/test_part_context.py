@@ -25,7 +25,7 @@ def part_context(part, others, T) -> PartContext:
     low, high = everything.min(0), everything.max(0)
     own, rest = shape_of(*part, T=T), shape_of(*others, T=T)
     diagonal = float(np.linalg.norm(high - low))
-    return PartContext(own, rest, rest, rest, (), diagonal, (low + high) / 2, ArticulationConfig())
+    return PartContext(own, rest, rest, None, rest, (), diagonal, (low + high) / 2, ArticulationConfig())
 
 
 def place(seed, scale=1.0) -> np.ndarray:

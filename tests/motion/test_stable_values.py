@@ -22,7 +22,7 @@ def seeded(part: list, others: list, seed: int) -> PartContext:
     low, high = corners.min(0), corners.max(0)
     own, rest = (replace(shape_of(*pieces), seed=seed) for pieces in (part, others))
     diagonal = float(np.linalg.norm(high - low))
-    return PartContext(own, rest, rest, rest, (), diagonal, (low + high) / 2, ArticulationConfig())
+    return PartContext(own, rest, rest, None, rest, (), diagonal, (low + high) / 2, ArticulationConfig())
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -33,7 +33,9 @@ def context(part: list, rest: list, seed: int = 0) -> PartContext:
     corners = np.concatenate([v for v, _ in [*part, *rest]])
     low, high = corners.min(0), corners.max(0)
     own, other = (replace(shape_of(*pieces), seed=seed) for pieces in (part, rest))
-    return PartContext(own, other, other, other, (), float(np.linalg.norm(high - low)), (low + high) / 2, ArticulationConfig())
+    return PartContext(
+        own, other, other, None, other, (), float(np.linalg.norm(high - low)), (low + high) / 2, ArticulationConfig()
+    )
 
 
 @cache

@@ -46,15 +46,26 @@ def contact_retention(context: PartContext, motions: list[Motion], signs: list[i
     return (off.reshape(len(motions), -1) < RETAINED_FACTOR * contact_tolerance(context)).mean(1)
 
 
-def hinge_support(context: PartContext, motions: list[Motion]) -> Float[np.ndarray, " m"]:
-    """Return the support of each hinge line, as long as the part: the share of it that is near the parent."""
+def hinge_support(context: PartContext, motions: list[Motion]) -> np.ndarray:
+    """Return the support of each hinge line, as long as the part: an array (motions, 3).
+
+    The columns are the shares of the line near the parent and near another movable part, and the share near the parent of the
+    line mirrored at the part's center (its free side, if there is one).
+    """
     if not motions:
-        return np.zeros(0)
+        return np.zeros((0, 3))
     points, lines = context.part.samples.points, []
     for motion in motions:
         along = points @ motion.axis
         at = np.linspace(along.min(), along.max(), LINE_POINTS) - motion.origin @ motion.axis
-        lines.append(motion.origin + at[:, None] * motion.axis)
+        line = motion.origin + at[:, None] * motion.axis
+        arm = context.body_obb.center - motion.origin
+        lines += [line, line + 2 * (arm - (arm @ motion.axis) * motion.axis)]
+    probe = np.concatenate(lines)
     reach = context.config.support * context.tolerance_length
-    near = context.parent.tree.distance(np.concatenate(lines)) < reach
-    return near.reshape(len(motions), LINE_POINTS).mean(1)
+    parent = (context.parent.tree.distance(probe) < reach).reshape(len(motions), 2, LINE_POINTS).mean(2)
+    other = np.zeros(len(motions))
+    if context.other_surface is not None:
+        near = context.other_surface.tree.distance(probe) < reach
+        other = near.reshape(len(motions), 2, LINE_POINTS).mean(2)[:, 0]
+    return np.stack([parent[:, 0], other, parent[:, 1]], 1)

@@ -31,9 +31,9 @@ def sweep_candidates(context: PartContext, proposed: Sequence[ProposedMotion]) -
 def unswept(context: PartContext, proposed: Sequence[ProposedMotion]) -> tuple[Candidate, ...]:
     """Measure all motions without moving the part: return one candidate per motion, opening along its axis."""
     hinges = [m for _, m in proposed if m.kind is JointType.REVOLUTE]
-    shares = iter(hinge_support(context, hinges))
+    supported = iter(hinge_support(context, hinges))
     return tuple(
-        _revolute(context, role, motion, float(next(shares)))
+        _revolute(context, role, motion, next(supported))
         if motion.kind is JointType.REVOLUTE
         else _prismatic(context, role, motion)
         for role, motion in proposed
@@ -80,9 +80,12 @@ def initial_direction(context: PartContext, motion: Motion) -> Float[np.ndarray,
     return moves / max(float(np.linalg.norm(moves)), MIN_ARM_RATIO * context.part.box.diagonal, 1e-300)
 
 
-def _revolute(context: PartContext, role: Role, motion: Motion, near: float) -> Candidate:
+def _revolute(context: PartContext, role: Role, motion: Motion, near: Float[np.ndarray, " 3"]) -> Candidate:
     outward = float(initial_direction(context, motion) @ context.opening_direction)
-    return Candidate(motion, UNSWEPT, role, 1, 0.0, 0.0, outward, near, _handle_side(context, motion))
+    support, sibling, opposite = map(float, near)
+    return Candidate(
+        motion, UNSWEPT, role, 1, 0.0, 0.0, outward, support, sibling, opposite, handle_side=_handle_side(context, motion)
+    )
 
 
 def sides(context: PartContext, motion: Motion) -> np.ndarray:

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.articulation.adjacent_panels import adjacent_sides
 from anymesh.articulation.contact_metrics import contact_points
 from anymesh.articulation.evidence import initial_direction, sides
 from anymesh.articulation.line_features import NO_LINE, line_features
@@ -25,7 +26,7 @@ VIEW_POINTS = 80  # sample points of the part for visibility rays
 MAX_ROOM = 8.0  # upper limit of the free travel over the part's extent
 # features of the sweep and of the opening direction; the others are known of a part at rest
 SWEPT_FEATURES = (
-    "opening", "closing", "free both ways", "outward", "contact retention", "upwards", "guided", "captured",
+    "opening", "closing", "free both ways", "outward", "contact retention", "initial slope", "upwards", "guided", "captured",
     "room over extent", "visible ahead", "visible behind", "away from the middle",
 )  # fmt: skip
 Features = dict[str, float]
@@ -37,8 +38,9 @@ def unswept_features(context: PartContext, candidates: Sequence[Candidate]) -> l
     candidates: all motions proposed for the part, one each.
     """
     contact = contact_points(context)
-    part = part_values(context, contact)
-    return [part | _unswept(context, c, contact) for c in candidates]
+    two_pivots = any(c.role == "two_pivot" for c in candidates)
+    part, adjacent = part_values(context, contact) | {"two pivots": float(two_pivots)}, adjacent_sides(context)
+    return [part | _unswept(context, c, contact, adjacent) for c in candidates]
 
 
 def swept_features(context: PartContext, candidates: Sequence[Candidate]) -> list[Features]:
@@ -47,8 +49,8 @@ def swept_features(context: PartContext, candidates: Sequence[Candidate]) -> lis
     ahead, behind = _visible_both_ways(context, ways)
     away = ways @ (context.part.centroid - context.center) / context.diagonal
     return [
-        _swept(context, c) | {"visible ahead": float(a), "visible behind": float(b), "away from the middle": float(m)}
-        for c, a, b, m in zip(candidates, ahead, behind, away, strict=True)
+        _swept(context, c, way) | {"visible ahead": float(a), "visible behind": float(b), "away from the middle": float(m)}
+        for c, way, a, b, m in zip(candidates, ways, ahead, behind, away, strict=True)
     ]
 
 
@@ -71,9 +73,16 @@ def _visible_both_ways(
     return mean + half, mean - half
 
 
-def _unswept(context: PartContext, c: Candidate, contact: Float[np.ndarray, "n 3"]) -> Features:
+def _unswept(
+    context: PartContext, c: Candidate, contact: Float[np.ndarray, "n 3"], adjacent: Float[np.ndarray, "2 2"]
+) -> Features:
     slides, axis, core = c.motion.kind is JointType.PRISMATIC, c.motion.axis, context.body_obb
-    turn = {"hinge support": c.hinge_support, "handle side": c.handle_side}
+    turn = {
+        "hinge support": c.hinge_support,
+        "support opposite": c.support_opposite,
+        "another part along": c.sibling,
+        "handle side": c.handle_side,
+    }
     return {
         "prismatic": float(slides),
         "along length": abs(float(axis @ core.axes[0])),
@@ -83,7 +92,7 @@ def _unswept(context: PartContext, c: Candidate, contact: Float[np.ndarray, "n 3
         "vertical": c.vertical,
         "depth": _inserted(context, c) if slides else MISSING,
         **(dict.fromkeys(turn, MISSING) if slides else turn),
-        **(NO_LINE if slides else line_features(context, c.motion, contact)),
+        **(NO_LINE if slides else line_features(context, c.motion, contact, adjacent)),
     }
 
 
@@ -93,7 +102,7 @@ def _inserted(context: PartContext, c: Candidate) -> float:
     return min(context.depth_in_parent(c.motion.axis) / max(across, 1e-9), MAX_LENGTH_RATIO)
 
 
-def _swept(context: PartContext, c: Candidate) -> Features:
+def _swept(context: PartContext, c: Candidate, way: Float[np.ndarray, " 3"]) -> Features:
     slides, axis = c.motion.kind is JointType.PRISMATIC, c.motion.axis
     unit = max(context.part.box.diagonal / context.tolerance_length if slides else np.pi, 1e-9)
     extent = float(np.ptp(context.part.corners @ axis)) / context.tolerance_length
@@ -109,5 +118,6 @@ def _swept(context: PartContext, c: Candidate) -> Features:
         "free both ways": min(c.opening, c.closing) / unit,
         "outward": c.outward,
         "contact retention": c.contact_retention,
+        "initial slope": MISSING if slides else float(way[2]),
         **(slide if slides else dict.fromkeys(slide, MISSING)),
     }

@@ -71,6 +71,9 @@ class Candidate:
     closing: float
     outward: float  # cosine between the initial motion of the center and the opening direction of the part
     hinge_support: float = 0.0  # 0..1, share of the hinge line near the parent
+    sibling: float = 0.0  # 0..1, share of the hinge line near another movable part
+    # 0..1, as hinge_support, of the line at the part's other side, which is 0 for a free side
+    support_opposite: float = 0.0
     handle_side: float = 0.0  # -1..1: 1 if the handle is opposite the hinge, 0 if there is none or it is level with the hinge
     guided: float = 0.0  # 0..1, for a slide: share of the sideways directions in which the part is guided
     captured: bool = False  # whether a slide is stopped in both directions, with free travel between

@@ -29,10 +29,12 @@ def part_context(
         at = parent[at]
     static = np.isin(label, ancestors)
     moving = np.isin(label, carried)
+    others = ~static & ~moving
     return PartContext(
         part=whole.of(np.flatnonzero(moving)),
         parent=shapes[parent[i]],
         rest=whole.of(np.flatnonzero(static)),
+        other_surface=whole.of(np.flatnonzero(others)) if others.any() else None,
         without_part=whole.of(np.flatnonzero(~moving)),
         barrel_candidates=find_barrel_candidates(whole, shapes[i], shapes[parent[i]]),
         diagonal=whole.diagonal,

@@ -19,6 +19,7 @@ def part_values(context: PartContext, contact: Float[np.ndarray, "n 3"]) -> dict
         "contact share": float(len(contact) / len(context.gap)),
         "contact length": float(spread[0] / max(context.part.box.diagonal, 1e-12)),
         "contact width": float(spread[1] / max(context.part.box.diagonal, 1e-12)),
+        "log10 gap": float(np.log10(max(float(context.gap.min()) / context.diagonal, 1e-4))),
         "parts": float(np.log1p(len(context.other_parts))),
     }
 

@@ -38,6 +38,7 @@ class PartContext:
     part: TriangleSet
     parent: TriangleSet
     rest: TriangleSet  # static while the part moves
+    other_surface: TriangleSet | None  # the other movable parts together
     without_part: TriangleSet  # the object without what moves
     barrel_candidates: tuple[TriangleSet, ...]  # long thin patches that may be hinge barrels
     diagonal: float

@@ -47,7 +47,7 @@ def candidate_context(inputs: FeatureInputs, candidate: int) -> PartContext | No
         return None
     rest = whole.of(np.flatnonzero(~moving))
     return PartContext(
-        part=whole.of(np.flatnonzero(moving)), parent=rest, rest=rest, without_part=rest,
+        part=whole.of(np.flatnonzero(moving)), parent=rest, rest=rest, other_surface=None, without_part=rest,
         barrel_candidates=(), diagonal=whole.diagonal, center=whole.shape.bounds.mean(0), config=inputs.config.articulation,
     )  # fmt: skip
 
