@@ -86,9 +86,10 @@ def held_out(samples: Sequence[Sample], left: Sequence[Bool[np.ndarray, " s"]], 
     return found
 
 
-def leave_sources_out(samples: Sequence[Sample]) -> list[Bool[np.ndarray, " s"]]:
-    """Return which samples are left out, one source at a time."""
-    return [np.array([s.source == source for s in samples]) for source in sorted({s.source for s in samples})]
+def leave_sources_out(samples: Sequence[Sample], together: frozenset[str] = frozenset()) -> list[Bool[np.ndarray, " s"]]:
+    """Return which samples are left out, one source at a time. together: sources that are left out at once."""
+    left = [{source} for source in sorted({s.source for s in samples} - together)] + ([together] if together else [])
+    return [np.array([s.source in some for s in samples]) for some in left]
 
 
 def leave_kinds_out(samples: Sequence[Sample]) -> list[Bool[np.ndarray, " s"]]:

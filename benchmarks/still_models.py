@@ -48,7 +48,8 @@ def page(records: Sequence[Record]) -> str:
     return "\n".join([
         "# Parts found where nothing moves", "",
         f"`python benchmarks/still_models.py WORK`: {len(found)} models of Sweet Home 3D's furniture of which nothing moves,",
-        "by geometry alone, without names. Nothing is trained or tuned on them.", "",
+        "by geometry alone, without names. Nothing is trained on them;",
+        "still kinds for the training were chosen with this page in view.", "",
         f"On {len(found) - len(with_parts)} of them no part is found; on the others {sum(c for _, c in with_parts)}:", "",
         ", ".join(name + (f" ({count})" if count > 1 else "") for name, count in with_parts) + ".", "",
     ])  # fmt: skip
