@@ -1,7 +1,7 @@
 """Objects of many kinds with known joints, made to vary: furniture, doors, appliances, vehicles, machines, tools, robots.
 
 python benchmarks/kinds.py FOLDER [--seed 0] [--count 2] [--test | --reserved] [KIND ...]
-writes FOLDER/KIND-NN/KIND-NN.urdf with meshes
+writes FOLDER/KIND-NN/KIND-NN.urdf with meshes; the kinds are listed in kinds.toml
 """
 
 from __future__ import annotations

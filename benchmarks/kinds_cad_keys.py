@@ -72,20 +72,27 @@ def cap(style: str, x: Span, y: Span, z: Span, n: int) -> list[Trimesh]:
 
 
 def add_keys(
-    m: Model, style: str, caps: Sequence[Cap], pitch: float, z: Span, slope: float, n: int, seam: float | None = 1e9
+    m: Model,
+    style: str,
+    caps: Sequence[Cap],
+    pitch: float,
+    z: Span,
+    slope: float,
+    n: int,
+    seam: float = np.inf,
+    moves: bool = True,
 ) -> None:
-    """A joint a key; those right of a seam hang on the right half. seam: None for keys that are only drawn."""
+    """A joint a key; those right of a seam hang on the right half. moves: False for keys that are only drawn."""
     gap = pitch * m.pick(0.04, 0.08, 0.14)
     for k, (a, row, wide) in enumerate(caps):
         x, y = (a * pitch + gap, (a + wide) * pitch - gap), (row * pitch + gap, (row + 1) * pitch - gap)
         lift = slope * (y[0] + y[1]) / 2
-        parent = BASE if seam is None or a <= seam else "right_half"
-        name = BASE if seam is None else f"key_{k}"
+        name, parent = f"key_{k}" if moves else BASE, "right_half" if a > seam else BASE
         m.add(name, *cap(style, x, y, (z[0] + lift, z[1] + lift), n))
         if style == "assembly" and len(caps) < 40:
             mid = ((x[0] + x[1]) / 2, (y[0] + y[1]) / 2)
             m.add(parent, box(*((v - 0.006, v + 0.006) for v in mid), (z[0] + lift - 0.006, z[0] + lift - 0.001)))
-        if seam is not None:
+        if moves:
             m.slide(name, (0, -slope, -1) if slope else (0, 0, -1), 0.4 * (z[1] - z[0]), parent)
 
 
@@ -140,7 +147,9 @@ def typing_keyboard(m: Model) -> None:
         _fold(m, seam, back, high, pitch)
     else:
         _tray(m, style, BASE, x, y, high, slope, caps, pitch)
-    add_keys(m, style, caps, pitch, (high + 0.001, high + 0.001 + m.pick(0.003, 0.006, 0.009)), slope, n, 8.0 if folds else 1e9)
+    add_keys(
+        m, style, caps, pitch, (high + 0.001, high + 0.001 + m.pick(0.003, 0.006, 0.009)), slope, n, 8.0 if folds else np.inf
+    )
     rim = 0.005 if style in ("hollow", "assembly") else 0.0
     top = back + 0.5 * (edge + extra)
     level = high + rim + slope * top

@@ -97,7 +97,7 @@ def notebook_computer(m: Model) -> None:
         body = cut(body, box(*((a - 0.0005, b + 0.0005) for a, b in pad), (thick - 0.0025, 1)))
     m.add(BASE, body)
     if m.chance(0.8):
-        add_keys(m, style, caps, pitch, (thick - deep + 0.0005, thick + 0.003 - 0.6 * deep), 0.0, n, None)
+        add_keys(m, style, caps, pitch, (thick - deep + 0.0005, thick + 0.003 - 0.6 * deep), 0.0, n, moves=False)
     elif m.chance(0.85):
         m.add(BASE, box((0, right), (0, rows), (thick - deep - 0.001, thick + 0.0008 - deep)))
     _fittings(m, style, x, y, pad, right, rows, thick, n)

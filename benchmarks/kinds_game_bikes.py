@@ -171,9 +171,7 @@ def _fairing(a: Look, neck: np.ndarray, stop: float) -> None:
     a.put(
         BASE,
         prism(
-            [(neck[1] - 0.3, 0.75), (neck[1] - 0.1, 1.05), (neck[1] - 0.07, 1.04), (neck[1] - 0.27, 0.75)],
-            "x",
-            (-0.21, 0.21),
+            [(neck[1] - 0.3, 0.75), (neck[1] - 0.1, 1.05), (neck[1] - 0.07, 1.04), (neck[1] - 0.27, 0.75)], "x", (-0.21, 0.21)
         ),
     )
 

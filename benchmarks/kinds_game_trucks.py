@@ -114,10 +114,7 @@ def _pickup(a: Look, half: float, y: Span, deck: float, axle_y: float, radius: f
     a.put(
         BASE, *(box((s * (half - 0.32), s * (half - 0.27)), (y[0], y[1] - 0.06), (deck - 0.05, crown + 0.02)) for s in (-1, 1))
     )
-    a.put(
-        BASE,
-        *(box((s * (half - 0.32), s * (half - 0.05)), (y[0], y[1] - 0.06), (crown, crown + 0.04)) for s in (-1, 1)),
-    )
+    a.put(BASE, *(box((s * (half - 0.32), s * (half - 0.05)), (y[0], y[1] - 0.06), (crown, crown + 0.04)) for s in (-1, 1)))
     a.put(BASE, box((-half + 0.05, half - 0.05), (y[0], y[0] + 0.05), (deck, top)))
     _tail(a, "tailgate", BASE, half - 0.065, y[1], (deck - 0.02, top - 0.01))
     if m.chance(0.35):

@@ -6,6 +6,7 @@ import numpy as np
 from kinds_model import BASE, Model
 from kinds_prop_style import Style, block, draw_style, spindle
 from kinds_solids import Span, ball, box, prism, rod, rounded, tube, vec
+from trimesh import Trimesh
 
 
 def photo_camera(m: Model) -> None:
@@ -93,19 +94,7 @@ def _top_things(s: Style, x: Span, deep: float, high: float, design: str) -> Non
     if design == "box":
         m.add("advance", rod((x[1] - 0.001, 0.7 * deep, 0.7 * high), (x[1] + 0.008, 0.7 * deep, 0.7 * high), 0.012, 16))
         m.spin("advance", (x[1], 0.7 * deep, 0.7 * high), (1, 0, 0))
-        m.add(
-            BASE,
-            tube(
-                [
-                    vec(0, 0.2 * deep, high),
-                    vec(0, 0.3 * deep, high + 0.014),
-                    vec(0, 0.7 * deep, high + 0.014),
-                    vec(0, 0.8 * deep, high),
-                ],
-                0.003,
-                8,
-            ),
-        )
+        m.add(BASE, _bail(deep, high, 0.2, 0.014, 0.003))
         return
     for k in range(m.pick(0, 2, 4)):
         spot = vec(x[1] - 0.08 * wide, deep, (0.25 + 0.14 * k) * high)
@@ -116,25 +105,19 @@ def _top_things(s: Style, x: Span, deep: float, high: float, design: str) -> Non
         m.add(BASE, *(ball((side, 0.5 * deep, 0.85 * high), (0.004, 0.002, 0.004), 8) for side in x))
 
 
+def _bail(deep: float, high: float, begin: float, rise: float, radius: float) -> Trimesh:
+    """A fixed carrying handle along the top, from a share of the depth at both ends."""
+    ends = ((begin, 0.0), (begin + 0.1, rise), (1 - begin - 0.1, rise), (1 - begin, 0.0))
+    return tube([vec(0, share * deep, high + up) for share, up in ends], radius, 8)
+
+
 def _screen(s: Style, x: Span, deep: float, high: float, design: str) -> None:
     """A screen that swings out at the side or tilts, or a fixed one at the back."""
     m, wide, t = s.m, x[1] - x[0], 0.004
     if design == "camcorder":
         m.add("screen", block(s, (x[1] + 0.0005, x[1] + 0.008), (0.2 * deep, 0.75 * deep), (0.2 * high, 0.85 * high), ""))
         m.hinge("screen", (x[1] + 0.004, 0.2 * deep, high / 2), (0, 0, -1), 90)
-        m.add(
-            BASE,
-            tube(
-                [
-                    vec(0, 0.15 * deep, high),
-                    vec(0, 0.25 * deep, high + 0.02),
-                    vec(0, 0.75 * deep, high + 0.02),
-                    vec(0, 0.85 * deep, high),
-                ],
-                0.005,
-                8,
-            ),
-        )
+        m.add(BASE, _bail(deep, high, 0.15, 0.02, 0.005))
         return
     span, tall = (x[0] + 0.1 * wide, x[1] - 0.25 * wide), (0.12 * high, 0.8 * high)
     plate = box(span, (deep + 0.0005, deep + t), tall)

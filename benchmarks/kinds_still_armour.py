@@ -5,17 +5,7 @@ from __future__ import annotations
 import numpy as np
 from kinds_clay import curve, skin
 from kinds_model import BASE, Model
-from kinds_solids import (
-    around,
-    ball,
-    box,
-    loft,
-    prism,
-    ring,
-    rod,
-    rounded,
-    vec,
-)
+from kinds_solids import around, ball, box, loft, prism, ring, rod, rounded, vec
 from kinds_still_buildings import stage
 from kinds_still_helms import helm
 from kinds_still_plants import UP

@@ -8,16 +8,7 @@ import numpy as np
 import trimesh
 from kinds_clay import curve, skin
 from kinds_model import BASE, Model
-from kinds_solids import (
-    ball,
-    box,
-    moved,
-    prism,
-    ring,
-    rod,
-    rounded,
-    turned,
-)
+from kinds_solids import ball, box, moved, prism, ring, rod, rounded, turned
 from kinds_still_buildings import stage
 from kinds_still_plants import UP, out
 from kinds_still_seats import repeat

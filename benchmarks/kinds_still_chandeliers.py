@@ -72,13 +72,11 @@ def _hoops(m: Model, how: str, reach: float, k: int, n: int, top: float) -> None
     for i in range(1 if how == "hoop" else m.pick(1, 2, 3)):
         a, low = reach * (1 - 0.25 * i), z + 0.25 * i * (how == "rings")
         m.add(
-            BASE,
-            lathe([(0.92 * a, low), (a, low), (a, low + 0.05), (0.92 * a, low + 0.05), (0.92 * a, low)], max(n, 12) * 2),
+            BASE, lathe([(0.92 * a, low), (a, low), (a, low + 0.05), (0.92 * a, low + 0.05), (0.92 * a, low)], max(n, 12) * 2)
         )
         m.add(BASE, *(rod(0.96 * a * out(2.094 * j + i) + (low + 0.04) * UP, (0, 0, top - 0.02), 0.004, 6) for j in range(3)))
         m.add(
-            BASE,
-            *(around(ball((0.96 * a, 0, low), (0.03, 0.03, 0.03), 8), 2 * k) if m.chance(0.4) and how == "rings" else []),
+            BASE, *(around(ball((0.96 * a, 0, low), (0.03, 0.03, 0.03), 8), 2 * k) if m.chance(0.4) and how == "rings" else [])
         )
     seats = [(0.96 * reach * out(2 * np.pi * i / k) + (z + 0.05) * UP, 0) for i in range(k)]
     repeat(m, lambda one: _holder(one, (0, 0, 0), holder, 0.035, n), seats if how == "hoop" else [])

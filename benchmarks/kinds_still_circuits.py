@@ -7,18 +7,7 @@ from itertools import pairwise
 import numpy as np
 from kinds_joinery import shrunk
 from kinds_model import BASE, Model
-from kinds_solids import (
-    Span,
-    around,
-    box,
-    prism,
-    rectangle,
-    ring,
-    rod,
-    rounded,
-    tube,
-    vec,
-)
+from kinds_solids import Span, around, box, prism, rectangle, ring, rod, rounded, tube, vec
 from kinds_still_seats import repeat, sizes, smooth
 from kinds_wheels import beam, lathe
 from shapely.geometry import Point as Dot
@@ -110,17 +99,13 @@ def circuit_board(m: Model) -> None:
         x, y = (-0.065, 0.065), (-0.015, 0.015)
         m.add(BASE, prism(rectangle(x, y), "z", (0, thick)))
         fields = np.linspace(-0.058, 0.058, m.pick(5, 9))
-        m.add(
-            BASE,
-            *(s for a, b in pairwise(fields) for s in _chip(m, (a + 0.001, b - 0.001), (-0.006, 0.011), thick)),
-        )
+        m.add(BASE, *(s for a, b in pairwise(fields) for s in _chip(m, (a + 0.001, b - 0.001), (-0.006, 0.011), thick)))
     else:
         _board(m, x, y, thick, m.pick((3, 3), (4, 3), (5, 4), (2, 2)))
     if how in ("card", "stick"):
         at = np.arange(-0.8 * half, 0.6 * half, 0.004) if how == "card" else np.arange(-0.06, 0.06, 0.004)
         m.add(
-            BASE,
-            *(box((a, a + 0.0025), (y[0] - 0.006, y[0] + 0.001), (0.0, 1.1 * thick)) for a in at if abs(a - 0.01) > 0.004),
+            BASE, *(box((a, a + 0.0025), (y[0] - 0.006, y[0] + 0.001), (0.0, 1.1 * thick)) for a in at if abs(a - 0.01) > 0.004)
         )
     if how == "card":
         m.add(

@@ -6,16 +6,7 @@ import numpy as np
 import trimesh
 from kinds_clay import curve, skin
 from kinds_model import BASE, Model
-from kinds_solids import (
-    Point,
-    around,
-    box,
-    loft,
-    moved,
-    ring,
-    rod,
-    vec,
-)
+from kinds_solids import Point, around, box, loft, moved, ring, rod, vec
 from kinds_static import boulder
 from kinds_still_buildings import stage
 from kinds_still_plants import UP, out
@@ -44,10 +35,7 @@ def _ground(m: Model, form: str, r: float, long: float) -> None:
         m.add(BASE, loft(shell, caps=False), rod((0, 0.3 * long, 0), (0, 0.4 * long, 0), 0.95 * long, 14))
         m.add(BASE, box((-0.6 * long, 0.6 * long), (0, 0.9 * long), (-1.2 * long, -0.85 * long)))
     elif form == "wall":
-        m.add(
-            BASE,
-            boulder(m, (0, 0.35, 0.5 * long), (1.5 * long, 0.4, 0.85 * long)),
-        )
+        m.add(BASE, boulder(m, (0, 0.35, 0.5 * long), (1.5 * long, 0.4, 0.85 * long)))
     elif form in ("rock", "field"):
         wide = (3.2 if form == "rock" else 11) * r
         m.add(
@@ -67,18 +55,14 @@ def _ground(m: Model, form: str, r: float, long: float) -> None:
 def _single(m: Model, r: float, long: float, sides: int, tip: float) -> None:
     """One big crystal on a stand, perhaps in claws, with a ring and small ones about it."""
     m.add(
-        BASE,
-        _crystal((0, 0, 0.1), (0, 0, 1), 2 * r, long, sides, tip, 0),
-        stage([(4 * r, 0), (3 * r, 0.12)], m.pick(4, 6, 16)),
+        BASE, _crystal((0, 0, 0.1), (0, 0, 1), 2 * r, long, sides, tip, 0), stage([(4 * r, 0), (3 * r, 0.12)], m.pick(4, 6, 16))
     )
     claws = around(
         skin(curve((0, -3 * r, 0.1), (0, -3.4 * r, 0.3 * long), (0, -1.7 * r, 0.45 * long)), np.linspace(0.4, 0.15, 6) * r, 6),
         m.pick(3, 4, 5),
     )
     m.add(
-        BASE,
-        *(claws if m.chance(0.6) else []),
-        *[ring((0, 0, 0.1 + 0.25 * long), UP, 1.95 * r, 0.15 * r, 18)][: m.pick(0, 1)],
+        BASE, *(claws if m.chance(0.6) else []), *[ring((0, 0, 0.1 + 0.25 * long), UP, 1.95 * r, 0.15 * r, 18)][: m.pick(0, 1)]
     )
     m.add(
         BASE,

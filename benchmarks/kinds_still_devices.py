@@ -5,19 +5,7 @@ from __future__ import annotations
 import numpy as np
 from kinds_joinery import quad, shrunk
 from kinds_model import BASE, Model
-from kinds_solids import (
-    Point,
-    Span,
-    around,
-    ball,
-    box,
-    prism,
-    rectangle,
-    ring,
-    rod,
-    rounded,
-    tube,
-)
+from kinds_solids import Point, Span, around, ball, box, prism, rectangle, ring, rod, rounded, tube
 from kinds_still_seats import repeat, sizes, smooth
 from kinds_wheels import lathe, upright
 from trimesh import Trimesh

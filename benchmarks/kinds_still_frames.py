@@ -7,21 +7,7 @@ from itertools import pairwise
 import numpy as np
 from kinds_joinery import quad, shrunk
 from kinds_model import BASE, Model
-from kinds_solids import (
-    Span,
-    arch,
-    ball,
-    box,
-    loft,
-    moved,
-    prism,
-    rectangle,
-    rod,
-    rounded,
-    tube,
-    turned,
-    vec,
-)
+from kinds_solids import Span, arch, ball, box, loft, moved, prism, rectangle, rod, rounded, tube, turned, vec
 from kinds_still_seats import repeat
 from kinds_wheels import beam, lathe
 from shapely.geometry import Polygon
@@ -79,9 +65,7 @@ def _frame(m: Model, wide: float, tall: float) -> None:
     elif how == "rope":
         path = [(x[0], -t, 0), (x[1], -t, 0), (x[1], -t, tall), (x[0], -t, tall), (x[0], -t, 0)]
         m.add(
-            BASE,
-            *(rod(p, q, 0.3 * edge, 8) for p, q in pairwise(path)),
-            *(ball(p, (0.45 * edge,) * 3, 8) for p in path[:-1]),
+            BASE, *(rod(p, q, 0.3 * edge, 8) for p, q in pairwise(path)), *(ball(p, (0.45 * edge,) * 3, 8) for p in path[:-1])
         )
     if m.chance(0.6) and wide > 5 * edge:
         m.add(BASE, *_picture(m, shrunk(x, 1.5 * edge), shrunk(z, 1.5 * edge), edge, t))

@@ -6,18 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 from kinds_model import BASE, Model
-from kinds_solids import (
-    Point,
-    ball,
-    box,
-    prism,
-    rectangle,
-    ring,
-    rod,
-    rounded,
-    tube,
-    vec,
-)
+from kinds_solids import Point, ball, box, prism, rectangle, ring, rod, rounded, tube, vec
 from kinds_still_seats import smooth
 from kinds_wheels import beam, lathe
 from trimesh import Trimesh

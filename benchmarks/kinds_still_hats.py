@@ -6,17 +6,7 @@ import numpy as np
 import trimesh
 from kinds_model import BASE, Model
 from kinds_seating import cushion
-from kinds_solids import (
-    around,
-    ball,
-    box,
-    loft,
-    prism,
-    ring,
-    rod,
-    tube,
-    turned,
-)
+from kinds_solids import around, ball, box, loft, prism, ring, rod, tube, turned
 from kinds_still_seats import repeat, smooth
 from kinds_wheels import lathe
 from trimesh import Trimesh

@@ -4,18 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from kinds_model import BASE, Model
-from kinds_solids import (
-    Point,
-    ball,
-    box,
-    loft,
-    moved,
-    prism,
-    ring,
-    rod,
-    tube,
-    turned,
-)
+from kinds_solids import Point, ball, box, loft, moved, prism, ring, rod, tube, turned
 from kinds_static import boulder
 from kinds_still_plants import UP, out
 from kinds_still_seats import repeat, sizes

@@ -5,13 +5,7 @@ from __future__ import annotations
 import numpy as np
 from kinds_clay import curve, skin
 from kinds_model import BASE, Model
-from kinds_solids import (
-    ball,
-    box,
-    prism,
-    ring,
-    rod,
-)
+from kinds_solids import ball, box, prism, ring, rod
 from kinds_still_buildings import stage
 from kinds_still_plants import UP
 from kinds_wheels import lathe

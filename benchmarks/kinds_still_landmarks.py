@@ -5,16 +5,7 @@ from __future__ import annotations
 import numpy as np
 from kinds_model import BASE, Model
 from kinds_prop_style import sheet
-from kinds_solids import (
-    arch,
-    around,
-    ball,
-    box,
-    prism,
-    ring,
-    rod,
-    turned,
-)
+from kinds_solids import arch, around, ball, box, prism, ring, rod, turned
 from kinds_static import boulder
 from kinds_still_buildings import hipped, stage
 from kinds_still_plants import UP, out

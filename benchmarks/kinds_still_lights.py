@@ -62,9 +62,7 @@ def _bowl(m: Model, r: float, top: float, n: int) -> None:
     m.add(BASE, wall_of(m, np.c_[1.3 * r * t, z - deep + deep * t ** m.pick(2, 3, 6)], n), ring((0, 0, z), UP, 1.3 * r, 0.012))
     m.add(BASE, *(c for p in chain(m, (0, 0, top - 0.2), (1.3 * r, 0, z), 0.004) for c in around(p, k)))
     m.add(
-        BASE,
-        rod((0, 0, top - 0.22), (0, 0, top), 0.015, n),
-        ball((0, 0, z - deep), (0.06 * r, 0.06 * r, 0.08 * r + 0.02), 8),
+        BASE, rod((0, 0, top - 0.22), (0, 0, top), 0.015, n), ball((0, 0, z - deep), (0.06 * r, 0.06 * r, 0.08 * r + 0.02), 8)
     )
     m.add(BASE, *around(ball((0.5 * r, 0, z), (0.05, 0.05, deep), 8), m.pick(1, 3)), rod((0, 0, z - deep), (0, 0, z), 0.01))
     m.add(BASE, *(rod((0, 0, z), 0.5 * r * out(2.1 * a) + z * UP, 0.01, 6) for a in range(3)))

@@ -7,19 +7,7 @@ from functools import partial
 import numpy as np
 from kinds_joinery import shrunk
 from kinds_model import BASE, Model
-from kinds_solids import (
-    ball,
-    box,
-    moved,
-    prism,
-    rectangle,
-    ring,
-    rod,
-    rounded,
-    tube,
-    turned,
-    vec,
-)
+from kinds_solids import ball, box, moved, prism, rectangle, ring, rod, rounded, tube, turned, vec
 from kinds_still_seats import repeat
 from kinds_wheels import lathe
 from shapely.geometry import Polygon

@@ -6,16 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 from kinds_model import BASE, Model
-from kinds_solids import (
-    Point,
-    Span,
-    box,
-    moved,
-    prism,
-    ring,
-    rod,
-    tube,
-)
+from kinds_solids import Point, Span, box, moved, prism, ring, rod, tube
 from kinds_static import boulder
 from kinds_still_buildings import hipped, stage
 from kinds_still_plants import UP, bent
@@ -102,14 +93,8 @@ def _pavilion(m: Model, w: float, z: float, n: int) -> None:
     """A roofed place at the end of a pier."""
     a, top = 1.6 * w, z + m.number(2, 2.6)
     m.add(BASE, box((-a, a), (-2 * a, 0.02), (z - 0.15, z + 0.02)))
-    m.add(
-        BASE,
-        *(rod((p, q, 0), (p, q, top + 0.05), 0.08, n) for p in (-0.9 * a, 0.9 * a) for q in (-1.9 * a, -a, -0.1 * a)),
-    )
-    m.add(
-        BASE,
-        hipped((-1.1 * a, 1.1 * a), (-2.1 * a, 0.1 * a), (top, top + m.number(0.5, 1.3)), m.pick(0.001, 0.4), 0.001),
-    )
+    m.add(BASE, *(rod((p, q, 0), (p, q, top + 0.05), 0.08, n) for p in (-0.9 * a, 0.9 * a) for q in (-1.9 * a, -a, -0.1 * a)))
+    m.add(BASE, hipped((-1.1 * a, 1.1 * a), (-2.1 * a, 0.1 * a), (top, top + m.number(0.5, 1.3)), m.pick(0.001, 0.4), 0.001))
     m.add(BASE, box((-a, a), (-2 * a, 0), (top - 0.12, top + 0.01)))
 
 

@@ -5,17 +5,7 @@ from __future__ import annotations
 import numpy as np
 from kinds_joinery import shrunk
 from kinds_model import BASE, Model
-from kinds_solids import (
-    Point,
-    around,
-    ball,
-    box,
-    prism,
-    ring,
-    rod,
-    rounded,
-    vec,
-)
+from kinds_solids import Point, around, ball, box, prism, ring, rod, rounded, vec
 from kinds_still_seats import sizes
 from kinds_wheels import beam, lathe
 from trimesh import Trimesh

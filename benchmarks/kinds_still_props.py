@@ -7,14 +7,7 @@ from itertools import pairwise
 import numpy as np
 from kinds_clay import curve, skin
 from kinds_model import BASE, Model
-from kinds_solids import (
-    ball,
-    box,
-    prism,
-    rod,
-    tube,
-    turned,
-)
+from kinds_solids import ball, box, prism, rod, tube, turned
 from kinds_static import boulder
 from kinds_still_buildings import stage
 from kinds_still_seats import repeat
@@ -141,9 +134,7 @@ def _bird(m: Model, r: float, z: float) -> None:
         BASE,
         *(
             prism(
-                [(0, z + 0.8 * r), (s * 3 * r, z + 1.6 * r), (s * 2.6 * r, z + 0.5 * r), (0, z + 0.2 * r)],
-                "y",
-                (0, 0.12 * r),
+                [(0, z + 0.8 * r), (s * 3 * r, z + 1.6 * r), (s * 2.6 * r, z + 0.5 * r), (0, z + 0.2 * r)], "y", (0, 0.12 * r)
             )
             for s in (-1, 1)
         ),

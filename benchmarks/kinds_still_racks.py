@@ -5,17 +5,7 @@ from __future__ import annotations
 import numpy as np
 from kinds_joinery import shrunk
 from kinds_model import BASE, Model
-from kinds_solids import (
-    Span,
-    box,
-    moved,
-    prism,
-    ring,
-    rod,
-    rounded,
-    tube,
-    vec,
-)
+from kinds_solids import Span, box, moved, prism, ring, rod, rounded, tube, vec
 from kinds_wheels import beam, lathe
 from trimesh import Trimesh
 

@@ -7,18 +7,7 @@ from itertools import pairwise
 import numpy as np
 from kinds_joinery import shrunk
 from kinds_model import BASE, Model
-from kinds_solids import (
-    Span,
-    ball,
-    box,
-    moved,
-    prism,
-    rectangle,
-    ring,
-    rod,
-    rounded,
-    turned,
-)
+from kinds_solids import Span, ball, box, moved, prism, rectangle, ring, rod, rounded, turned
 from kinds_still_devices import FORWARD, heads, slots
 from kinds_still_seats import repeat, sizes
 from kinds_wheels import beam

@@ -108,11 +108,7 @@ def _brackets(m: Model, how: str, w: float, d: float, levels: np.ndarray, t: flo
             box((a - 0.01, a + 0.01), (-0.5 * d, d), (z - t - 0.01, z - t)),
             box((a - 0.01, a + 0.01), (d - 0.01, d), (z - t - 0.12, z - t)),
         )
-        path = [
-            (a, -0.4 * d, z - t - 0.005),
-            *[(a, 0.6 * d, z - t - 0.03)][: style == "scroll"],
-            (a, d - 0.005, z - t - 0.11),
-        ]
+        path = [(a, -0.4 * d, z - t - 0.005), *[(a, 0.6 * d, z - t - 0.03)][: style == "scroll"], (a, d - 0.005, z - t - 0.11)]
         m.add(BASE, *[tube(smooth(path), 0.006, 6)][: style in ("strut", "scroll")])
 
 

@@ -6,21 +6,7 @@ import numpy as np
 import trimesh
 from kinds_model import BASE, Model
 from kinds_seating import cushion
-from kinds_solids import (
-    Point,
-    ball,
-    box,
-    loft,
-    mirrored,
-    moved,
-    prism,
-    ring,
-    rod,
-    rounded,
-    tube,
-    turned,
-    vec,
-)
+from kinds_solids import Point, ball, box, loft, mirrored, moved, prism, ring, rod, rounded, tube, turned, vec
 from kinds_still_seats import smooth
 from kinds_wheels import lathe
 from trimesh import Trimesh

@@ -4,20 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from kinds_model import BASE, Model
-from kinds_solids import (
-    Span,
-    arch,
-    ball,
-    box,
-    loft,
-    moved,
-    prism,
-    ring,
-    rod,
-    tube,
-    turned,
-    vec,
-)
+from kinds_solids import Span, arch, ball, box, loft, moved, prism, ring, rod, tube, turned, vec
 from kinds_static import boulder
 from kinds_still_buildings import hipped
 from kinds_still_plants import UP, bent, out

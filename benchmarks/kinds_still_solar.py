@@ -8,14 +8,7 @@ from itertools import pairwise
 import numpy as np
 from kinds_joinery import shrunk
 from kinds_model import BASE, Model
-from kinds_solids import (
-    box,
-    prism,
-    rectangle,
-    rod,
-    turned,
-    vec,
-)
+from kinds_solids import box, prism, rectangle, rod, turned, vec
 from kinds_still_seats import repeat
 from kinds_wheels import beam
 

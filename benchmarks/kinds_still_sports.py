@@ -5,18 +5,7 @@ from __future__ import annotations
 import numpy as np
 import trimesh
 from kinds_model import BASE, Model
-from kinds_solids import (
-    Span,
-    around,
-    ball,
-    box,
-    loft,
-    prism,
-    ring,
-    rod,
-    rounded,
-    tube,
-)
+from kinds_solids import Span, around, ball, box, loft, prism, ring, rod, rounded, tube
 from kinds_still_seats import repeat, smooth
 from kinds_wheels import lathe
 from trimesh import Trimesh

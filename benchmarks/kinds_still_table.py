@@ -7,22 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from kinds_joinery import quad, shrunk
 from kinds_model import BASE, Model
-from kinds_solids import (
-    Point,
-    Span,
-    around,
-    ball,
-    box,
-    moved,
-    prism,
-    rectangle,
-    ring,
-    rod,
-    rounded,
-    tube,
-    turned,
-    vec,
-)
+from kinds_solids import Point, Span, around, ball, box, moved, prism, rectangle, ring, rod, rounded, tube, turned, vec
 from kinds_still_seats import smooth
 from kinds_wheels import lathe
 from trimesh import Trimesh

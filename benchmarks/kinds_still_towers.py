@@ -6,19 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 from kinds_model import BASE, Model
-from kinds_solids import (
-    arch,
-    around,
-    ball,
-    box,
-    prism,
-    rectangle,
-    ring,
-    rod,
-    tube,
-    turned,
-    vec,
-)
+from kinds_solids import arch, around, ball, box, prism, rectangle, ring, rod, tube, turned, vec
 from kinds_still_buildings import hipped, stage
 from kinds_still_plants import UP, out
 from kinds_still_structures import circle, finish, ladder, railing, roof
@@ -175,8 +163,7 @@ def _mushroom(m: Model, r: float, z: float, n: int) -> None:
         stage([(w, z), (1.2 * r, z + tall), (1.2 * r, z + 1.2 * tall), (0.2 * r, z + 1.5 * tall)], n),
     )
     m.add(
-        BASE,
-        *around(box((-0.05 * r, 0.05 * r), (-1.2 * r, -w), (z + 0.9 * tall, z + tall)), m.pick(8, 12))[:: m.pick(1, 99)],
+        BASE, *around(box((-0.05 * r, 0.05 * r), (-1.2 * r, -w), (z + 0.9 * tall, z + tall)), m.pick(8, 12))[:: m.pick(1, 99)]
     )
     m.add(BASE, *around(box((-0.05 * r, 0.05 * r), (-1.2 * w, -0.5 * w), (0, z)), m.pick(4, 6, 8))[:: m.pick(1, 99)])
 
