@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
@@ -11,11 +12,12 @@ from anymesh.articulation.estimate import PartMotions, choose_motion, estimate_j
 from anymesh.articulation.part_labels import label_of
 from anymesh.config import Config
 from anymesh.deadline import Deadline
+from anymesh.geometry.ground import ground_faces
 from anymesh.geometry.patches import DividedSurface, ObjectShape
 from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.progress import Progress, silent
-from anymesh.segmentation.divide import divide_surface
+from anymesh.segmentation.divide import divide_surface, object_shape
 from anymesh.segmentation.segment import segment_parts
 from anymesh.types import JointType, Mesh, Segmentation
 from anymesh.types.recognition import Recognition
@@ -58,9 +60,23 @@ class GeometryStages:
         return joint_result(joints, self.name, self.deadline.warnings())
 
     def parts(self, progress: Progress = silent) -> Segmentation:
-        """Return the parts found by geometry, computed once."""
+        """Return the parts found by geometry, computed once; a ground belongs to the base."""
         if self._by_itself is None:
-            self._by_itself = segment_parts(self.mesh, self.whole, self._labels, self.config, progress, self.deadline)
+            kept = np.flatnonzero(~ground_faces(self.mesh))
+            object_, whole = self.mesh, self.whole
+            if len(kept) < len(self.mesh.faces):
+                object_ = self.mesh.subset(kept)
+                whole = object_shape(object_, self.config.seed, self.config.patches)
+
+            def on_mesh(segmentation: Segmentation) -> Segmentation:
+                face_part = np.zeros(len(self.mesh.faces), np.int64)
+                face_part[kept] = segmentation.face_part
+                return replace(segmentation, face_part=face_part)
+
+            def labels(segmentation: Segmentation) -> list[str]:
+                return self._labels(on_mesh(segmentation))
+
+            self._by_itself = on_mesh(segment_parts(object_, whole, labels, self.config, progress, self.deadline))
         return self._by_itself
 
     def _labels(self, segmentation: Segmentation) -> list[str]:

@@ -1,0 +1,27 @@
+"""Test that a ground in the file belongs to the base, and that the parts of the object on it are found as without it."""
+
+import numpy as np
+import pytest
+from assets import box, mesh_of
+
+from anymesh.pipeline.solving import solve
+
+SIDES = [((-0.4, -0.3, 0), (-0.38, 0.3, 0.5)), ((0.38, -0.3, 0), (0.4, 0.3, 0.5)), ((-0.4, 0.28, 0), (0.4, 0.3, 0.5))]
+LEVELS = [((-0.4, -0.3, z), (0.4, 0.3, z + 0.02)) for z in (0, 0.24, 0.48)]
+DRAWERS = [((-0.37, -0.3, z), (0.37, 0.25, z + 0.19)) for z in (0.03, 0.27)]
+KNOBS = [((-0.02, -0.33, z), (0.02, -0.3, z + 0.03)) for z in (0.12, 0.36)]
+CHEST = [box(*corners) for corners in (*SIDES, *LEVELS, *DRAWERS, *KNOBS)]
+
+
+@pytest.mark.parametrize("side", [0.6, 3.0])
+def test_a_chest_on_a_ground_has_the_drawers_that_it_has_without_one(side: float) -> None:
+    alone, grounded = mesh_of(CHEST)[0], mesh_of([*CHEST, box((-side, -side, -0.02), (side, side, 0))])[0]
+    parts, joints = solve(alone)
+    on_ground, ground_joints = solve(grounded)
+    assert len(joints) == len(DRAWERS)
+    count = len(parts.face_part)
+    np.testing.assert_array_equal(on_ground.face_part[:count], parts.face_part)
+    assert (on_ground.face_part[count:] == 0).all()
+    for joint, other in zip(joints, ground_joints, strict=True):
+        assert other.type is joint.type
+        np.testing.assert_allclose(other.axis, joint.axis, atol=1e-6)
