@@ -17,13 +17,13 @@ def ground(*shapes: tuple[np.ndarray, np.ndarray]) -> list[int]:
     return np.flatnonzero(faces.all(1)).tolist()
 
 
-@pytest.mark.parametrize("low, high", [((-1, -1, -0.02), (1, 1, 0)), ((-0.37, -0.3, -0.02), (0.37, 0.3, 0.01))])
+@pytest.mark.parametrize(("low", "high"), [((-1, -1, -0.02), (1, 1, 0)), ((-0.37, -0.3, -0.02), (0.37, 0.3, 0.01))])
 def test_a_slab_that_reaches_beyond_a_cabinet_is_its_ground(low: tuple, high: tuple) -> None:
     assert ground(*CABINET, box(low, high)) == [2]
 
 
 @pytest.mark.parametrize(
-    "low, high",
+    ("low", "high"),
     [
         ((-0.3, -0.22, -0.02), (0.3, 0.2, 0)),  # a plinth as wide as the cabinet
         ((-1, -0.22, -0.02), (1, 0.2, 0)),  # a shelf that is no deeper
