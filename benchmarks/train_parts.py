@@ -7,14 +7,12 @@ FOLDER: rows as `benchmarks/part_rows.py` writes them. Needs lightgbm and torch.
     python benchmarks/kinds.py KINDS --seed 11 --count 6
     python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen sweethome3d metaworld libero examples \
         scene-synthesizer static:KINDS@kinds
-    python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds --change fused --most 180
-    python benchmarks/part_rows.py FOLDER static:KINDS@kinds --change fused --most 60
+    python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds --change C --most N
+    python benchmarks/part_rows.py FOLDER static:KINDS@kinds --change C --most S  with N, S = 312, 95 for C = fused, 342, 76 for
+        misplaced, 304, 60 for detailed, 128, 52 for furnished
     python benchmarks/part_rows.py FOLDER labelled:INFINIGEN@infinigen --change fused --most 53
     python benchmarks/part_rows.py FOLDER sweethome3d --change fused --most 12
-    python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds --change C --most N  with N = 240 for C = detailed and misplaced,
-        80 for furnished and floored
-    python benchmarks/part_rows.py FOLDER sweethome3d labelled:INFINIGEN@infinigen static:KINDS@kinds --change C --most 32
-        for these four
+    python benchmarks/part_rows.py FOLDER sweethome3d labelled:INFINIGEN@infinigen --change C --most 32  for the three others
 """
 
 from __future__ import annotations
