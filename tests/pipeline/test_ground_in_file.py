@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 
-from anymesh.pipeline.solving import solve
+from anymesh.pipeline.geometry_stages import GROUND_WARNING
+from anymesh.pipeline.solving import Solver, solve
 
 SIDES = [((-0.4, -0.3, 0), (-0.38, 0.3, 0.5)), ((0.38, -0.3, 0), (0.4, 0.3, 0.5)), ((-0.4, 0.28, 0), (0.4, 0.3, 0.5))]
 LEVELS = [((-0.4, -0.3, z), (0.4, 0.3, z + 0.02)) for z in (0, 0.24, 0.48)]
@@ -25,3 +26,9 @@ def test_a_chest_on_a_ground_has_the_drawers_that_it_has_without_one(side: float
     for joint, other in zip(joints, ground_joints, strict=True):
         assert other.type is joint.type
         np.testing.assert_allclose(other.axis, joint.axis, atol=1e-6)
+
+
+@pytest.mark.parametrize("grounded", [True, False])
+def test_a_ground_gives_a_warning(grounded: bool) -> None:
+    slab = [box((-2, -2, -0.02), (2, 2, 0))] if grounded else []
+    assert (GROUND_WARNING in Solver(mesh_of([*CHEST, *slab])[0]).parts().warnings) == grounded

@@ -7,6 +7,7 @@ from dataclasses import replace
 from functools import cached_property
 
 import numpy as np
+from jaxtyping import Bool
 
 from anymesh.articulation.estimate import PartMotions, choose_motion, estimate_joints, motion_questions, with_labels_of
 from anymesh.articulation.part_labels import label_of
@@ -22,6 +23,8 @@ from anymesh.segmentation.segment import segment_parts
 from anymesh.types import JointType, Mesh, Segmentation
 from anymesh.types.recognition import Recognition
 from anymesh.vlm.reference import Reference, reference_of
+
+GROUND_WARNING = "the file contains a ground; it is part of the base, and the movable parts were found without it"
 
 
 class GeometryStages:
@@ -44,13 +47,19 @@ class GeometryStages:
     def _divided(self) -> DividedSurface:
         return divide_surface(self.mesh, self.config.seed, self.config.patches)
 
+    @cached_property
+    def _ground(self) -> Bool[np.ndarray, " F"]:
+        return ground_faces(self.mesh)
+
     def recognize(self, *, sized: bool = False, metric: bool = False) -> RecognitionResult:
         """Return that nothing was recognized."""
         return RecognitionResult(None, self.name)
 
     def find_parts(self, recognition: Recognition | None, progress: Progress = silent) -> SegmentationResult:
         """Run Stage A."""
-        return segmentation_result(self.parts(progress), self.name, self.deadline.warnings())
+        parts = self.parts(progress)
+        ground = (GROUND_WARNING,) if self._ground.any() else ()
+        return segmentation_result(parts, self.name, self.deadline.warnings() + ground)
 
     def estimate_joints(
         self, segmentation: Segmentation, recognition: Recognition | None, progress: Progress = silent, grounded: bool = False
@@ -62,7 +71,7 @@ class GeometryStages:
     def parts(self, progress: Progress = silent) -> Segmentation:
         """Return the parts found by geometry, computed once; a ground belongs to the base."""
         if self._by_itself is None:
-            kept = np.flatnonzero(~ground_faces(self.mesh))
+            kept = np.flatnonzero(~self._ground)
             object_, whole = self.mesh, self.whole
             if len(kept) < len(self.mesh.faces):
                 object_ = self.mesh.subset(kept)
