@@ -21,7 +21,7 @@ import still_models  # noqa: E402
 def test_no_shipped_classifier_was_trained_on_a_kind_for_measuring() -> None:
     names = {name.partition("/")[2] for name in trained_objects()}
     assert len(names) > 500
-    measured = kinds.RESERVED | kinds.TEST
+    measured = kinds.RESERVED | kinds.TEST | kinds.UNTRAINED
     assert not set(measured) & set(kinds.KINDS)
     assert not [name for name in names for kind in measured if name.startswith(f"{kind}-")]
 
@@ -29,7 +29,12 @@ def test_no_shipped_classifier_was_trained_on_a_kind_for_measuring() -> None:
 def test_kinds_for_training_are_written_by_default(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     written: list[str] = []
     monkeypatch.setattr(kinds, "write", lambda kind, *_: written.append(kind))
-    for options, expected in (([], kinds.KINDS), (["--test"], kinds.TEST), (["--reserved"], kinds.RESERVED)):
+    for options, expected in (
+        ([], kinds.KINDS),
+        (["--test"], kinds.TEST),
+        (["--untrained"], kinds.UNTRAINED),
+        (["--reserved"], kinds.RESERVED),
+    ):
         monkeypatch.setattr(sys, "argv", ["kinds.py", str(tmp_path), "--count", "1", *options])
         written.clear()
         kinds.main()
