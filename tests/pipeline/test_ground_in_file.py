@@ -2,8 +2,10 @@
 
 import numpy as np
 import pytest
+import trimesh
 from assets import box, mesh_of
 
+from anymesh.geometry.ground import ground_faces
 from anymesh.pipeline.geometry_stages import GROUND_WARNING
 from anymesh.pipeline.solving import Solver, solve
 
@@ -26,6 +28,14 @@ def test_a_chest_on_a_ground_has_the_drawers_that_it_has_without_one(side: float
     for joint, other in zip(joints, ground_joints, strict=True):
         assert other.type is joint.type
         np.testing.assert_allclose(other.axis, joint.axis, atol=1e-6)
+
+
+def test_a_lid_in_a_floor_is_found() -> None:
+    floor = [((-1, -1, 0), (1, -0.31, 0.03)), ((-1, 0.31, 0), (1, 1, 0.03)), ((-1, -0.31, 0), (-0.31, 0.31, 0.03))]
+    plate = trimesh.boolean.union([trimesh.creation.box(bounds=b) for b in [*floor, ((0.31, -0.31, 0), (1, 0.31, 0.03))]])
+    mesh = mesh_of([(plate.vertices, plate.faces), box((-0.3, -0.3, 0), (0.3, 0.3, 0.03))])[0]
+    assert ground_faces(mesh).any()
+    assert len(solve(mesh)[1]) == 1
 
 
 @pytest.mark.parametrize("grounded", [True, False])

@@ -24,7 +24,7 @@ from anymesh.types import JointType, Mesh, Segmentation
 from anymesh.types.recognition import Recognition
 from anymesh.vlm.reference import Reference, reference_of
 
-GROUND_WARNING = "the file contains a ground; it is part of the base, and the movable parts were found without it"
+GROUND_WARNING = "the file contains a ground, which is part of the base"
 
 
 class GeometryStages:
@@ -69,24 +69,30 @@ class GeometryStages:
         return joint_result(joints, self.name, self.deadline.warnings())
 
     def parts(self, progress: Progress = silent) -> Segmentation:
-        """Return the parts found by geometry, computed once; a ground belongs to the base."""
+        """Return the parts found by geometry, computed once.
+
+        A ground belongs to the base and is left out; if nothing moves without it, it may be what the parts hang on.
+        """
         if self._by_itself is None:
-            kept = np.flatnonzero(~self._ground)
-            object_, whole = self.mesh, self.whole
-            if len(kept) < len(self.mesh.faces):
-                object_ = self.mesh.subset(kept)
-                whole = object_shape(object_, self.config.seed, self.config.patches)
-
-            def on_mesh(segmentation: Segmentation) -> Segmentation:
-                face_part = np.zeros(len(self.mesh.faces), np.int64)
-                face_part[kept] = segmentation.face_part
-                return replace(segmentation, face_part=face_part)
-
-            def labels(segmentation: Segmentation) -> list[str]:
-                return self._labels(on_mesh(segmentation))
-
-            self._by_itself = on_mesh(segment_parts(object_, whole, labels, self.config, progress, self.deadline))
+            above = self._parts_above_ground(progress) if self._ground.any() else None
+            if above is None or len(above.parts) == 1:
+                above = segment_parts(self.mesh, self.whole, self._labels, self.config, progress, self.deadline)
+            self._by_itself = above
         return self._by_itself
+
+    def _parts_above_ground(self, progress: Progress) -> Segmentation:
+        object_ = self.mesh.subset(~self._ground)
+        whole = object_shape(object_, self.config.seed, self.config.patches)
+
+        def with_ground(segmentation: Segmentation) -> Segmentation:
+            face_part = np.zeros(len(self.mesh.faces), np.int64)
+            face_part[~self._ground] = segmentation.face_part
+            return replace(segmentation, face_part=face_part)
+
+        def labels(segmentation: Segmentation) -> list[str]:
+            return self._labels(with_ground(segmentation))
+
+        return with_ground(segment_parts(object_, whole, labels, self.config, progress, self.deadline))
 
     def _labels(self, segmentation: Segmentation) -> list[str]:
         """Return a label of each part but the base from its motion by geometry; "" for a part that cannot move."""
