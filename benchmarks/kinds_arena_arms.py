@@ -19,7 +19,7 @@ def slab(k: Look, outline: Polygon, half: float) -> list[Trimesh]:
     return found
 
 
-def trigger(m: Model, k: Look, y: float, z: float, half: float) -> None:
+def trigger(m: Model, y: float, z: float, half: float) -> None:
     """A guard below (y, z) and a trigger that is pulled back."""
     deep, long = m.number(0.022, 0.03), m.number(0.022, 0.03)
     way = m.pick(
@@ -81,7 +81,7 @@ def revolver_gun(m: Model) -> None:
         m.hinge("barrel", (0, -0.013, low - 0.8 * r), (1, 0, 0), m.pick(50, 80))
     _drum(m, k, style, center, drum, r, shots)
     _hammer(m, drum + 0.026, top, half)
-    trigger(m, k, drum - 0.004, low - r, half)
+    trigger(m, drum - 0.004, low - r, half)
     if style == "solid" and m.chance(0.6):
         m.add("gate", box((half, half + 0.004), (drum + 0.004, drum + 0.016), (center - 0.012, center + 0.012)))
         m.hinge("gate", (half + 0.002, drum + 0.01, center - 0.012), (0, 1, 0), 80)

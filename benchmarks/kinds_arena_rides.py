@@ -47,7 +47,7 @@ def _nose(m: Model, k: Look, w: float, d: float, floor: float, wall: float) -> T
 
 
 def _rows(m: Model, k: Look, style: str, rows: int, pitch: float, seats: int, w: float, d: float, floor: float) -> None:
-    """Benches or single seats and what holds the riders: a bar a row, a bar a seat or a harness a seat."""
+    """Benches or single seats and what holds the riders: a bar per row or seat, or a harness per seat."""
     hold = "harness" if style == "beam" and m.chance(0.8) else m.pick("bar", "bar", "single", "harness")
     base, rest = floor + 0.34, m.number(0.6, 0.85)
     for i in range(rows):

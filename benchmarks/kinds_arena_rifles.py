@@ -25,7 +25,7 @@ def assault_rifle(m: Model) -> None:
         m.add(BASE, rod((0, -gun - m.number(0.02, 0.12), 0.2 * h), (0, -gun + 0.01, 0.2 * h), m.number(0.011, 0.018), n))
     y = 0.1 * long if style == "bullpup" else m.number(0.62, 0.7) * long
     m.add(BASE, *grip(m, k, y + 0.02, -h, 0.8 * half, 0.09))
-    trigger(m, k, y - 0.012, -h, half)
+    trigger(m, y - 0.012, -h, half)
     _magazine(m, k, 0.6 * long if style == "bullpup" else y - 0.105, h, half)
     _stock(m, k, style, long, rear, h, half)
     _handles(m, k, long, h, half, guard)

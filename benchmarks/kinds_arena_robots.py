@@ -35,7 +35,7 @@ def humanoid_robot(m: Model) -> None:
     pose, grip = m.pick(0, 8, 8, 45, 85), m.pick("fist", "claw", "fingers")
     for side, name in ((-1, "right"), (1, "left")):
         _arm(m, k, torso, side, name, vec(side * (broad + 0.05 * s), 0, low + 0.88 * tall), s, pose, grip)
-        _leg(m, k, side, name, vec(side * 0.09 * s, 0, hip - 0.04 * s), hip, s)
+        _leg(m, k, name, vec(side * 0.09 * s, 0, hip - 0.04 * s), s)
 
 
 def _head(m: Model, k: Look, torso: str, z: float, s: float) -> None:
@@ -100,7 +100,7 @@ def _hand(m: Model, k: Look, name: str, wrist: np.ndarray, way: np.ndarray, s: f
             m.hinge(finger, at, side * FORWARD, (0, 80), hand)
 
 
-def _leg(m: Model, k: Look, side: int, name: str, at: np.ndarray, hip: float, s: float) -> None:
+def _leg(m: Model, k: Look, name: str, at: np.ndarray, s: float) -> None:
     """Thigh, shin and foot below a hip."""
     ankle = vec(at[0], 0, 0.09 * s)
     knee = at + 0.5 * (ankle - at)

@@ -53,7 +53,7 @@ def siege_tower_ramp(m: Model) -> None:
         ),
     )
     m.hinge("ramp", (0, hinge_y, gate_low), (1, 0, 0), m.pick(90, 100, 120))
-    _roof(m, k, wide, top)
+    _roof(m, wide, top)
     _running(m, k, w, lift)
     _extras(m, k, w, front, lift, gate_low)
 
@@ -75,7 +75,7 @@ def _skins(m: Model, k: Look, w: float, a: float, lift: float, high: float, t: f
             m.add(BASE, *k.limb((s * w, -0.9 * w, lift + 0.2), (s * a, 0.9 * a, high - 0.1), 0.12, 0.14))
 
 
-def _roof(m: Model, k: Look, wide: float, top: float) -> None:
+def _roof(m: Model, wide: float, top: float) -> None:
     """A deck with battlements, a ridged roof or nothing."""
     kind = m.pick("deck", "ridge", "beams")
     a = wide + 0.12

@@ -29,7 +29,7 @@ def mech_walker(m: Model) -> None:
                 _leg(m, k, f"{end}_{side}", vec(x * (0.6 * w + 0.12), 0.75 * y * d, hip), style, y)
         else:
             _leg(m, k, side, vec(x * (0.6 * w + 0.12), 0, hip), style, 1)
-    _arms(m, k, hull, w, d, low, h)
+    _arms(m, k, hull, w, low, h)
     _top(m, k, hull, w, d, low, h)
 
 
@@ -90,7 +90,7 @@ def _leg(m: Model, k: Look, name: str, at: np.ndarray, style: str, way: int) -> 
     m.hinge(foot, end, (1, 0, 0), (-20, 25), parent)
 
 
-def _arms(m: Model, k: Look, hull: str, w: float, d: float, low: float, h: float) -> None:
+def _arms(m: Model, k: Look, hull: str, w: float, low: float, h: float) -> None:
     """Guns at the shoulders: boxes with barrels that pitch, or arms with forearms, or none."""
     style = m.pick("gun", "gun", "pod", "arm", "none")
     if style == "none":

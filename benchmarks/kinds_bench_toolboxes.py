@@ -194,7 +194,7 @@ def _drawer(m: Model, style: str, part: str, x: Span, z: Span, deep: float, insi
 
 
 def _cantilever(m: Model, style: str) -> None:
-    """A tub with a lid in two halves or a tray a side on links; a bar to carry it."""
+    """A tub with a lid in two halves or one tray per side on links; a bar to carry it."""
     w, d, h = m.number(0.36, 0.5), m.number(0.2, 0.24), m.number(0.12, 0.16)
     x = (-w / 2, w / 2)
     m.add(BASE, _hollow(style, x, (0, d), (0, h), 0.003))

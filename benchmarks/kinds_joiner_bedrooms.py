@@ -108,7 +108,7 @@ def vanity_desk(m: Model) -> None:
     m.add(BASE, slab(look, shrunk(x, -0.015), (-0.025 - look.thick, deep), (high, top)))
     mirror = m.pick("tilting", "wings", "fixed", "round", "none")
     if mirror == "wings":
-        _winged(m, look, wide, deep, top)
+        _winged(m, wide, deep, top)
     elif mirror != "none":
         _mirror(m, look, mirror, wide, deep, top)
 
@@ -152,7 +152,7 @@ def _mirror(m: Model, look: Look, sort: str, wide: float, deep: float, top: floa
         m.add(BASE, box((cx - 0.6 * half, cx + 0.6 * half), (y, y + 0.03), (top, top + 0.05)))
 
 
-def _winged(m: Model, look: Look, wide: float, deep: float, top: float) -> None:
+def _winged(m: Model, wide: float, deep: float, top: float) -> None:
     """A fixed mirror with two wings on hinges."""
     half, tall, y = m.number(0.15, 0.2) * wide, m.number(0.5, 0.7), deep - 0.03
     z = (top, top + tall)

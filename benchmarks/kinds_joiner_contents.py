@@ -10,7 +10,7 @@ from kinds_solids import Span, box, cut, prism, rod
 from trimesh import Trimesh
 
 
-def tray(m: Model, look: Look, x: Span, y: Span, z: Span) -> list[Trimesh]:
+def tray(look: Look, x: Span, y: Span, z: Span) -> list[Trimesh]:
     """The box behind the front of a drawer."""
     t = min(0.012, 0.1 * (x[1] - x[0]))
     if look.way == "sheet":

@@ -113,7 +113,7 @@ def drawer(m: Model, look: Look, c: Cell, more: str) -> None:
     if look.inside:
         clear = 0.012 if look.way == "cad" else m.pick(0.003, 0.006, 0.012)
         back = c.y[0] + 0.92 * deep
-        m.add(part, *tray(m, look, shrunk(c.x, clear), (y[1], back), (c.z[0] + clear, c.z[0] + 0.75 * (c.z[1] - c.z[0]))))
+        m.add(part, *tray(look, shrunk(c.x, clear), (y[1], back), (c.z[0] + clear, c.z[0] + 0.75 * (c.z[1] - c.z[0]))))
         if look.way == "cad":
             runners(m, part, c, (y[1] + 0.01, back), c.z[0] + 0.3 * (c.z[1] - c.z[0]))
     m.slide(part, (0, -1, 0), m.pick(0.5, 0.65, 0.8) * deep)

@@ -13,7 +13,7 @@ from trimesh import Trimesh
 def front(m: Model, look: Look, x: Span, z: Span, y: Span, glass: bool = False) -> list[Trimesh]:
     """The panel of a door or drawer between two depths, y[0] in front."""
     if glass:
-        return glazed(m, look, x, z, y)
+        return glazed(look, x, z, y)
     return {"prop": _prop, "sheet": _sheet, "cad": _cad, "round": _round, "block": _block, "old": _old}[look.way](look, x, z, y)
 
 
@@ -78,17 +78,6 @@ def _cad(look: Look, x: Span, z: Span, y: Span) -> list[Trimesh]:
     return planks + battens
 
 
-def _louvred(x: Span, z: Span, y: Span) -> list[Trimesh]:
-    """A frame with tilted slats."""
-    e, thick = _edge(x, z), y[1] - y[0]
-    lines = parted(shrunk(z, e), (1,) * min(20, max(2, round((z[1] - z[0] - 2 * e) / 0.045))), 0.0)
-    front_y, back_y = y[0] + 0.1 * thick, y[1] - 0.1 * thick
-    slats = [[(front_y, a), (front_y, a + 0.006), (back_y, b + 0.003), (back_y, b - 0.003)] for a, b in lines[:-1]]
-    a, b = lines[-1]
-    last = [(front_y, a), (front_y, a + 0.006), (back_y, b), (back_y, b - 0.006)]
-    return [*_members(x, z, y, e), *(prism(s, "x", shrunk(x, e - 0.003)) for s in [*slats, last])]
-
-
 def _round(look: Look, x: Span, z: Span, y: Span) -> list[Trimesh]:
     r = min(0.014, 0.3 * min(x[1] - x[0], z[1] - z[0]))
     if look.design == 0:
@@ -147,7 +136,7 @@ def _old(look: Look, x: Span, z: Span, y: Span) -> list[Trimesh]:
     return [box(x, y, z), bead, *([lozenge] if look.design == 1 or z[1] - z[0] > 0.3 else [])]
 
 
-def glazed(m: Model, look: Look, x: Span, z: Span, y: Span) -> list[Trimesh]:
+def glazed(look: Look, x: Span, z: Span, y: Span) -> list[Trimesh]:
     """A frame with a pane, perhaps with bars across it, or a bare pane."""
     e, thick, at = _edge(x, z), y[1] - y[0], middle(y)
     if look.way == "sheet":

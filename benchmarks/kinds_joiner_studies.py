@@ -41,7 +41,7 @@ def computer_desk(m: Model) -> None:
     top = high + m.number(0.018, 0.035)
     m.add(BASE, slab(look, shrunk(x, -0.01), (-0.02, deep), (high, top)))
     if m.chance(0.7) or layout == "trestle":
-        _keyboard_tray(m, look, shrunk(room, 0.03 if layout != "trestle" else 0.09), deep, high)
+        _keyboard_tray(m, shrunk(room, 0.03 if layout != "trestle" else 0.09), high)
     elif m.chance(0.6):
         fit(
             m,
@@ -54,7 +54,7 @@ def computer_desk(m: Model) -> None:
         _screen(m, middle(room), 0.62 * deep, top)
 
 
-def _keyboard_tray(m: Model, look: Look, room: Span, deep: float, high: float) -> None:
+def _keyboard_tray(m: Model, room: Span, high: float) -> None:
     """A board on runners below the top, with a lip or a keyboard on it."""
     part, z = named(m, "tray"), high - m.number(0.07, 0.1)
     x = room if room[1] - room[0] < 0.8 else (middle(room) - 0.35, middle(room) + 0.35)

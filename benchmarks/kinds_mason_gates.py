@@ -11,7 +11,7 @@ from kinds_model import BASE, Model
 from kinds_solids import Span, ball, box, ring, rod, tube
 
 
-def _pickets(m: Model, style: str, a: Span, c: Span, y: Span, count: int, top: str, rise: float) -> list:
+def _pickets(style: str, a: Span, c: Span, y: Span, count: int, top: str, rise: float) -> list:
     """Upright boards with shaped tops; rise: how the row swells at its middle."""
     pitch, made = (a[1] - a[0]) / count, []
     half, z0, x0 = 0.5 * pitch * 0.7, c[0], a[0]
@@ -79,7 +79,7 @@ def picket_gate(m: Model) -> None:
     front, back = (0.0, 0.4 * d), (0.4 * d, d)
     for k, (a, side) in enumerate(zip(spans, sides, strict=True)):
         part = f"gate_{k}" if pair else "gate"
-        m.add(part, *_pickets(m, style, a, (0.06, high), front, count, top, rise))
+        m.add(part, *_pickets(style, a, (0.06, high), front, count, top, rise))
         m.add(part, *(slab(style, a, back, (s * high, s * high + 0.07)) for s in rails))
         if m.chance(0.7):
             p, q = (a[0], a[1]) if side < 0 else (a[1], a[0])
@@ -106,11 +106,11 @@ def picket_gate(m: Model) -> None:
     for side, x in ((-1, -2 * half), (1, wide + 2 * half)):
         if m.chance(0.6):
             a = (x - m.number(0.6, 1.6), x) if side < 0 else (x, x + m.number(0.6, 1.6))
-            m.add(BASE, *_pickets(m, style, a, (0.06, high), front, m.pick(5, 8, 10), top, 0.0))
+            m.add(BASE, *_pickets(style, a, (0.06, high), front, m.pick(5, 8, 10), top, 0.0))
             m.add(BASE, *(slab(style, (a[0] - 0.002, a[1] + 0.002), back, (s * high, s * high + 0.07)) for s in rails))
 
 
-def _iron_leaf(m: Model, look: dict, a: Span, side: int) -> list:
+def _iron_leaf(look: dict, a: Span, side: int) -> list:
     """Bars between rails with tips, collars, rings and a sheet at the foot; the top falls or rises to the middle."""
     r, n, high, y = look["r"], look["n"], look["high"], 0.0
     stile = 1.8 * r
@@ -180,13 +180,13 @@ def iron_gate_pair(m: Model) -> None:
             )
         if m.chance(0.5):
             b = (x - half - 1.2, x - half) if side < 0 else (x + half, x + half + 1.2)
-            m.add(BASE, *_iron_leaf(m, look | {"rise": 0}, b, side))
+            m.add(BASE, *_iron_leaf(look | {"rise": 0}, b, side))
     if m.chance(0.25):
         m.add(BASE, *_overthrow(m, (-half, wide + half), half - 1.8 * r, high))
     for k, side in enumerate((-1, 1)):
         a = (gap, wide / 2 - gap / 2) if side < 0 else (wide / 2 + gap / 2, wide - gap)
         part, x = f"gate_{k}", a[(side + 1) // 2]
-        m.add(part, *_iron_leaf(m, look, a, side))
+        m.add(part, *_iron_leaf(look, a, side))
         knuckles(m, "old", part, x, -1.8 * r, (0.1, 0.9 * high), side)
         m.add(BASE, *(box((x, x + side * (gap + 0.03)), (-1.8 * r, 0.0), (s * high, s * high + 0.03)) for s in (0.2, 0.8)))
         swing(m, part, x, -1.8 * r, side, m.pick(85, 90, 100))

@@ -10,7 +10,7 @@ from kinds_solids import around, ball, box, cut, prism, rectangle, ring, rod, tu
 from shapely.geometry import Point
 
 
-def _seats(m: Model, style: str, r: float, z: float, count: int) -> list:
+def _seats(style: str, r: float, z: float, count: int) -> list:
     """Benches about the middle with backs."""
     made = [slab(style, (0.55 * r, 0.85 * r), (-0.18 * r, 0.18 * r), (z + 0.25, z + 0.29))]
     made += [slab("prop" if style == "sheet" else style, (0.65 * r, 0.75 * r), (-0.1 * r, 0.1 * r), (z - 0.002, z + 0.252))]
@@ -77,7 +77,7 @@ def _dish(m: Model, r: float, z: float, n: int) -> None:
 
 def _benches(m: Model, style: str, r: float, z: float, n: int, hub: bool) -> None:
     """Benches on a disc about a wheel on a pole, which stands when there is a hub, perhaps below a roof."""
-    m.add("platform", *_seats(m, style, r, z, m.pick(3, 4, 6)))
+    m.add("platform", *_seats(style, r, z, m.pick(3, 4, 6)))
     pole, part = z + m.number(0.45, 0.6), BASE if hub else "platform"
     m.add(part, rod((0, 0, 0 if hub else z - 0.01), (0, 0, pole), 0.04, n), ring((0, 0, pole), (0, 0, 1), 0.3 * r, 0.018, n))
     m.add(part, *around(rod((0, 0, pole), (0.3 * r, 0, pole), 0.012, 8), 4))

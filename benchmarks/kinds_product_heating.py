@@ -126,7 +126,7 @@ def rice_pot_cooker(m: Model) -> None:
         rows = [(0.55, 0.04), (0.68, 0.06), (0.7, high - 0.002), (0.76, high - 0.002), (0.76, high), (0.67, high), (0.65, 0.06)]
         m.add("pot", loft(np.array([plan(size, z) for size, z in rows])))
         m.slide("pot", UP, 0.6 * high)
-    _cooker_front(look, -long * (1.0 + 0.5 * belly), high, top, r)
+    _cooker_front(look, -long * (1.0 + 0.5 * belly), high, r)
     if m.chance(0.5):
         w, h = (1.0 + belly) * r + 0.006, high * 0.75
         path = [(w, 0, h), (w + 0.004, -0.02, 0.5 * high), (w, -0.9 * long, 0.35 * high)]
@@ -136,7 +136,7 @@ def rice_pot_cooker(m: Model) -> None:
         m.hinge("bow", (0, 0, h), (-1, 0, 0), (0, m.pick(70, 80)) if m.chance(0.5) else (-70, 0))
 
 
-def _cooker_front(look: Look, y: float, high: float, top: float, r: float) -> None:
+def _cooker_front(look: Look, y: float, high: float, r: float) -> None:
     """A plate of keys, a screen and the catch of the lid, at the front of a rice cooker."""
     m, out = look.m, look.m.number(0.004, 0.01)
     m.add(BASE, look.block((-0.45 * r, 0.45 * r), (y - out, y + 0.25 * r), (0.2 * high, 0.8 * high), leave="y"))

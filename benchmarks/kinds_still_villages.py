@@ -15,7 +15,7 @@ from kinds_wheels import beam, lathe
 from trimesh import Trimesh
 
 
-def _fixed_glass(m: Model, x: Span, y: float, z: Span, look: str, bars: tuple[int, int]) -> list[Trimesh]:
+def _fixed_glass(x: Span, y: float, z: Span, look: str, bars: tuple[int, int]) -> list[Trimesh]:
     """Make a glazed opening on a wall at y: pane, surround, glazing bars, sill and a cap, all fixed."""
     wide, mid = x[1] - x[0], (x[0] + x[1]) / 2
     rim, t = 0.08 * wide, 0.02
@@ -38,7 +38,7 @@ def _fixed_glass(m: Model, x: Span, y: float, z: Span, look: str, bars: tuple[in
     return solids
 
 
-def _tiled(m: Model, x: Span, y: Span, low: float, high: float, how: str, rows: int) -> list[Trimesh]:
+def _tiled(x: Span, y: Span, low: float, high: float, how: str, rows: int) -> list[Trimesh]:
     """Make a gable roof along x: two slabs, two slabs with laths or tiles in steps, or a solid."""
     mid, t = (y[0] + y[1]) / 2, 0.12
     if how == "solid":
@@ -106,7 +106,7 @@ def brick_chimney_roof(m: Model) -> None:
     wide, deep, rise, size = sizes(m, (2.5, 6.0), (2.0, 4.5), (0.8, 2.5), (0.5, 1.0))
     x, y, how = (-wide / 2, wide / 2), (-deep / 2, deep / 2), m.pick("gable", "gable", "lean", "flat", "hip")
     if how == "gable":
-        m.add(BASE, *_tiled(m, x, y, 0, rise, m.pick("solid", "slabs", "laths", "steps"), m.pick(5, 8, 12)))
+        m.add(BASE, *_tiled(x, y, 0, rise, m.pick("solid", "slabs", "laths", "steps"), m.pick(5, 8, 12)))
         m.add(BASE, prism([(y[0] + 0.2, 0.05), (y[1] - 0.2, 0.05), (0, rise)], "x", shrunk(x, 0.1)))
     elif how == "lean":
         m.add(BASE, prism([(y[0], 0), (y[1], 0), (y[1], rise)], "x", x))
@@ -146,7 +146,7 @@ def _house_walls(m: Model, half_x: float, half_y: float, high: float, floors: in
             low, tall = high * (k + 0.3) / floors, high * 0.45 / floors
             for a in np.linspace(-half, half, 2 * count + 1)[1::2] if m.chance(0.8) else ():
                 size = min(0.5, 0.3 * half / count + 0.1, 0.45 * tall)
-                solids += _fixed_glass(m, (a - size, a + size), -out, (low, low + tall), look, bars)
+                solids += _fixed_glass((a - size, a + size), -out, (low, low + tall), look, bars)
         if timber:
             solids += [box((a - 0.08, a + 0.08), (-out - 0.05, -out), (0, high)) for a in np.linspace(-half, half, count + 1)]
             solids += [box((-half, half), (-out - 0.05, -out), (c - 0.08, c + 0.08)) for c in (0.08, high / floors - 0.08)]
@@ -167,7 +167,7 @@ def village_house_block(m: Model) -> None:
     if roof == "gable":
         m.add(BASE, prism([(y[0], high), (y[1], high), (0, high + rise)], "x", x))
         drop = 2 * rise * over / deep
-        m.add(BASE, *_tiled(m, ox, oy, high - drop, high + rise, m.pick("slabs", "laths", "steps"), m.pick(4, 7, 10)))
+        m.add(BASE, *_tiled(ox, oy, high - drop, high + rise, m.pick("slabs", "laths", "steps"), m.pick(4, 7, 10)))
     elif roof == "flat":
         m.add(
             BASE, box(ox, oy, (high, high + 0.2)), *[prism(rectangle(x, y, 0.2), "z", (high + 0.2, high + 0.6))][: m.pick(0, 1)]

@@ -106,6 +106,12 @@ def _cap_top(m: Model, look: Look, kind: str, size: tuple[float, float, float], 
         m.add("cap", tube(path, 0.14 * cap, 8))
 
 
+def _collar(m: Model, look: Look, profile: list[tuple[float, float]], neck: float, z: float) -> None:
+    """Add the collar that is screwed on a neck, with its middle at z."""
+    m.add("collar", shell(look, profile, 0.1 * neck, outline(look.n), down=True))
+    m.spin("collar", (0, 0, z), (0, 0, 1))
+
+
 def trigger_sprayer(m: Model) -> None:
     """A bottle with a spray head: a trigger, a collar that is screwed, a nozzle that is turned."""
     look = draw_look(m)
@@ -114,19 +120,9 @@ def trigger_sprayer(m: Model) -> None:
     bottle(m, look, r, high, neck)
     low, up = 0.93 * high, high + 0.3 * neck
     collar = 1.25 * neck
-    m.add(
-        "collar",
-        shell(
-            look,
-            [(collar, low), (collar, up - 0.2 * neck), (0.9 * collar, up), (0, up)],
-            0.1 * neck,
-            outline(look.n),
-            down=True,
-        ),
-    )
+    _collar(m, look, [(collar, low), (collar, up - 0.2 * neck), (0.9 * collar, up), (0, up)], neck, (low + up) / 2)
     if not look.plain:
         m.add("collar", *ribs(20, collar, (low + 0.1 * neck, up - 0.3 * neck), 0.05 * neck))
-    m.spin("collar", (0, 0, (low + up) / 2), (0, 0, 1))
     w, tall = m.number(0.55, 0.8) * neck, m.number(1.4, 2.2) * neck
     front, back = -m.number(2.2, 3.5) * neck, m.number(0.9, 2.6) * neck
     z0, z1 = up + 0.8 * neck, up + 0.8 * neck + tall
@@ -197,19 +193,9 @@ def pump_bottle(m: Model) -> None:
     bottle(m, look, r, high, neck)
     low, up = 0.93 * high, high + 0.35 * neck
     collar = 1.25 * neck
-    m.add(
-        "collar",
-        shell(
-            look,
-            [(collar, low), (collar, up), (0.6 * collar, up + 0.1 * neck), (0, up + 0.1 * neck)],
-            0.1 * neck,
-            outline(look.n),
-            down=True,
-        ),
-    )
+    _collar(m, look, [(collar, low), (collar, up), (0.6 * collar, up + 0.1 * neck), (0, up + 0.1 * neck)], neck, (low + up) / 2)
     if not look.plain and m.chance(0.6):
         m.add("collar", *ribs(24, collar, (low + 0.1 * neck, up - 0.1 * neck), 0.04 * neck))
-    m.spin("collar", (0, 0, (low + up) / 2), (0, 0, 1))
     press = m.number(0.7, 1.3) * neck
     z = up + 0.1 * neck + press
     m.add("pump", rod((0, 0, up - 0.3 * neck), (0, 0, z + 0.2 * neck), 0.3 * neck, look.n))

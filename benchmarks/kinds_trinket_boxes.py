@@ -39,7 +39,7 @@ def lunch_box(m: Model) -> None:
             ),
         )
     if m.chance(0.75):
-        _clips(m, look, (wide, deep), z, top, (1, -1) if lifted else (-1,))
+        _clips(m, (wide, deep), z, top, (1, -1) if lifted else (-1,))
     if kind == "dome" or m.chance(0.3):
         _folding_handle(m, look, 0.35 * wide, top, wall)
     if kind == "bento" and look.style in ("hollowed", "assembly", "soft") and m.chance(0.6):
@@ -81,7 +81,7 @@ def _lunch_lid(m: Model, look: Look, kind: str, span: tuple[Span, Span], z: floa
     return z + thick
 
 
-def _clips(m: Model, look: Look, size: tuple[float, float], z: float, top: float, sides: tuple[int, ...]) -> None:
+def _clips(m: Model, size: tuple[float, float], z: float, top: float, sides: tuple[int, ...]) -> None:
     """Clips that hang on the lid and hold under a rim of the box."""
     wide, deep = size
     reach, thick = m.number(0.018, 0.028), m.number(0.003, 0.005)

@@ -111,7 +111,7 @@ def _sides(m: Model, look: Look, r: float, thick: float, digital: bool) -> None:
             m.slide(name, (-side, 0, 0), 0.05 * r)
 
 
-def _lugs(m: Model, look: Look, r: float, thick: float, w: float, reach: float) -> None:
+def _lugs(m: Model, r: float, thick: float, w: float, reach: float) -> None:
     """Four horns that hold the pins of the band."""
     for s in (-1, 1):
         for t in (-1, 1):
@@ -126,7 +126,7 @@ def _lugs(m: Model, look: Look, r: float, thick: float, w: float, reach: float) 
 def _straps(m: Model, look: Look, r: float, thick: float, square: bool) -> None:
     """Two flat straps that swing at the lugs; one with a buckle and its tongue, or a folding clasp."""
     w, reach, t = 0.6 * r, (1.25 if square else 1.15) * r, 0.0022
-    _lugs(m, look, r, thick, w, reach)
+    _lugs(m, r, thick, w, reach)
     z, long, short = 0.4 * thick, m.number(4.5, 5.5) * r, m.number(3.2, 3.8) * r
     tip = Polygon(
         [

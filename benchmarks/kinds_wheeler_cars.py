@@ -49,7 +49,7 @@ def off_road_car(m: Model) -> None:
     else:
         tub = (screen + 0.12, min(base + 0.35, back - 0.35))
         hull.rest = cut(hull.rest, box((-0.8 * half, 0.8 * half), tub, (low + 0.05, roof)))
-        _open_top(m, half, waist, roof, screen, base, low + 0.05)
+        _open_top(m, half, waist, roof, screen, base)
     if (pose == "open" or hull.hollow) and (pose == "open" or style in ("cad", "sheet")) and not hull.laid:
         for s in (-1, 1):
             seat(m, style, (s * 0.38 * half, screen + 0.75, low + 0.04))
@@ -105,7 +105,7 @@ def _rear_door(hull: Hull, half: float, back: float, low: float, waist: float, r
         m.add("tailgate", box((-0.1, 0.1), (back - 0.02, back + 0.035 + hull.wall * hull.laid), (z1 - 0.2, z1 - 0.16)))
 
 
-def _open_top(m: Model, half: float, waist: float, roof: float, screen: float, base: float, floor: float) -> None:
+def _open_top(m: Model, half: float, waist: float, roof: float, screen: float, base: float) -> None:
     frame = prism(rectangle((-0.85 * half, 0.85 * half), (waist - 0.02, roof), 0.05), "y", (screen - 0.02, screen + 0.02))
     part = "windscreen" if m.chance(0.6) else BASE
     m.add(part, frame)

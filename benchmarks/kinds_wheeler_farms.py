@@ -156,7 +156,7 @@ def quad_bike(m: Model) -> None:
     for name, y in (("front", 0.0), ("rear", base)):
         axle(m, look, name, y, track, (r, w))
         _mudguards(m, y, r, track, w, z)
-    _bar(m, style, 0.18 * base, z + 0.3)
+    _bar(m, 0.18 * base, z + 0.3)
     m.add(BASE, *(rod((s * 0.1, -0.28, z + 0.1), (s * 0.1, -0.12, z + 0.1), 0.06, 12) for s in (-1, 1)))
     m.add(BASE, *(box((s * 0.1, s * 0.4), (0.35 * base, 0.65 * base), (r - 0.06, r - 0.02)) for s in (-1, 1)))
     for y0, y1 in ((-0.4, 0.12), (base - 0.1, base + 0.4)):
@@ -188,7 +188,7 @@ def _rack(m: Model, y0: float, y1: float, z: float) -> None:
     m.add(BASE, *(rod((s * 0.1, (y0 + y1) / 2, z - 0.4), (s * 0.15, (y0 + y1) / 2, z), 0.012, 6) for s in (-1, 1)))
 
 
-def _bar(m: Model, style: str, y: float, z: float) -> None:
+def _bar(m: Model, y: float, z: float) -> None:
     """The handlebar on its stem, with levers for the brake and at times a thumb throttle."""
     stem = vec(0, y - 0.04, z - 0.06)
     top = vec(0, y + 0.04, z + 0.16)

@@ -18,7 +18,7 @@ def fork_truck(m: Model) -> None:
     soft = 0.0 if style in ("low", "sheet") else m.number(0.03, 0.1)
     look = tyre_look(m, style)
     if m.chance(0.25):
-        _outriggers(m, look, half, fore)
+        _outriggers(m, look, half)
     else:
         axle(m, look, "front", 0.0, half + 0.02, (fore, 0.22))
     if m.chance(0.25):
@@ -99,7 +99,7 @@ def _guard(m: Model, style: str, half: float, base: float, deck: float, top: flo
         m.add(BASE, rod((0.6 * w, y1 - 0.03, top - 0.02), (0.6 * w, y1 - 0.03, top + 0.12), 0.05, 12))
 
 
-def _outriggers(m: Model, look: dict, half: float, fore: float) -> None:
+def _outriggers(m: Model, look: dict, half: float) -> None:
     for s, side in ((-1, "left"), (1, "right")):
         x = s * (half + 0.06)
         m.add(BASE, box((x - 0.06, x + 0.06), (-0.9, 0.2), (0.2, 0.32)), box((x - s * 0.3, x), (0.05, 0.2), (0.2, 0.4)))

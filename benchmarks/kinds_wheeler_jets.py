@@ -35,7 +35,7 @@ def fighter_jet(m: Model) -> None:
         if not delta or m.chance(0.3):
             _stabilator(m, style, long, a, s, side, canard=delta)
     _fins(m, style, long, a)
-    _canopy(hull, long)
+    _canopy(hull)
     n = 10 if style == "low" else 20
     for x in m.pick((0.0,), (-0.4 * a, 0.4 * a)):
         _nozzle(m, x, 0.94 * long, 0.42 * a if x == 0 else 0.32 * a, n)
@@ -110,7 +110,7 @@ def _fins(m: Model, style: str, long: float, a: float) -> None:
         add_blade(m, style, fin, [(name, (0.2, 0.9), 0.72, (-25.0, 25.0))])
 
 
-def _canopy(hull: Hull, long: float) -> None:
+def _canopy(hull: Hull) -> None:
     """The glass over the cockpit: it lifts about its rear, its front or a side."""
     m = hull.m
     y0, y1, z = 2.3, m.number(4.6, 5.6), 0.48

@@ -60,10 +60,10 @@ def _formula(m: Model) -> None:
                 ),
             )
     m.add(BASE, box((-0.5, 0.5), (0.3 * base, base - 0.2), (0.08, 0.11)))
-    _wings(m, style, base, track)
+    _wings(m, base, track)
 
 
-def _wings(m: Model, style: str, base: float, track: float) -> None:
+def _wings(m: Model, base: float, track: float) -> None:
     tip = track + 0.05
     m.add(BASE, prism(rectangle((-0.95, -0.55), (0.13, 0.16)), "x", (-tip, tip)))
     for s in (-1, 1):
