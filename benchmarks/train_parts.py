@@ -11,10 +11,10 @@ FOLDER: rows as `benchmarks/part_rows.py` writes them. Needs lightgbm and torch.
     python benchmarks/part_rows.py FOLDER static:KINDS@kinds --change fused --most 60
     python benchmarks/part_rows.py FOLDER labelled:INFINIGEN@infinigen --change fused --most 53
     python benchmarks/part_rows.py FOLDER sweethome3d --change fused --most 12
-    python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds --change C --most N  with N = 240 for C = detailed and misplaced,
-        80 for furnished and floored
+    python benchmarks/part_rows.py FOLDER urdf:KINDS@kinds --change C --most N  with N = 360 for C = tight, 240 for detailed and
+        misplaced, 80 for furnished
     python benchmarks/part_rows.py FOLDER sweethome3d labelled:INFINIGEN@infinigen static:KINDS@kinds --change C --most 32
-        for these four
+        for C = detailed, misplaced and furnished
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ HELD_OUT_SEEDS = 1  # of the networks that are trained without what is left out,
 SMALL = frozenset({"examples", "libero", "metaworld", "scene-synthesizer", "sweethome3d"})  # left out at once, to save time
 WRONG, RIGHT = 0.35, 0.95  # IoU below which a candidate is no part, and from which it is one; between, it is partly right
 OBJECT, SOURCE = 0.5, 0.3  # powers by which candidates of an object, and objects of a source, count less the more they are
-ADDED = ("detailed", "furnished", "floored", "misplaced")  # changes that are trained on, besides fused surfaces
+ADDED = ("detailed", "furnished", "misplaced")  # changes that are trained on, besides fused surfaces and tight parts
 ADDED_WEIGHT = 0.25  # of objects with these changes, chosen on what was left out; at 1 more is lost on unchanged objects
 SCORES = Path("held_out") / "scores.npz"  # below the folder of the rows
 HERE = Path(__file__).parent

@@ -6,10 +6,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from anymesh.evaluation.careless import CRACK, OFF
+from anymesh.evaluation.careless import CRACK, ENLARGED, OFF
 from anymesh.evaluation.changes import changed
 from anymesh.evaluation.ground_truth import EvalSample, example_truths
 from anymesh.evaluation.protocols import prepared
+from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.surface import plain_triangles
 from anymesh.geometry.topology import components
 from anymesh.physics.inertia import InertiaConfig, raw_inertia
@@ -104,3 +105,22 @@ def test_what_is_placed_by_eye_moves_as_a_whole(sample: EvalSample) -> None:
     assert max(np.ptp(moves, axis=0).max() for moves in each) < 1e-12
     assert 0.3 * OFF < np.mean([np.abs(moves[0]) for moves in each]) < 0.7 * OFF
     assert max(np.abs(moves).max() for moves in each) <= OFF
+
+
+def test_tight_parts_touch_what_they_fit_into(sample: EvalSample) -> None:
+    """The door, knob and turntable of the microwave have clearances of .0028, .0011 and .0042 of the diagonal."""
+    new, diagonal = changed("tight", sample), sample.mesh.diagonal
+    moved = np.abs(new.mesh.triangles - sample.mesh.triangles).max((1, 2)) > 1e-9
+    assert moved.tolist() == (sample.labels > 0).tolist()
+    for part, clearance in enumerate((0.0028, 0.0011, 0.0042), start=1):
+        own = sample.labels == part
+        corners = [s.mesh.triangles[own].reshape(-1, 3) for s in (sample, new)]
+        gap = [
+            distance_to_mesh(c, s.mesh.vertices, s.mesh.faces[~own])[0].min() / diagonal
+            for c, s in zip(corners, (sample, new), strict=True)
+        ]
+        assert gap[0] == pytest.approx(clearance, abs=5e-5)
+        assert gap[1] < 2e-4
+        wider = (np.ptp(corners[1], axis=0) - np.ptp(corners[0], axis=0)) / diagonal
+        assert (wider > 1.99 * gap[0]).all()
+        assert (wider < 2.01 * ENLARGED[1] * gap[0]).all()

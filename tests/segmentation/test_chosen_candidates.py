@@ -67,6 +67,18 @@ def test_all_groups_of_a_component_are_merged_into_one() -> None:
     assert merges(*row(1), box((5, 0, 0), (6, 1, 1))) == []
 
 
+def test_a_castor_merges_with_the_board_above_it_and_not_with_the_floor() -> None:
+    """Most of the contact of the castor is with the floor, which is sixteen times as large as the board."""
+    floor, castor = box((0, 0, 0), (4, 4, 0.1)), box((1, 1, 0.1), (1.1, 1.1, 0.2))
+    assert merges(floor, castor, box((1.02, 1, 0.2), (2.02, 2, 0.3)))[0] == {1, 2}
+
+
+def test_pieces_with_a_clearance_merge_after_those_that_touch() -> None:
+    """A pane in front of a board, 2 mm apart; the board stands on a foot."""
+    pane, board, foot = box((0, 0, 0), (1, 0.1, 1)), box((0, 0.102, 0), (1, 0.2, 1)), box((0, 0.102, -3), (1, 0.2, 0))
+    assert merges(pane, board, foot) == [{1, 2}, {0, 1, 2}]
+
+
 @pytest.mark.parametrize(
     ("most", "smallest", "pieces"), [(100, 0.0, [1, 2, 3]), (100, 0.1, [1, 2]), (100, 0.25, [1]), (2, 0.0, [1])]
 )

@@ -8,11 +8,18 @@ import numpy as np
 from jaxtyping import Bool
 
 from anymesh.evaluation.ground_truth import EvalSample
+from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.topology import components
 from anymesh.types import Mesh
+from anymesh.types.triangles import bounds_of
 
 CRACK = 1e-5  # of the diagonal: how far corners of neighbouring faces are apart, as where pieces are rounded on their own
 OFF = 0.003  # of the diagonal: how far components that are placed by eye are off along each axis, at most
+FIT = (4e-4, 5e-3)  # of the diagonal: from more than a touch to the widest clearance of a fit
+FITTING = 0.01  # minimum share of a part's surface with such a clearance
+ENLARGED = (0.7, 1.3)  # of its clearance, but at least 1: how far the sides of a part without clearance are moved outwards
+PROBES = 3000  # points on a part, at which its clearance is measured
 
 
 def doubled(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
@@ -52,6 +59,26 @@ def misplaced(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     shift = rng.uniform(-OFF, OFF, (int(label.max()) + 1, 3)) * mesh.diagonal
     corners = (mesh.triangles + shift[label][:, None]).reshape(-1, 3)
     return replace(sample, mesh=replace(mesh, vertices=corners, faces=np.arange(len(corners)).reshape(-1, 3)))
+
+
+def tight(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
+    """Enlarge each movable part until it touches what it fits into, as modelled by those who need not move it."""
+    mesh, corners = sample.mesh, sample.mesh.triangles.copy()
+    factor = max(1.0, rng.uniform(*ENLARGED))
+    for part in range(1, len(sample.truth.parts)):
+        own = sample.labels == part
+        if not own.any() or own.all():
+            continue
+        probes = sample_surface(mesh.triangles[own], PROBES, int(rng.integers(2**31)))
+        gap = distance_to_mesh(probes.points, mesh.vertices, mesh.faces[~own])[0] / mesh.diagonal
+        fits = (gap > FIT[0]) & (gap < FIT[1])
+        if fits.mean() > FITTING:
+            low, high = bounds_of(corners[own].reshape(-1, 3))
+            half = np.maximum((high - low) / 2, FIT[0] * mesh.diagonal)
+            wider = 1 + factor * float(np.quantile(gap[fits], 0.25)) * mesh.diagonal / half
+            corners[own] = (corners[own] - (low + high) / 2) * wider + (low + high) / 2
+    faces = np.arange(3 * len(corners)).reshape(-1, 3)
+    return replace(sample, mesh=replace(mesh, vertices=corners.reshape(-1, 3), faces=faces))
 
 
 def _reversed(mesh: Mesh, which: Bool[np.ndarray, " F"]) -> Mesh:

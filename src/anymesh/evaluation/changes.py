@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.errors import OptionError
-from anymesh.evaluation.careless import cracked, doubled, inside_out, misplaced, mixed, two_sided
+from anymesh.evaluation.careless import cracked, doubled, inside_out, misplaced, mixed, tight, two_sided
 from anymesh.evaluation.details import detailed, floored, furnished
 from anymesh.evaluation.fused_ import joined, wrapped
 from anymesh.evaluation.ground_truth import EvalSample
@@ -227,6 +227,7 @@ CHANGES: Mapping[str, Change] = MappingProxyType(
         "mixed": mixed,  # about half of the faces are reversed
         "cracked": cracked,
         "misplaced": misplaced,  # every component a little
+        "tight": tight,  # movable parts without clearance
         "detailed": detailed,  # with screws, labels and the like
         "furnished": furnished,  # with loose things on it and in it
         "floored": floored,

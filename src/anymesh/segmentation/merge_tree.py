@@ -9,7 +9,7 @@ from jaxtyping import Int
 
 from anymesh.segmentation.contacts import Contacts
 
-MIN_AREA_RATIO = 1e-12  # share of the surface used as the area of patches without area
+MIN_AREA_RATIO = 1e-12  # of the surface: area of patches without area, and contact of those without contact
 
 
 def merged_groups(contacts: Contacts, group: Int[np.ndarray, " P"]) -> list[list[int]]:
@@ -18,22 +18,25 @@ def merged_groups(contacts: Contacts, group: Int[np.ndarray, " P"]) -> list[list
     group: the number of the group that each patch begins in, from 0.
 
     The pair whose smaller group shares the largest part of its contact with the other merges first. Small groups merge before
-    large ones.
+    large ones, since this share is divided by the geometric mean of both areas. Pairs with a clearance merge after those that
+    touch.
     """
-    area = np.maximum(np.bincount(group, contacts.patch_area), MIN_AREA_RATIO * contacts.patch_area.sum())
+    least = MIN_AREA_RATIO * float(contacts.patch_area.sum())
+    area = np.maximum(np.bincount(group, contacts.patch_area), least)
     area = dict(enumerate(area / area.sum()))
     contact: dict[int, dict[int, float]] = {}
-    for (i, j), amount in sorted(contacts.area.items()):
+    near = {(i, j): 0.0 for pair in contacts.near.tolist() for i, j in (pair, pair[::-1])}
+    for (i, j), amount in sorted((near | contacts.area).items()):
         a, b = int(group[i]), int(group[j])
         if a != b:
             for x, y in ((a, b), (b, a)):
                 row = contact.setdefault(x, {})
-                row[y] = row.get(y, 0.0) + max(amount, MIN_AREA_RATIO)
+                row[y] = row.get(y, 0.0) + max(amount, least)
     members = {k: [k] for k in area}
 
     def strength(i: int, j: int) -> float:
         small = min((area[i], i), (area[j], j))[1]
-        return contact[i][j] / sum(contact[small].values()) / float(np.sqrt(area[small]))
+        return contact[i][j] / sum(contact[small].values()) / float(np.sqrt(area[i] * area[j]))
 
     queue = [(-strength(i, j), i, j) for i in sorted(contact) for j in sorted(contact[i]) if i < j]
     heapq.heapify(queue)
