@@ -27,7 +27,7 @@ SEED, COUNT = 23, 2  # of the objects; COUNT of each kind
 STATIC = ("wine_rack", "picnic_table", "barrel")  # reserved kinds of which nothing moves
 SAMPLE = sorted(set(kinds.RESERVED) - set(STATIC))[::2]  # kinds whose first object is in the sample
 TOLERANCE = 0.05
-CHANGES = ("fused", "unseen-gone", "detailed", "furnished", "floored", "misplaced")
+CHANGES = ("fused", "unseen-gone", "detailed", "furnished", "floored", "misplaced", "tight")
 MEASURED = {  # protocol and change of the mesh; changed ones are the first object of each kind
     "end-to-end": ("end-to-end", "none"),
     "parts": ("parts", "none"),
@@ -132,7 +132,7 @@ def write(work: Path) -> int:
         "The first object of each kind is also measured with changes to its mesh: `fused`, one closed surface, as from a",
         "scan or a generator; `unseen-gone`, without the faces that cannot be seen from outside; `detailed`, 5 to 60",
         "labels, screws and the like on it; `furnished`, 2 to 16 loose things on it and in it; `floored`, a slab under it;",
-        "`misplaced`, every component up to .3 % of the diagonal off.", "",
+        "`misplaced`, every component up to .3 % of the diagonal off; `tight`, parts enlarged until they touch the rest.", "",
         f"On {len(still)} objects of {len(STATIC)} kinds of which nothing moves, {false} parts are found.", "",
         *means_over_kinds(by_kind), "",
     ]  # fmt: skip
