@@ -185,7 +185,8 @@ def test_names_change_what_is_a_part_and_are_given_as_reason(monkeypatch: pytest
     assert sorted(found) == [1]
     assert found[1].reason.startswith('named "door"; ')
     assert found[1].label == "door"
-    assert segmented(monkeypatch, [-5.1, -1.1], ("case", "door", "b")) == {}
+    unlikely = -1.1  # below the minimum probability
+    assert segmented(monkeypatch, [unlikely - NAME_SCORE[NameClass.MOVABLE], unlikely], ("case", "door", "b")) == {}
 
 
 def test_the_largest_part_is_the_base_if_nothing_else_is_left() -> None:

@@ -21,7 +21,7 @@ class NameClass(IntEnum):
 
 
 # [log-odds] added to the score for the class of a name
-NAME_SCORE = {NameClass.NONE: 0.0, NameClass.MOVABLE: 4.0, NameClass.FIXED: -6.0, NameClass.HANDLE: 0.3}
+NAME_SCORE = {NameClass.NONE: 0.0, NameClass.MOVABLE: 5.0, NameClass.FIXED: -6.0, NameClass.HANDLE: 0.3}
 
 
 def name_class(name: str) -> NameClass:
