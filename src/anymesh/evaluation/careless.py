@@ -18,7 +18,7 @@ CRACK = 1e-5  # of the diagonal: how far corners of neighbouring faces are apart
 OFF = 0.003  # of the diagonal: how far components that are placed by eye are off along each axis, at most
 FIT = (4e-4, 5e-3)  # of the diagonal: from more than a touch to the widest clearance of a fit
 FITTING = 0.01  # minimum share of a part's surface with such a clearance
-ENLARGED = (0.7, 1.3)  # of its clearance, but at least 1: how far the sides of a part without clearance are moved outwards
+ENLARGED = (0.7, 1.3)  # clearances by which the sides of a tight part are moved outwards, but at least 1
 PROBES = 3000  # points on a part, at which its clearance is measured
 
 
@@ -74,9 +74,9 @@ def tight(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
         fits = (gap > FIT[0]) & (gap < FIT[1])
         if fits.mean() > FITTING:
             low, high = bounds_of(corners[own].reshape(-1, 3))
-            half = np.maximum((high - low) / 2, FIT[0] * mesh.diagonal)
-            wider = 1 + factor * float(np.quantile(gap[fits], 0.25)) * mesh.diagonal / half
-            corners[own] = (corners[own] - (low + high) / 2) * wider + (low + high) / 2
+            center, half = (low + high) / 2, np.maximum((high - low) / 2, FIT[0] * mesh.diagonal)
+            outwards = factor * float(np.quantile(gap[fits], 0.25)) * mesh.diagonal
+            corners[own] = center + (corners[own] - center) * (1 + outwards / half)
     faces = np.arange(3 * len(corners)).reshape(-1, 3)
     return replace(sample, mesh=replace(mesh, vertices=corners.reshape(-1, 3), faces=faces))
 

@@ -9,7 +9,7 @@ from jaxtyping import Int
 
 from anymesh.segmentation.contacts import Contacts
 
-MIN_AREA_RATIO = 1e-12  # of the surface: area of patches without area, and contact of those without contact
+MIN_AREA_RATIO = 1e-12  # of the surface: area of patches without area, and contact of pairs that have none
 
 
 def merged_groups(contacts: Contacts, group: Int[np.ndarray, " P"]) -> list[list[int]]:
