@@ -25,7 +25,8 @@ from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.oracle import Noisy, Random, oracle
 from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.score import JointScore, score
+from anymesh.evaluation.score import score
+from anymesh.evaluation.success import right
 from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import MOVING
@@ -42,12 +43,6 @@ class Sample:
     confidence: float
     right: bool
     wrong: float
-
-
-def right(j: JointScore) -> bool:
-    """Type, axis within 10 degrees, line within .1 of half the diagonal at the part, opening side."""
-    near = (j.angle or 0.0) <= 10 and (j.at_part or 0.0) <= 0.1
-    return j.type_right and near and j.opens_right is not False
 
 
 class Swept:

@@ -40,7 +40,7 @@ FIGURES: dict[str, Callable[[Summary], float | None]] = {  # larger is better
     "part mIoU": lambda s: s.part_miou,
     "type": lambda s: s.type_right,
     "opens": lambda s: s.opens_right,
-    "right": lambda s: s.success["opd"],
+    "right": lambda s: s.success["right"],
 }
 
 
@@ -133,6 +133,8 @@ def write(work: Path) -> int:
         "scan or a generator; `unseen-gone`, without the faces that cannot be seen from outside; `detailed`, 5 to 60",
         "labels, screws and the like on it; `furnished`, 2 to 16 loose things on it and in it; `floored`, a slab under it;",
         "`misplaced`, every component up to .3 % of the diagonal off; `tight`, parts enlarged until they touch the rest.", "",
+        "right: joints of the right type, with the axis within 10 degrees and, level with the part, within .1 of half the",
+        "diagonal, that open to the true side.", "",
         f"On {len(still)} objects of {len(STATIC)} kinds of which nothing moves, {false} parts are found.", "",
         *means_over_kinds(by_kind), "",
     ]  # fmt: skip

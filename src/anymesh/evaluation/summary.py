@@ -9,7 +9,7 @@ from statistics import fmean, median
 from anymesh.evaluation.particulate_metrics import ParticulateMetrics
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import ObjectScore
-from anymesh.evaluation.success import articulate_anything, opd, s2o
+from anymesh.evaluation.success import articulate_anything, opd, right, s2o
 from anymesh.types import JointType
 
 FARTHEST_ANGLE = 90.0  # [deg] angle error of a joint that was not found: the maximum between axes
@@ -17,7 +17,7 @@ FARTHEST = 1.0  # its length errors: half the object's diagonal
 UNLIKE = ParticulateMetrics(
     -1.0, 0.0, 3**0.5 / 2
 )  # values of a failed object; half the longest possible diagonal if the longest side is 1
-RULES = {"articulate_anything": articulate_anything, "opd": opd, "s2o": s2o}  # success criteria of a joint
+RULES = {"right": right, "articulate_anything": articulate_anything, "opd": opd, "s2o": s2o}  # success criteria of a joint
 
 
 @dataclass(frozen=True)

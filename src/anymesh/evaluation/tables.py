@@ -91,6 +91,7 @@ COLUMNS = (
     Column("recall", lambda s: s.part_recall, "true movable parts that were found (IoU .5)", short=False, whole=True),
     Column("part F1", lambda s: s.part_f1, "of all movable parts together", whole=True),
     Column("part mIoU", lambda s: s.part_miou, "over all true movable parts", whole=True),
+    Column("right", lambda s: s.success["right"], "right type, 10 degrees, .1 at the part, and side", short=False),
     Column("A-A", lambda s: s.success["articulate_anything"], "joints that succeed by Articulate-Anything's rule"),
     Column("OPD", lambda s: s.success["opd"], "joints that succeed by OPD's rule (+MAO)", short=False),
     Column("S2O", lambda s: s.success["s2o"], "joints that succeed by S2O's rule (MAO)", short=False),
