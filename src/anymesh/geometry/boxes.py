@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.types.triangles import bounds_of
+from anymesh.types.triangles import bounds_of, cross
 
 MAX_SIDE_DIFFERENCE_RATIO = 0.03  # maximum difference of the sides of copies, over the diagonal
 MIN_COPY_COSINE = 0.99  # minimum cosine between the axes of copies
@@ -51,8 +51,7 @@ def _frame(first: np.ndarray, second: np.ndarray) -> np.ndarray | None:
     if length < 1e-6:
         return None
     second = second / length
-    (a, b, c), (x, y, z) = first, second
-    return np.array([first, second, (b * z - c * y, c * x - a * z, a * y - b * x)])  # np.cross without its overhead
+    return np.array([first, second, cross(first, second)])
 
 
 BLOCK = 100_000  # points times frames that are transformed at once
@@ -104,7 +103,8 @@ def fit_box(
         frames.extend(f for second in rest if (f := _frame(first, second)) is not None)
     frames.append(_frame(principal[0], principal[1]) if len(points) > 2 else None)
     tried = np.array([f for f in frames if f is not None])
-    aligned = np.array([weights @ np.abs(normals @ f.T).max(1) ** ALIGNED_POWER for f in tried]) / max(weights.sum(), 1e-300)
+    nearest = (np.maximum.reduce(np.abs(f @ normals.T)) for f in tried)
+    aligned = np.array([weights @ cosine**ALIGNED_POWER for cosine in nearest]) / max(weights.sum(), 1e-300)
     if aligned.max() > MIN_BOXY_SHARE:
         tried = tried[aligned > aligned.max() - MAX_ALIGNED_LOSS]
     step = max(1, BLOCK // max(len(points), 1))

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
+from anymesh.types.triangles import cross
+
 BINS = 36
 CHANCE_ROUNDNESS = 0.25  # maximum roundness of the outlines of plates and boxes, of which the roundest is chance
 ROUND = 0.06  # maximum deviation of a bin's outline radius, relative to the median
@@ -38,15 +40,15 @@ def fit_circle(points: Float[np.ndarray, "n 2"]) -> tuple[Float[np.ndarray, " 2"
 def outline_about(points: Float[np.ndarray, "n 3"], axis: Float[np.ndarray, " 3"]) -> Outline:
     """Return the outline of points along `axis`: the largest radius in each of 36 directions about the fitted center."""
     helper = np.eye(3)[np.abs(axis).argmin()]
-    u = np.cross(axis, helper)
+    u = cross(axis, helper)
     u /= np.linalg.norm(u)
-    v = np.cross(axis, u)
-    flat = np.c_[points @ u, points @ v]
+    v = cross(axis, u)
+    flat = np.stack([points @ u, points @ v])
     along = points @ axis
-    center = (flat.min(0) + flat.max(0)) / 2
+    center = (flat.min(1) + flat.max(1)) / 2
     roundness, radius = 0.0, 0.0
     for _ in range(2):
-        x, y = np.ascontiguousarray((flat - center).T)
+        x, y = flat - center[:, None]
         r = np.sqrt(x * x + y * y)
         bin_of = np.floor((np.arctan2(y, x) / (2 * np.pi) + 0.5) * BINS).astype(int) % BINS
         largest = np.full(BINS, -1.0)
@@ -59,7 +61,7 @@ def outline_about(points: Float[np.ndarray, "n 3"], axis: Float[np.ndarray, " 3"
         roundness = float(near.sum() / BINS)
         if near.sum() < BINS // 2:
             break
-        center, _ = fit_circle(flat[_last_per_bin(bin_of, bin_of * (r.max() + 1) + r)[near]])
+        center, _ = fit_circle(flat[:, _last_per_bin(bin_of, bin_of * (r.max() + 1) + r)[near]].T)
     mid = (along.min() + along.max()) / 2
     return Outline(axis, center[0] * u + center[1] * v + mid * axis, radius, float(along.max() - along.min()), roundness)
 

@@ -24,7 +24,7 @@ from anymesh.geometry.passage import Passage
 from anymesh.geometry.sampling import SurfacePoints, spread_points
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import JointType, Motion, Sweep
-from anymesh.types.triangles import normals_and_areas, pieces_within
+from anymesh.types.triangles import boxes_meet, normals_and_areas, pieces_within
 
 CHUNKS = (3, 6, 9, 18)  # steps cast at a time, where the last size repeats; most blocked motions are blocked early
 AT_ONCE = 8  # motions swept together; more do not fit into a core's cache
@@ -105,7 +105,7 @@ def _spread(shape: TriangleSet, samples: SurfacePoints, faces: Int[np.ndarray, "
 
 def _spread_within(shape: TriangleSet, low: np.ndarray, high: np.ndarray, count: int) -> SurfacePoints:
     """Return such points of the surface within a box, however large its triangles are."""
-    near = np.flatnonzero(((shape.highest >= low) & (shape.lowest <= high)).all(1))
+    near = np.flatnonzero(boxes_meet(shape.lowest, shape.highest, low, high))
     pieces, piece_face = pieces_within(shape.triangles[near], low, high)
     face = near[piece_face]
     points, piece = spread_points(pieces, normals_and_areas(pieces)[1], OVERSAMPLED * count, shape.seed)

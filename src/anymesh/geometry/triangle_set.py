@@ -12,7 +12,7 @@ from anymesh.geometry.boxes import OrientedBox, fit_box
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.sampling import SurfacePoints, spread_points
-from anymesh.types.triangles import bounds_of, normals_and_areas
+from anymesh.types.triangles import bounds_of, boxes_meet, corner_bounds, normals_and_areas
 
 SAMPLES = 3000  # surface points per triangle set; a share of 1 % is 30 points
 SLANTED = np.array([0.3127, 0.5241, 0.7922])  # direction of the rays that tell inside from outside; along no usual face
@@ -68,17 +68,19 @@ class TriangleSet:
         """Return the area of each face [m^2]."""
         return normals_and_areas(self.triangles)[1] if self.known is None else self.known.areas
 
-    @cached_property
+    @property
     def lowest(self) -> Float[np.ndarray, "F 3"]:
         """Return the lower corner of the axis-aligned box of each face [m]."""
-        a, b, c = self.triangles.transpose(1, 0, 2)
-        return np.minimum(np.minimum(a, b), c)
+        return self._corner_bounds[0]
 
-    @cached_property
+    @property
     def highest(self) -> Float[np.ndarray, "F 3"]:
         """Return the upper corner of the axis-aligned box of each face [m]."""
-        a, b, c = self.triangles.transpose(1, 0, 2)
-        return np.maximum(np.maximum(a, b), c)
+        return self._corner_bounds[1]
+
+    @cached_property
+    def _corner_bounds(self) -> tuple[Float[np.ndarray, "F 3"], Float[np.ndarray, "F 3"]]:
+        return corner_bounds(self.triangles)
 
     @cached_property
     def tree(self) -> TriangleTree:
@@ -96,7 +98,7 @@ class TriangleSet:
         low, high = points.min(0), points.max(0)
         corner = self.corners[((self.corners - (low + high) / 2) ** 2).sum(1).argmin()]
         reach = 1.001 * float(np.linalg.norm(points - corner, axis=1).max())  # rounding must not leave out the corner itself
-        near = np.flatnonzero(((self.highest >= low - reach) & (self.lowest <= high + reach)).all(1))
+        near = np.flatnonzero(boxes_meet(self.lowest, self.highest, low - reach, high + reach))
         distance, face, _ = TriangleTree(self.triangles[near]).nearest(points)
         return distance, near[face]
 

@@ -88,7 +88,7 @@ class PartContext:
         """Return the depth of the part inside its parent along `direction` [m], measured between the parent's bounds."""
         along = self.part.samples.points @ direction
         parent = self.parent.samples.points @ direction
-        low, high = np.percentile(along, 0.5), np.percentile(along, 99.5)
+        low, high = np.percentile(along, [0.5, 99.5])
         return float(max(0.0, min(high, parent.max()) - max(low, parent.min())))
 
     @cached_property
@@ -192,16 +192,24 @@ class PartContext:
 
     def sees(self, points: Float[np.ndarray, "n 3"], directions: Float[np.ndarray, "h 3"]) -> Bool[np.ndarray, "h n"]:
         """Return which points [m] have a free line of sight past the static geometry along each unit direction."""
-        start = (points[None] + 1e-4 * self.diagonal * directions[:, None]).reshape(-1, 3)
-        rays = np.repeat(4 * self.diagonal * directions, len(points), 0)
-        return (self.rest.scene.first_hit(start, rays, 1.0).face < 0).reshape(len(directions), len(points))
+        along = np.repeat(directions, len(points), 0)
+        return self._free_sight(np.tile(points, (len(directions), 1)), along).reshape(len(directions), len(points))
 
-    def _open_face(self, direction: np.ndarray) -> float:
-        """Return the visible share of the surface facing `direction`, or of the whole surface if hardly any faces it."""
-        points = self.part.samples.points
-        faces = np.flatnonzero(self.facing(direction) > FACING_COSINE)
-        points = points[faces] if len(faces) > 0.02 * len(points) else points
-        return float(self.sees(points[:: max(1, len(points) // 500)], direction[None]).mean())
+    def _free_sight(self, points: Float[np.ndarray, "n 3"], directions: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
+        """Return which points [m] have a free line of sight past the static geometry, each along its own unit direction."""
+        start = points + 1e-4 * self.diagonal * directions
+        return self.rest.scene.first_hit(start, 4 * self.diagonal * directions, 1.0).face < 0
+
+    def _visible_shares(self, directions: Float[np.ndarray, "h 3"]) -> Float[np.ndarray, " h"]:
+        """Return the visible share of the surface facing each direction, or of the whole surface if hardly any faces it."""
+        points, chosen = self.part.samples.points, list[np.ndarray]()
+        for direction in directions:
+            faces = np.flatnonzero(self.facing(direction) > FACING_COSINE)
+            some = points[faces] if len(faces) > 0.02 * len(points) else points
+            chosen.append(some[:: max(1, len(some) // 500)])
+        count = np.array([len(some) for some in chosen])
+        seen = self._free_sight(np.concatenate(chosen), directions.repeat(count, 0))
+        return np.add.reduceat(seen, np.cumsum([0, *count[:-1]]), dtype=float) / count
 
     @cached_property
     def opening_directions(self) -> tuple[Float[np.ndarray, "6 3"], Float[np.ndarray, " 6"]]:
@@ -209,16 +217,12 @@ class PartContext:
 
         Visible, thin and off-center directions score higher.
         """
-        directions, scores = [], []
-        away = self.part.centroid - self.center
-        for k, axis in enumerate(self.body_obb.axes):
-            for sign in (1.0, -1.0):
-                seen = self._open_face(sign * axis)
-                facing = self.body_obb.half[2] / max(self.body_obb.half[k], 1e-12)
-                score = seen + 0.5 * facing + 0.3 * sign * float(axis @ away) / self.diagonal
-                directions.append(sign * axis)
-                scores.append(score - DOWNWARD_PENALTY * max(0.0, -sign * float(axis[2])))
-        return np.array(directions), np.array(scores)
+        box = self.body_obb
+        directions = (box.axes[:, None] * np.array([[1.0], [-1.0]])).reshape(-1, 3)
+        thin = (box.half[2] / np.maximum(box.half, 1e-12)).repeat(2)
+        away = directions @ (self.part.centroid - self.center) / self.diagonal
+        downward = np.maximum(0.0, -directions[:, 2])
+        return directions, self._visible_shares(directions) + 0.5 * thin + 0.3 * away - DOWNWARD_PENALTY * downward
 
     @property
     def off_the_middle(self) -> Float[np.ndarray, " 3"]:

@@ -56,13 +56,10 @@ def fit_of_rim(context: PartContext, config: SegmentationConfig) -> tuple[int, f
 
 def enclosed_share(context: PartContext) -> float:
     """Return the share of the candidate with the rest on at least three of the four sides across the opening direction."""
-    points = context.part.samples.points[::20]
-    hit = np.zeros(len(points), int)
-    for axis in context.face_axes:
-        for sign in (1, -1):
-            rays = np.repeat(sign * context.body_obb.axes[axis][None] * context.diagonal, len(points), 0)
-            hit += context.rest.scene.first_hit(points, rays, 1.0).face >= 0
-    return float((hit >= 3).mean())
+    points, axes = context.part.samples.points[::20], context.body_obb.axes[context.face_axes]
+    rays = np.repeat(np.concatenate([axes, -axes]) * context.diagonal, len(points), 0)
+    hit = context.rest.scene.first_hit(np.tile(points, (4, 1)), rays, 1.0).face >= 0
+    return float((hit.reshape(4, -1).sum(0) >= 3).mean())
 
 
 def two_pivots(context: PartContext, near: np.ndarray, normals: np.ndarray) -> float:

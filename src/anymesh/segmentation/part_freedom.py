@@ -22,22 +22,21 @@ def blocked_shares(context: PartContext, config: SegmentationConfig) -> dict[str
     Surface that faces along the way counts, on sheets without an inside both sides.
     """
     points, touch = context.part.samples.points[::STRIDE], config.touch * context.diagonal
-
-    def blocked(direction: Float[np.ndarray, " 3"], extent: float) -> float:
+    axes, extents, opening = context.body_obb.axes, 2 * context.body_obb.half, context.opening_direction
+    deep = extents[outward_axis(context.body_obb, opening)]
+    ways = [(opening, deep), (-opening, deep), *((sign * axes[k], extents[k]) for k in context.face_axes for sign in (1, -1))]
+    starts, rays = list[np.ndarray](), list[np.ndarray]()
+    for direction, extent in ways:
         ahead = points[context.facing(direction)[::STRIDE] > MIN_AHEAD_COSINE]
-        if len(ahead) < 2:
-            return 0.0
-        way = max(extent, MIN_WAY * context.diagonal) + 2 * touch
         # start slightly inside, since a ray that starts on a surface would miss it
-        hits = context.rest.scene.first_hit(ahead - 2 * touch * direction, np.repeat(way * direction[None], len(ahead), 0), 1.0)
-        return float((hits.face >= 0).mean())
-
-    axes, extents = context.body_obb.axes, 2 * context.body_obb.half
-    sideways = [blocked(sign * axes[k], extents[k]) for k in context.face_axes for sign in (1.0, -1.0)]
-    deep = extents[outward_axis(context.body_obb, context.opening_direction)]
+        starts.append(ahead - 2 * touch * direction)
+        rays.append(np.repeat((max(extent, MIN_WAY * context.diagonal) + 2 * touch) * direction[None], len(ahead), 0))
+    met = context.rest.scene.first_hit(np.concatenate(starts), np.concatenate(rays), 1.0).face >= 0
+    parts = np.split(met, np.cumsum([len(some) for some in starts])[:-1])
+    outward, inward, *sideways = (float(some.mean()) if len(some) > 1 else 0.0 for some in parts)
     return {
-        "blocked outward": blocked(context.opening_direction, deep),
-        "blocked inward": blocked(-context.opening_direction, deep),
+        "blocked outward": outward,
+        "blocked inward": inward,
         "blocked sideways least": min(sideways),
         "blocked sideways most": max(sideways),
     }
