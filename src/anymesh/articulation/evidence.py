@@ -11,6 +11,7 @@ from jaxtyping import Float
 from anymesh.articulation.contact_metrics import contact_retention, hinge_support
 from anymesh.articulation.motion_question import Candidate, ProposedMotion, Role
 from anymesh.config import ACROSS_COSINE
+from anymesh.geometry.circles import MIN_CIRCLE_ROUNDNESS
 from anymesh.geometry.sweep import free_amounts, sweep_all
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion, Sweep
@@ -21,6 +22,7 @@ GUIDE_STEP_RATIO = 0.02  # of the tolerance length: a slide is guided if a sidew
 
 
 UNSWEPT = Sweep(0.0, 0.0, clear_forward=False, clear_backward=False)
+ENDLESS = Sweep(np.pi, np.pi, clear_forward=True, clear_backward=True)
 
 
 def sweep_candidates(context: PartContext, proposed: Sequence[ProposedMotion]) -> tuple[Candidate, ...]:
@@ -41,13 +43,18 @@ def unswept(context: PartContext, proposed: Sequence[ProposedMotion]) -> tuple[C
 
 
 def swept(context: PartContext, candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
-    """Sweep measured motions: return two candidates per motion, opening along its axis and against it."""
+    """Sweep measured motions: return two candidates per motion, opening along its axis and against it.
+
+    A part takes up no new space when it turns about the axis of its circular outline. What would stop it there is how it is
+    modelled: a wheel that reaches into its axle or its arch.
+    """
     motions, steps = [c.motion for c in candidates], context.config.sweep_steps
     slides = [m for m in motions if m.kind is JointType.PRISMATIC]
     guided = iter(_guided_share(context, slides))
-    sweeps: dict[int, Sweep] = {}
+    circular = context.outline.roundness > MIN_CIRCLE_ROUNDNESS
+    sweeps = {k: ENDLESS for k, c in enumerate(candidates) if circular and c.role == "round"}
     for obstacles in {id(o): o for o in map(context.obstacles_of, motions)}.values():
-        chosen = [k for k, m in enumerate(motions) if context.obstacles_of(m) is obstacles]
+        chosen = [k for k, m in enumerate(motions) if k not in sweeps and context.obstacles_of(m) is obstacles]
         sweeps.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
     ahead = [
         _swept_hinge(c, sweeps[k]) if c.motion.kind is JointType.REVOLUTE else _swept_slide(context, c, sweeps[k], next(guided))

@@ -10,13 +10,12 @@ from jaxtyping import Float
 
 from anymesh.articulation.hypotheses import hinge_about
 from anymesh.articulation.motion_question import ProposedMotion, Role
-from anymesh.geometry.circles import outline_about
+from anymesh.geometry.circles import MIN_CIRCLE_ROUNDNESS, outline_about
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.part_context import PartContext
 from anymesh.types import Motion
 
-MIN_CIRCLE_ROUNDNESS = 0.8  # minimum roundness of a circle that gives an axis
 MAX_CIRCLES = 4  # round patches per part, the largest first
 MAX_PATCHES = 40  # patches examined, the largest first
 # roles of axes that the shape of a part gives

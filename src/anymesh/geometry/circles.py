@@ -10,6 +10,7 @@ from jaxtyping import Float, Int
 from anymesh.types.triangles import cross
 
 BINS = 36
+MIN_CIRCLE_ROUNDNESS = 0.8  # minimum roundness of a circle
 CHANCE_ROUNDNESS = 0.25  # maximum roundness of the outlines of plates and boxes, of which the roundest is chance
 ROUND = 0.06  # maximum deviation of a bin's outline radius, relative to the median
 
