@@ -14,6 +14,7 @@ from scenes import prism, wheel
 from test_hypotheses import board
 
 from anymesh.articulation.estimate import choose_motion, estimate_joint, joint_of
+from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import barrels, contact_axes, propose, two_pivot_line
 from anymesh.articulation.motion_question import MotionQuestion, PartFacts
 from anymesh.articulation.own_axes import pivots
@@ -30,6 +31,22 @@ def handle(ends: float, width: float = 0.02, legs: float = 0.1) -> PartContext:
     part = [box((-0.5, 0, legs), (0.5, width, legs + 0.02))]
     part += [box((s * ends / 2 - width / 2, 0, 0.001), (s * ends / 2 + width / 2, width, legs)) for s in (-1, 1)]
     return context_of(part, [box((-1, -0.5, -0.5), (1, 0.5, 0))])
+
+
+def test_only_a_circular_part_is_never_stopped_about_the_axis_of_its_outline() -> None:
+    """A spoke on the disc's face meets a peg a quarter of a turn further; a leaf meets the block."""
+    disc = [prism(0.1, (-0.05, -0.02), 0.0, 0.2), box((-0.01, -0.06, 0.2), (0.01, -0.05, 0.28))]
+    peg = box((0.04, -0.06, 0.195), (0.06, -0.052, 0.205))
+    block, leaf = box((-0.3, 0, 0), (0.3, 0.4, 0.6)), box((-0.3, -0.022, 0), (0.3, -0.002, 0.6))
+    axle = turn(Y, (0, 0, 0.2))
+    context = context_of(disc, [block, peg])
+    (as_any, _, as_round, back) = sweep_candidates(context, [("center", axle), ("round", axle)])
+    assert min(as_any.opening, as_any.closing) < np.deg2rad(100)
+    assert not as_any.is_endless
+    assert as_round.is_endless
+    assert back.is_endless
+    ways = sweep_candidates(context_of([leaf], [block]), [("round", turn(Z, (0, -0.012, 0)))])
+    assert not any(c.is_endless for c in ways)
 
 
 def test_a_bucket_handle_turns_about_the_line_through_its_two_contacts() -> None:

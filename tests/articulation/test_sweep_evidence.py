@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from assets import box
 from made import EDGE, PULL, X, Y, Z, candidate, context_of, slide, turn
-from scenes import case, prism
+from scenes import case
 
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import answered_range, limits, opening_as_answered, pressed
@@ -45,21 +45,6 @@ def test_a_reversed_candidate_opens_the_other_way() -> None:
     ahead, back = sweep_candidates(context_of(LEAF, BLOCK), [("edge", turn(Z, (-0.3, -0.012, 0)))])
     assert (ahead.opening_sign, back.opening_sign) == (1, -1)
     assert (ahead.opening, ahead.outward) == (back.closing, -back.outward)
-
-
-def test_only_a_circular_part_is_never_stopped_about_the_axis_of_its_outline() -> None:
-    """A spoke on the disc's face meets a peg a quarter of a turn further; a leaf meets the block."""
-    disc = [prism(0.1, (-0.05, -0.02), 0.0, 0.2), box((-0.01, -0.06, 0.2), (0.01, -0.05, 0.28))]
-    peg = box((0.04, -0.06, 0.195), (0.06, -0.052, 0.205))
-    axle = turn(Y, (0, 0, 0.2))
-    context = context_of(disc, [*BLOCK, peg])
-    (as_any, _, as_round, back) = sweep_candidates(context, [("center", axle), ("round", axle)])
-    assert min(as_any.opening, as_any.closing) < 100 * DEG
-    assert not as_any.is_endless
-    assert as_round.is_endless
-    assert back.is_endless
-    leaf = sweep_candidates(context_of(LEAF, BLOCK), [("round", turn(Z, (0, -0.012, 0)))])
-    assert not any(c.is_endless for c in leaf)
 
 
 @pytest.mark.parametrize(("x", "side"), [(-0.3, 0.717), (0.3, -0.717), (0.0, 0.0)])

@@ -79,9 +79,7 @@ class PartContext:
     @cached_property
     def insertion_depth(self) -> float:
         """Return the depth of the part inside its parent along the opening direction, over its smallest side across."""
-        across = [
-            float(np.ptp(self.part.corners @ a)) for a in self.body_obb.axes if abs(a @ self.opening_direction) < ALONG_COSINE
-        ]
+        across = [np.ptp(self.part.corners @ a) for a in self.body_obb.axes if abs(a @ self.opening_direction) < ALONG_COSINE]
         return self.depth_in_parent(self.opening_direction) / max(min(across, default=1.0), 1e-9)
 
     def depth_in_parent(self, direction: Float[np.ndarray, " 3"]) -> float:
@@ -197,19 +195,18 @@ class PartContext:
 
     def _free_sight(self, points: Float[np.ndarray, "n 3"], directions: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
         """Return which points [m] have a free line of sight past the static geometry, each along its own unit direction."""
-        start = points + 1e-4 * self.diagonal * directions
-        return self.rest.scene.first_hit(start, 4 * self.diagonal * directions, 1.0).face < 0
+        start, rays = points + 1e-4 * self.diagonal * directions, 4 * self.diagonal * directions
+        return self.rest.scene.first_hit(start, rays, 1.0).face < 0
 
     def _visible_shares(self, directions: Float[np.ndarray, "h 3"]) -> Float[np.ndarray, " h"]:
         """Return the visible share of the surface facing each direction, or of the whole surface if hardly any faces it."""
-        points, chosen = self.part.samples.points, list[np.ndarray]()
-        for direction in directions:
-            faces = np.flatnonzero(self.facing(direction) > FACING_COSINE)
-            some = points[faces] if len(faces) > 0.02 * len(points) else points
-            chosen.append(some[:: max(1, len(some) // 500)])
-        count = np.array([len(some) for some in chosen])
-        seen = self._free_sight(np.concatenate(chosen), directions.repeat(count, 0))
-        return np.add.reduceat(seen, np.cumsum([0, *count[:-1]]), dtype=float) / count
+        points = self.part.samples.points
+        facing = [np.flatnonzero(self.facing(direction) > FACING_COSINE) for direction in directions]
+        probed = [points[faces] if len(faces) > 0.02 * len(points) else points for faces in facing]
+        some = [probes[:: max(1, len(probes) // 500)] for probes in probed]
+        ends = np.cumsum([len(probes) for probes in some])
+        seen = self._free_sight(np.concatenate(some), np.repeat(directions, np.diff(ends, prepend=0), 0))
+        return np.array([probes.mean() for probes in np.split(seen, ends[:-1])])
 
     @cached_property
     def opening_directions(self) -> tuple[Float[np.ndarray, "6 3"], Float[np.ndarray, " 6"]]:
@@ -217,12 +214,11 @@ class PartContext:
 
         Visible, thin and off-center directions score higher.
         """
-        box = self.body_obb
-        directions = (box.axes[:, None] * np.array([[1.0], [-1.0]])).reshape(-1, 3)
-        thin = (box.half[2] / np.maximum(box.half, 1e-12)).repeat(2)
+        directions = np.stack([self.body_obb.axes, -self.body_obb.axes], 1).reshape(-1, 3)
+        thin = (self.body_obb.half[2] / np.maximum(self.body_obb.half, 1e-12)).repeat(2)
         away = directions @ (self.part.centroid - self.center) / self.diagonal
-        downward = np.maximum(0.0, -directions[:, 2])
-        return directions, self._visible_shares(directions) + 0.5 * thin + 0.3 * away - DOWNWARD_PENALTY * downward
+        scores = self._visible_shares(directions) + 0.5 * thin + 0.3 * away
+        return directions, scores - DOWNWARD_PENALTY * np.maximum(0.0, -directions[:, 2])
 
     @property
     def off_the_middle(self) -> Float[np.ndarray, " 3"]:
