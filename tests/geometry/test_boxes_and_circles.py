@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from anymesh.geometry.boxes import box_in_frame, dominant_normals, fit_box, within
 from anymesh.geometry.circles import fit_circle, outline_about, roundest
+from anymesh.types.triangles import corner_bounds, cross, meet_box
 
 SIZE = np.array([0.3, 2.0, 0.9])
 SORTED = np.array([2.0, 0.9, 0.3]) / 2
@@ -146,3 +147,21 @@ def test_within_tells_what_lies_in_a_box_borders_included():
     low, high = np.array([-1.0, -2.0, 0.0]), np.array([2.0, 2.0, 3.0])
     np.testing.assert_array_equal(within(points, low, high), ((points >= low) & (points <= high)).all(1))
     assert within(points[:0], low, high).shape == (0,)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_boxes_of_triangles_meet_a_box_unless_they_are_apart_along_some_axis(seed: int) -> None:
+    triangles, (low, high) = np.random.default_rng(seed).normal(size=(60, 3, 3)), (np.full(3, -0.2), np.full(3, 0.3))
+    lowest, highest = corner_bounds(triangles)
+    np.testing.assert_array_equal(lowest, triangles.min(1))
+    np.testing.assert_array_equal(highest, triangles.max(1))
+    apart = ((triangles.min(1) > high) | (triangles.max(1) < low)).any(1)
+    assert 0 < apart.sum() < 60
+    np.testing.assert_array_equal(meet_box(triangles, low, high), ~apart)
+    touching = np.array([[[0.3, 0, 0], [0.4, 0, 0], [0.4, 0.1, 0]]])
+    assert meet_box(touching, low, high).tolist() == [True]
+
+
+def test_the_cross_product_is_that_of_numpy():
+    for a, b in np.random.default_rng(0).normal(size=(20, 2, 3)):
+        np.testing.assert_array_equal(cross(a, b), np.cross(a, b))
