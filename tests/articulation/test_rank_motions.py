@@ -121,6 +121,7 @@ def test_an_answer_is_checked(confidence: float, reason: str) -> None:
         (replace(PULL, outward=0.7), "slides along the surface"),
         (replace(PULL, outward=-0.7), "slides along the surface"),
         (replace(ROUND, opening=1.0), "round outline (30 %), turns about its axis, free -180..57 deg"),
+        (ROUND, "round outline (30 %), turns about its axis, endlessly"),
         (replace(EDGE, closing=0.5, hinge_support=0.5), "a edge, free -29..180 deg"),
         (replace(EDGE, handle_side=0.9), "hinge opposite the handle, a edge, the parent runs along it, free 0..180 deg"),
     ],

@@ -45,8 +45,8 @@ def unswept(context: PartContext, proposed: Sequence[ProposedMotion]) -> tuple[C
 def swept(context: PartContext, candidates: Sequence[Candidate]) -> tuple[Candidate, ...]:
     """Sweep measured motions: return two candidates per motion, opening along its axis and against it.
 
-    A part takes up no new space when it turns about the axis of its circular outline. What would stop it there is how it is
-    modelled: a wheel that reaches into its axle or its arch.
+    A circular outline takes up no new space when it turns about its axis. So a part that has one is not stopped there: what
+    would stop it is mostly how it is modelled, such as a wheel that reaches into its axle or its arch.
     """
     motions, steps = [c.motion for c in candidates], context.config.sweep_steps
     slides = [m for m in motions if m.kind is JointType.PRISMATIC]

@@ -111,7 +111,7 @@ def reason(part: PartFacts, c: Candidate) -> str:
         return f"slides {c.slide_direction}, {guided}, free for {100 * travel:.1f} cm ({c.motion.source})"
     free = f"free {-round(np.degrees(c.closing))}..{round(np.degrees(c.opening))} deg"
     if c.role == "round":
-        return f"round outline ({100 * part.roundness:.0f} %), turns about its axis, {free}"
+        return f"round outline ({100 * part.roundness:.0f} %), turns about its axis, {'endlessly' if c.is_endless else free}"
     reasons = [c.motion.source]
     if c.handle_side > 0.3:
         reasons.insert(0, "hinge opposite the handle")

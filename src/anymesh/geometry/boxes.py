@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.types.triangles import bounds_of, cross
+from anymesh.types.triangles import bounds_of, boxes_meet, cross
 
 MAX_SIDE_DIFFERENCE_RATIO = 0.03  # maximum difference of the sides of copies, over the diagonal
 MIN_COPY_COSINE = 0.99  # minimum cosine between the axes of copies
@@ -103,8 +103,8 @@ def fit_box(
         frames.extend(f for second in rest if (f := _frame(first, second)) is not None)
     frames.append(_frame(principal[0], principal[1]) if len(points) > 2 else None)
     tried = np.array([f for f in frames if f is not None])
-    nearest = (np.maximum.reduce(np.abs(f @ normals.T)) for f in tried)
-    aligned = np.array([weights @ cosine**ALIGNED_POWER for cosine in nearest]) / max(weights.sum(), 1e-300)
+    cosines = (np.maximum.reduce(np.abs(f @ normals.T)) for f in tried)  # of each normal to the nearest axis
+    aligned = np.array([weights @ cosine**ALIGNED_POWER for cosine in cosines]) / max(weights.sum(), 1e-300)
     if aligned.max() > MIN_BOXY_SHARE:
         tried = tried[aligned > aligned.max() - MAX_ALIGNED_LOSS]
     step = max(1, BLOCK // max(len(points), 1))
@@ -160,7 +160,7 @@ def box_pairs(low: Float[np.ndarray, "n 3"], high: Float[np.ndarray, "n 3"], rea
     pairs_per_box = [np.zeros((0, 2), np.int64)]
     for at, (i, stop) in enumerate(zip(order, end, strict=True)):
         later = order[at + 1 : stop]
-        meets = later[((low[later] <= high[i]) & (high[later] >= low[i])).all(1)]
+        meets = later[boxes_meet(low[later], high[later], low[i], high[i])]
         pairs_per_box.append(np.stack([np.minimum(meets, i), np.maximum(meets, i)], 1))
     pairs = np.concatenate(pairs_per_box)
     return [(int(i), int(j)) for i, j in pairs[np.lexsort((pairs[:, 1], pairs[:, 0]))]]

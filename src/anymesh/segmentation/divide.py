@@ -17,6 +17,7 @@ from anymesh.geometry.surface import MeshSurface, mesh_surface
 from anymesh.segmentation.panels import split_panels
 from anymesh.segmentation.surface_regions import region_sizes
 from anymesh.types import Mesh
+from anymesh.types.triangles import boxes_meet
 
 SEAM_POINTS = 40_000  # samples of the dense components for their seams
 MIN_SEAM_POINTS = 500  # of these, below which a region is not divided
@@ -199,4 +200,4 @@ def _meeting_boxes(surface: MeshSurface, region: np.ndarray) -> int:
     start = np.searchsorted(region[order], np.arange(int(region.max()) + 1))
     low = np.minimum.reduceat(surface.shape.lowest[order], start)
     high = np.maximum.reduceat(surface.shape.highest[order], start)
-    return sum(int(((low[k + 1 :] <= high[k]) & (high[k + 1 :] >= low[k])).all(1).sum()) for k in range(len(low)))
+    return sum(int(boxes_meet(low[k + 1 :], high[k + 1 :], low[k], high[k]).sum()) for k in range(len(low)))

@@ -11,6 +11,7 @@ from anymesh.config import Config
 from anymesh.geometry.connected import label_connected
 from anymesh.geometry.patches import ObjectShape
 from anymesh.segmentation.contacts import Contacts, dominated_by, find_contacts
+from anymesh.types.triangles import boxes_meet
 
 UNSEEN = -1
 StaysFree = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int], bool]
@@ -121,4 +122,4 @@ def _near(contacts: Contacts, patch: int, others: np.ndarray, reach: float) -> b
     """Return whether the patch's box is within `reach` [m] of the box of one of the others."""
     low, high = contacts.shapes[patch].bounds
     boxes = np.array([contacts.shapes[p].bounds for p in others])
-    return bool(((boxes[:, 0] <= high + reach) & (boxes[:, 1] >= low - reach)).all(1).any())
+    return bool(boxes_meet(boxes[:, 0], boxes[:, 1], low - reach, high + reach).any())
