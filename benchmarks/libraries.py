@@ -1,4 +1,4 @@
-"""Compare own code with the libraries that could replace it (rows of docs/decisions.md).
+"""Compare own code with the libraries that could replace it (docs/decisions).
 
 pip install xatlas genai-prices filelock scipy; python benchmarks/libraries.py [--dense]
 --dense: only unwrap one surface of 81,920 faces by both; run it with a time limit.

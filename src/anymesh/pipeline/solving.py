@@ -67,7 +67,7 @@ class Solver:
         deadline: Deadline | None = None,
     ) -> None:
         config = config or Config()
-        if answerer_factory is not None:  # the geometry answerer finds no more with finer patches (docs/decisions.md)
+        if answerer_factory is not None:  # the geometry answerer finds no more with finer patches (docs/decisions/0010)
             config = replace(config, patches=replace(config.patches, seams=True))
         self.mesh = mesh
         straight, self._T_straight = straight_mesh(mesh) if answerer_factory is None else (mesh, np.eye(4))

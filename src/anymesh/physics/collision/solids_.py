@@ -1,7 +1,7 @@
 """Convex decomposition of closed solids by exact cuts along planes, with manifold3d (Apache-2.0).
 
 A solid is cut into closed solids until each is close to its hull. Pieces whose common hull is also close to them are merged.
-Call it in a child process, since it is native code (docs/decisions.md).
+Call it in a child process, since it is native code (docs/decisions/0025).
 """
 
 from __future__ import annotations
