@@ -1,9 +1,9 @@
 """Figures of `anymesh annotate`: objects an hour, scaling, what the ledger takes, memory, and runs that are killed.
 
-python benchmarks/annotate.py WORK rate [--objects 200] [--workers 2]        a mixed set: examples, generated scenes
-python benchmarks/annotate.py WORK scaling [--objects 24]                    1 worker, then 2, the same objects, in one run
-python benchmarks/annotate.py WORK kills [--objects 200] [--kills 24]        kill -9 of the whole run, again and again
-python benchmarks/annotate.py WORK ledger [--objects 1000000]                the ledger alone: its size and its times
+python -m benchmarks.annotate WORK rate [--objects 200] [--workers 2]        a mixed set: examples, generated scenes
+python -m benchmarks.annotate WORK scaling [--objects 24]                    1 worker, then 2, the same objects, in one run
+python -m benchmarks.annotate WORK kills [--objects 200] [--kills 24]        kill -9 of the whole run, again and again
+python -m benchmarks.annotate WORK ledger [--objects 1000000]                the ledger alone: its size and its times
 
 Each prints one JSON object and keeps it in WORK. The machine should have nothing else to do.
 """
@@ -23,16 +23,14 @@ import time
 from pathlib import Path
 from typing import Any
 
-HERE = Path(__file__).parent
-sys.path.insert(0, str(HERE))
-EXAMPLES = HERE.parent / "examples" / "meshes"
+EXAMPLES = Path(__file__).parents[1] / "examples" / "meshes"
 Figures = dict[str, Any]
 
 
 def build(folder: Path, count: int) -> Path:
     """A mixed set: the shipped examples, then generated scenes of every format with their faults."""
-    from fuzz_files import write_scene
-    from fuzz_scenes import scene
+    from benchmarks.fuzz_files import write_scene
+    from benchmarks.fuzz_scenes import scene
 
     if folder.is_dir() and len([p for p in folder.iterdir() if p.is_dir()]) == count:
         return folder

@@ -1,6 +1,6 @@
 """Measure whether collision shapes let joints move: ours and others, with true parts and joints given.
 
-python benchmarks/collision.py [--coacd] [SET ...]      writes benchmarks/collision.md; a set as `anymesh eval` names it;
+python -m benchmarks.collision [--coacd] [SET ...]      writes benchmarks/collision.md; a set as `anymesh eval` names it;
                                                         --coacd: also one CoACD run per link, which takes minutes per object
 
 A joint is free if, at 21 positions over its range, no two shapes of different links penetrate by more than .1 % of the
@@ -117,7 +117,7 @@ def main() -> None:
             print(rows[-1], flush=True)
     head = "| set | shapes | joints free | shapes per link | seconds per object, median | most |\n|---|---|---|---|---|---|"
     packages = ", ".join(f"{p} {version(p)}" for p in ("manifold3d", "mujoco", "numpy"))
-    footer = f"{datetime.date.today()}, Python {platform.python_version()}, {packages}; `python benchmarks/collision.py`."
+    footer = f"{datetime.date.today()}, Python {platform.python_version()}, {packages}; `python -m benchmarks.collision`."
     text = "\n\n".join(["# Collision shapes", (__doc__ or "").split("\n\n", 2)[2].strip(), "\n".join([head, *rows]), footer])
     PAGE.write_text(text + "\n", encoding="utf-8")
 

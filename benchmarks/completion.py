@@ -1,8 +1,8 @@
 """What the built-in shape completer gives back of objects made into surface meshes on purpose; parts and joints are given.
 
-python benchmarks/completion.py                              all sets, as tables
-python benchmarks/completion.py --markdown FILE              also written to a file
-python benchmarks/completion.py --only NAME --pictures DIR   some objects, open before and after
+python -m benchmarks.completion                              all sets, as tables
+python -m benchmarks.completion --markdown FILE              also written to a file
+python -m benchmarks.completion --only NAME --pictures DIR   some objects, open before and after
 """
 
 from __future__ import annotations
@@ -18,7 +18,6 @@ from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
-from completion_figures import cavity, grid_of, iou, moved, open_parts, picture
 
 from anymesh.completion.shape import complete_shapes
 from anymesh.evaluation.changes import changed
@@ -27,6 +26,7 @@ from anymesh.evaluation.executability import drive
 from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.protocols import prepared
 from anymesh.types import JointType
+from benchmarks.completion_figures import cavity, grid_of, iou, moved, open_parts, picture
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 CHANGES = ("unseen-gone", "fused")
@@ -35,7 +35,7 @@ STEPS = 60  # places along a joint's range in the simulator
 PACKAGES = ("articulate-anymesh", "numpy", "mujoco", "manifold3d", "scene_synthesizer")
 HEAD = """# Shape completion (paper, 3.4)
 
-`python benchmarks/completion.py --markdown benchmarks/completion.md`, {date}, Python {python}, {packages}.
+`python -m benchmarks.completion --markdown benchmarks/completion.md`, {date}, Python {python}, {packages}.
 
 The interior of objects whose interior is known is removed: `unseen-gone` removes the faces that no view shows at rest,
 `fused` wraps the visible surface in one closed surface, as scans and generators produce it, and cuts it into parts by the

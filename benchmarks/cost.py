@@ -1,6 +1,6 @@
 """What a vision-language model is asked for the shipped examples: calls, tokens, dollars, seconds, cold and from the cache.
 
-python benchmarks/cost.py [--like openai:gpt-4o] [--change fused] [--markdown FILE] [NAME ...]
+python -m benchmarks.cost [--like openai:gpt-4o] [--change fused] [--markdown FILE] [NAME ...]
 
 No model is called: ground truth says the answers through the road of a model (pictures, schema, JSON, checks, cache). Tokens
 are estimates by the provider's formula for pictures and 4 letters a token for words; seconds are this program's own.
@@ -24,7 +24,7 @@ from anymesh.pipeline.solving import Solver
 
 HEAD = """# Cost of a model
 
-`python benchmarks/cost.py --change {change} --markdown FILE`. Answers are the oracle's, so no question is repeated. Tokens
+`python -m benchmarks.cost --change {change} --markdown FILE`. Answers are the oracle's, so no question is repeated. Tokens
 are estimated as `{like}` counts them, dollars by the table in `vlm/prices.py`; seconds are those of this program, without
 the model: of the first run (wall and processor), and of a second one, which takes every answer from the cache, without calls or
 cost.

@@ -1,6 +1,6 @@
 """Compare methods that divide non-convex solids: failures, time, number of pieces, false contacts.
 
-python benchmarks/decomposers.py [--path NAME=FOLDER ...] [SET ...]     writes benchmarks/decomposers.md; a set as `anymesh
+python -m benchmarks.decomposers [--path NAME=FOLDER ...] [SET ...]     writes benchmarks/decomposers.md; a set as `anymesh
                                                         eval` names it; --path: another coacd, unpacked in a folder
 
 True parts and joints are given. Each call runs in a child process with limits of 10 s and 4 GiB; a solid whose call fails

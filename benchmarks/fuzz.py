@@ -1,9 +1,9 @@
 """Does every mesh end in an asset or in one of our errors? Generated scenes, fixtures and real files through all stages.
 
-python benchmarks/fuzz.py WORK --scenes 1000                   writes benchmarks/reports/fuzz.md; a stopped run is resumed
-python benchmarks/fuzz.py WORK --meshes FOLDER ... --most 99   mesh files of folders and archives, 99 of each
-python benchmarks/fuzz.py WORK --sets examples metaworld       objects of data sets as `anymesh eval` names them
-python benchmarks/fuzz.py WORK --only "scene 00012 auto"       one case again, with its result in full
+python -m benchmarks.fuzz WORK --scenes 1000                   writes benchmarks/reports/fuzz.md; a stopped run is resumed
+python -m benchmarks.fuzz WORK --meshes FOLDER ... --most 99   mesh files of folders and archives, 99 of each
+python -m benchmarks.fuzz WORK --sets examples metaworld       objects of data sets as `anymesh eval` names them
+python -m benchmarks.fuzz WORK --only "scene 00012 auto"       one case again, with its result in full
 
 Cases run in worker processes (`fuzz_worker.py`) with a time and a memory limit: a crash is a row of the report.
 WORK/results.jsonl keeps what is done; the report covers all of it.
@@ -16,9 +16,9 @@ import json
 import sys
 from pathlib import Path
 
-from fuzz_inputs import Case, mesh_cases, scene_cases, set_cases
-from fuzz_pool import Result, run_all
-from fuzz_report import report
+from benchmarks.fuzz_inputs import Case, mesh_cases, scene_cases, set_cases
+from benchmarks.fuzz_pool import Result, run_all
+from benchmarks.fuzz_report import report
 
 REPORT = Path(__file__).parent / "reports" / "fuzz.md"
 GIB = 1024**3
@@ -86,7 +86,7 @@ def main() -> None:
     try:
         run_all(cases, how.work, workers=how.workers, limit=how.time_limit, memory=int(how.memory * GIB), done=done)
     finally:
-        command = " ".join(["python benchmarks/fuzz.py WORK", *(Path(a).name for a in sys.argv[2:])])
+        command = " ".join(["python -m benchmarks.fuzz WORK", *(Path(a).name for a in sys.argv[2:])])
         how.report.write_text(report(results, command, how.time_limit), encoding="utf-8")
 
 

@@ -6,8 +6,24 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from fuzz_shapes import Rng, Surface, any_shape, ball, box, fins, glyph, merged, path_tube, placed, rod, sheet, tube, turned
 from jaxtyping import Float, Int
+
+from benchmarks.fuzz_shapes import (
+    Rng,
+    Surface,
+    any_shape,
+    ball,
+    box,
+    fins,
+    glyph,
+    merged,
+    path_tube,
+    placed,
+    rod,
+    sheet,
+    tube,
+    turned,
+)
 
 
 @dataclass(frozen=True, eq=False)

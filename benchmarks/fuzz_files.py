@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from fuzz_arrangements import Part
-from fuzz_scenes import Scene
 from jaxtyping import Float
 from PIL import Image
+
+from benchmarks.fuzz_arrangements import Part
+from benchmarks.fuzz_scenes import Scene
 
 FLOAT, UINT = 5126, 5125  # component types of glTF
 

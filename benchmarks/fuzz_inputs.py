@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from fuzz_scenes import FIXTURES
 
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.loading.checks import FORMATS
+from benchmarks.fuzz_scenes import FIXTURES
 
 Case = dict[str, Any]
 GIVEN = ("nodes", "labels")

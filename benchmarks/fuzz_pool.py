@@ -17,7 +17,8 @@ from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-WORKER = Path(__file__).with_name("fuzz_worker.py")
+ROOT = Path(__file__).parents[1]
+WORKER = ROOT / "benchmarks" / "fuzz_worker.py"
 POLL = 0.5  # [s] between looks at the memory
 GRACE = 2.0  # [s] for the stack of a worker over its time limit to be written
 RENEW = 2 * 1024**3  # [bytes] of resident memory after a case, above which a worker is replaced
@@ -34,7 +35,11 @@ class Worker:
     def __init__(self, folder: Path, memory: int) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         self._log, self._memory = folder / "stderr.txt", memory
-        self._env = {**os.environ, "ANYMESH_CACHE": str(folder / "cache")}
+        self._env = {
+            **os.environ,
+            "ANYMESH_CACHE": str(folder / "cache"),
+            "PYTHONPATH": os.pathsep.join([str(ROOT), *sys.path]),
+        }
         self._child: subprocess.Popen[bytes] | None = None
 
     def run(self, case: Case, limit: float, stop: threading.Event) -> Result | None:

@@ -1,6 +1,6 @@
 """Fuzzing of the readers: mutated real files, guided by coverage, in a child process with limits.
 
-python benchmarks/fuzz_readers.py [--inputs 20000] [--seed 0] [--keep FOLDER]
+python -m benchmarks.fuzz_readers [--inputs 20000] [--seed 0] [--keep FOLDER]
 
 Every input must end in a mesh or an InputError, within limits on memory and time, and nothing outside its folder may be opened
 and no connection made (watched by the interpreter's audit hooks). What fails is kept in FOLDER. Inputs that reach lines of the
@@ -22,12 +22,11 @@ from pathlib import Path
 from types import FrameType
 from typing import Any
 
-HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "tests" / "loading"), str(HERE.parent / "tests")]
-
-from fuzz_mutations import mutations  # noqa: E402
+ROOT = Path(__file__).parents[1]
+sys.path[:0] = [str(ROOT / "tests" / "loading"), str(ROOT / "tests")]
 
 from anymesh.isolation import ChildError, ChildLimits, ChildPool  # noqa: E402
+from benchmarks.fuzz_mutations import mutations  # noqa: E402
 
 MEMORY = 3 << 30  # [bytes] of address space for one input
 SECONDS = 20.0  # for one input [s]
@@ -39,13 +38,14 @@ Result = dict[str, Any]
 
 def seeds() -> dict[str, bytes]:
     """Whole files of every format: the hand-written ones of the tests, textured ones, examples, generated scenes."""
-    from fuzz_files import write_scene
-    from fuzz_scenes import scene
     from mesh_files import all_files
     from naming_files import naming
 
+    from benchmarks.fuzz_files import write_scene
+    from benchmarks.fuzz_scenes import scene
+
     found = dict(all_files()) | {f"named_{n}": d for n, d in naming("checker.png").items()}
-    for path in sorted((HERE.parent / "examples" / "meshes").glob("*.glb"), key=lambda p: p.stat().st_size)[:4]:
+    for path in sorted((ROOT / "examples" / "meshes").glob("*.glb"), key=lambda p: p.stat().st_size)[:4]:
         found[path.name] = path.read_bytes()
     with tempfile.TemporaryDirectory() as folder:
         for seed in range(24):
@@ -61,7 +61,7 @@ class Watch:
     def __init__(self) -> None:
         self.folder: str | None = None
         self.outside: list[str] = []
-        homes = [sys.prefix, sys.base_prefix, *sys.path, str(HERE.parent / "src"), "/dev/null"]
+        homes = [sys.prefix, sys.base_prefix, *sys.path, str(ROOT / "src"), "/dev/null"]
         self._allowed = tuple(os.path.realpath(p) for p in homes if p)
         sys.addaudithook(self._hook)
 
@@ -175,7 +175,7 @@ class Fuzzer:
     def _results(self, pool: ChildPool, batch: list[tuple[str, bytes]]) -> list[Result]:
         """The results of a batch; of one that ends its process, those of each input alone."""
         try:
-            return pool.run("fuzz_readers", "try_inputs", {"inputs": batch})
+            return pool.run("benchmarks.fuzz_readers", "try_inputs", {"inputs": batch})
         except ChildError as error:
             if len(batch) == 1:
                 return [{"outcome": str(error.failure), "message": str(error), "outside": [], "new": 0, "seconds": 0.0}]

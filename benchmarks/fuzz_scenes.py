@@ -8,8 +8,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
-from fuzz_arrangements import ARRANGEMENTS, FIXTURES, Part
-from fuzz_shapes import Rng
+
+from benchmarks.fuzz_arrangements import ARRANGEMENTS, FIXTURES, Part
+from benchmarks.fuzz_shapes import Rng
 
 FORMATS = ("glb", "glb", "glb", "obj", "ply", "stl", "off")  # GLB more often: it alone has nodes, transforms, materials
 NAMES = (

@@ -1,6 +1,6 @@
 """Takes meshes through all stages and formats, one after the other, in a process that may crash.
 
-python benchmarks/fuzz_worker.py     reads one case a line (JSON) from standard input, writes one result a line
+python -m benchmarks.fuzz_worker     reads one case a line (JSON) from standard input, writes one result a line
 
 A case: {"key", "parts", "work", "finish", "check", "twice", "options"} and either "scene" (a seed or a fixture's name) or
 "mesh" (a file). On SIGUSR1 the stack goes to standard error.
@@ -23,18 +23,17 @@ import warnings
 from pathlib import Path
 from typing import Any
 
-HERE = Path(__file__).parent
-sys.path[:0] = [str(HERE), str(HERE.parent / "tests")]
+sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
 
-import numpy as np  # noqa: E402
-from contract import faults  # noqa: E402
-from fuzz_files import write_scene  # noqa: E402
-from fuzz_scenes import fixture, scene  # noqa: E402
+import numpy as np
+from contract import faults
 
-import anymesh  # noqa: E402
-from anymesh.errors import AnymeshError  # noqa: E402
-from anymesh.loading import load_mesh  # noqa: E402
-from anymesh.pipeline import articulate, finish  # noqa: E402
+import anymesh
+from anymesh.errors import AnymeshError
+from anymesh.loading import load_mesh
+from anymesh.pipeline import articulate, finish
+from benchmarks.fuzz_files import write_scene
+from benchmarks.fuzz_scenes import fixture, scene
 
 FORMATS = "urdf,mjcf,usd,sdf,glb"
 MEMORY = 12 * 1024**3  # [bytes] of address space

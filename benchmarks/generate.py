@@ -1,7 +1,7 @@
 """`anymesh generate` measured on surfaces whose joints are known: from files, and through a program that makes them.
 
-python benchmarks/generate.py --work DIR [--markdown FILE] [--only NAME ...]
-python benchmarks/generate.py --stand-in "a retro microwave" --write FILE.glb
+python -m benchmarks.generate --work DIR [--markdown FILE] [--only NAME ...]
+python -m benchmarks.generate --stand-in "a retro microwave" --write FILE.glb
 
 The stand-in is no generator: it takes the shipped example that the prompt names, wraps it on a grid into one closed surface of
 about 50,000 faces without an inside (the change `fused` of `anymesh eval`), and writes it in a box of length 1 about the

@@ -1,7 +1,7 @@
 """Does the visual method end with a result, whatever is answered? Valid answers drawn at random, over data sets.
 
-python benchmarks/guesses.py                                          the examples
-python benchmarks/guesses.py sweethome3d metaworld urdf:FOLDER --seeds 3 --pictures
+python -m benchmarks.guesses                                          the examples
+python -m benchmarks.guesses sweethome3d metaworld urdf:FOLDER --seeds 3 --pictures
 """
 
 from __future__ import annotations

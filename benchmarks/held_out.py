@@ -1,7 +1,7 @@
 """Measure parts and joints on the reserved kinds, which nothing is trained or tuned on (`kinds.RESERVED`).
 
-python benchmarks/held_out.py WORK            all objects: writes held_out.md and the baseline held_out.json
-python benchmarks/held_out.py WORK --check    a sample: exit code 1 if a figure is worse than the baseline
+python -m benchmarks.held_out WORK            all objects: writes held_out.md and the baseline held_out.json
+python -m benchmarks.held_out WORK --check    a sample: exit code 1 if a figure is worse than the baseline
 
 WORK: a folder for objects and results; objects that are there are used again, results are computed anew.
 """
@@ -13,14 +13,13 @@ import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-import kinds
-from error_sources import causes_table, proposed_parts
-
 from anymesh.evaluation.evaluating import evaluate
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.report import markdown
 from anymesh.evaluation.summary import Summary, summarize
 from anymesh.evaluation.tables import group_table
+from training.error_sources import causes_table, proposed_parts
+from training.kinds import registry as kinds
 
 HERE = Path(__file__).parent
 SEED, COUNT = 23, 2  # of the objects; COUNT of each kind
@@ -126,7 +125,7 @@ def write(work: Path) -> int:
     }
     text = [
         "# Kinds that nothing was trained on", "",
-        f"`python benchmarks/held_out.py WORK`: {len(moving)} objects of {len(moving) // COUNT} kinds on which",
+        f"`python -m benchmarks.held_out WORK`: {len(moving)} objects of {len(moving) // COUNT} kinds on which",
         "nothing is trained or tuned (`kinds.RESERVED`), nameless and without materials, by geometry alone.",
         "`.ci/run` measures a sample and compares it with `held_out.json`.", "",
         "The first object of each kind is also measured with changes to its mesh: `fused`, one closed surface, as from a",

@@ -1,6 +1,6 @@
 """Compare own code with the libraries that could replace it (docs/decisions).
 
-pip install xatlas genai-prices filelock scipy; python benchmarks/libraries.py [--dense]
+pip install xatlas genai-prices filelock scipy; python -m benchmarks.libraries [--dense]
 --dense: only unwrap one surface of 81,920 faces by both; run it with a time limit.
 Times are the best of three on one thread; only their ratios are meaningful.
 """

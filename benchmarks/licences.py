@@ -1,6 +1,6 @@
 """The licences of all that is installed beside this package, as each distribution states its own.
 
-python benchmarks/licences.py [--markdown FILE]
+python -m benchmarks.licences [--markdown FILE]
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """Draw what the geometry answerer does with one object, step by step, for docs/method.md.
 
-python benchmarks/method.py FOLDER [NAME] [--part PART]      writes patches, candidates, parts, motions and joints as PNG
+python -m benchmarks.method FOLDER [NAME] [--part PART]      writes patches, candidates, parts, motions and joints as PNG
 """
 
 from __future__ import annotations

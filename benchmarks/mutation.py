@@ -1,9 +1,9 @@
 """Measure which changes of the code the tests notice (mutation testing), on a seeded sample.
 
     pip install '.[test,mutation]'
-    python benchmarks/mutation.py WORK --map                  # which test runs which line, 4 minutes of processor time
-    python benchmarks/mutation.py WORK --count 60 --seed 2    # resumable; 12 minutes
-    python benchmarks/mutation.py WORK --report benchmarks/mutation.md --seed 2
+    python -m benchmarks.mutation WORK --map                  # which test runs which line, 4 minutes of processor time
+    python -m benchmarks.mutation WORK --count 60 --seed 2    # resumable; 12 minutes
+    python -m benchmarks.mutation WORK --report benchmarks/mutation.md --seed 2
 
 Each mutant runs in a copy of the source, against the tests that run the changed line, until the first one fails.
 """
@@ -48,7 +48,7 @@ def pytest_runtest_protocol(item, nextitem):
 
 def make_map(work: Path) -> None:
     """Record which test runs which line, and the processor time of each test."""
-    from mutants import PACKAGES
+    from benchmarks.mutants import PACKAGES
 
     (work / "mutation_costs.py").write_text(COSTS)
     for folder in FOLDERS:
@@ -96,7 +96,7 @@ def fails(tests: Sequence[str], log: Path) -> str:
 
 def run(work: Path, count: int, seed: int, again: bool) -> None:
     """Run the sample and append a row per mutant; those that have one are not run again, except survivors if `again`."""
-    from mutants import CoveringTests, sample
+    from benchmarks.mutants import CoveringTests, sample
 
     copy, results = work / "src", work / f"results_{seed}.jsonl"
     done = {row["key"] for row in rows_of(work, seed) if not (again and row["outcome"] == "survived")}

@@ -1,8 +1,8 @@
 """What the geometry half of the visual method loses: ground truth answers every question, without and with errors on purpose.
 
-python benchmarks/oracle.py                     parts given and end to end, with motions verified and without
-python benchmarks/oracle.py --noise             also how a wrong answer with probability p shows
-python benchmarks/oracle.py --markdown FILE --plot FILE.svg
+python -m benchmarks.oracle                     parts given and end to end, with motions verified and without
+python -m benchmarks.oracle --noise             also how a wrong answer with probability p shows
+python -m benchmarks.oracle --markdown FILE --plot FILE.svg
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from anymesh.pipeline.solving import solve
 
 HEAD = """# The oracle
 
-`python benchmarks/oracle.py --noise --markdown benchmarks/oracle.md --plot docs/images/noise.svg`. Each question is answered
+`python -m benchmarks.oracle --noise --markdown benchmarks/oracle.md --plot docs/images/noise.svg`. Each question is answered
 from the ground truth, with the same marks, points, arrows and motions that a model would see. The remaining error is that of
 the geometry.
 Position: the diagonal is 2; mIoU is over the movable parts, where a part that is not found counts as 0.

@@ -1,6 +1,6 @@
 """The pictures that a model is shown for one object, for docs/vlm.md.
 
-python benchmarks/pictures.py FOLDER [NAME]        one picture a question, and the texts and answers in questions.txt
+python -m benchmarks.pictures FOLDER [NAME]        one picture a question, and the texts and answers in questions.txt
 """
 
 from __future__ import annotations

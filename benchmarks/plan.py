@@ -1,6 +1,6 @@
 """The paper's three tasks (4.2): plan on a digital twin, replay open loop on the true object, somewhat off, fifty times.
 
-    python benchmarks/plan.py WORK [--robot panda] [--trials 50] [--first-trial 0] [--tasks trigger,door,wheel]
+    python -m benchmarks.plan WORK [--robot panda] [--trials 50] [--first-trial 0] [--tasks trigger,door,wheel]
         [--twins ours,corrected,truth,paper] [--twin TASK:NAME=FOLDER[@T.json]] [--pictures] [--markdown FILE]
 
 A second MuJoCo simulation with the true joints stands in for the real robot. Twins: ours (`anymesh articulate` on the mesh),
@@ -25,7 +25,6 @@ from pathlib import Path
 
 import numpy as np
 from PIL import Image
-from plan_objects import true_object
 
 from anymesh.applications.plan.asset_ import ArticulatedObject, open_object
 from anymesh.applications.plan.film_ import Film, tiled
@@ -41,6 +40,7 @@ from anymesh.evaluation.protocols import prepared
 from anymesh.export import write_asset
 from anymesh.pipeline import articulate
 from anymesh.pipeline.solving import solve
+from benchmarks.plan_objects import true_object
 
 TWINS = ("ours", "corrected", "truth", "paper")
 ANSWERS = Path(__file__).with_name("scan_answers")

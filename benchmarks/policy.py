@@ -1,6 +1,6 @@
 """The paper's table 2: policies fine-tuned on plain objects, or on these and objects that went through the pipeline.
 
-    python benchmarks/policy.py WORK [--size cpu|gpu|smoke] [--seeds 5] [--things laptop,bucket] [--until HH:MM]
+    python -m benchmarks.policy WORK [--size cpu|gpu|smoke] [--seeds 5] [--things laptop,bucket] [--until HH:MM]
                                 [--true-joints] [--report-only]
 
 Plain objects have exact joints and stand for PartNet-Mobility. The others are designs (policy_objects.py) written as one mesh
@@ -22,9 +22,6 @@ import sys
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
-from policy_objects import write_object
-from policy_report import TEST_SEED, write_report
-
 from anymesh.applications.policy.objects_ import find_assets, task_object
 from anymesh.applications.policy.settings import SETTINGS
 from anymesh.applications.policy.tasks import PolicyTask
@@ -33,6 +30,8 @@ from anymesh.errors import AnymeshError
 from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.evaluation.protocols import prepared
 from anymesh.export import write_asset
+from benchmarks.policy_objects import write_object
+from benchmarks.policy_report import TEST_SEED, write_report
 
 TASKS = {"laptop": PolicyTask.OPEN, "bucket": PolicyTask.LIFT}
 ARMS = ("baseline", "augmented")

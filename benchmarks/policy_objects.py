@@ -1,7 +1,7 @@
 """Laptops and buckets for the policy experiment, with exact joints: plain ones, and designs that vary more.
 
-The plain laptops are those of `kinds_things`. The designs stand for meshes of artists: they are written as one mesh without
-names, which `anymesh annotate` turns into assets. `python benchmarks/policy_objects.py FOLDER` writes all of them.
+The plain laptops are those of `training/kinds`. The designs stand for meshes of artists: they are written as one mesh without
+names, which `anymesh annotate` turns into assets. `python -m benchmarks.policy_objects FOLDER` writes all of them.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from zlib import crc32
 
 import numpy as np
 import trimesh
-from kinds_model import BASE, Model, left_by_an_artist
-from kinds_solids import box, cut, loft, prism, rod, rounded, together, tube, turned
-from kinds_things import laptop as plain_laptop
 from trimesh import Trimesh
 
 from anymesh.evaluation.ground_truth import GroundTruth, read_ground_truth
+from training.kinds.household.things import laptop as plain_laptop
+from training.kinds.model import BASE, Model, left_by_an_artist
+from training.kinds.solids import box, cut, loft, prism, rod, rounded, together, tube, turned
 
 TO_Y_UP = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])
 SEED = 19

@@ -1,4 +1,4 @@
-"""Steps per second of processor time of the environments, one process: python benchmarks/policy_speed.py [--steps 2000]
+"""Steps per second of processor time of the environments, one process: python -m benchmarks.policy_speed [--steps 2000]
 
 The objects are the example meshes laptop and bucket with their true joints; actions are random.
 """
@@ -10,11 +10,10 @@ import tempfile
 import time
 from pathlib import Path
 
-from plan_objects import true_object
-from policy import exact_asset
-
 from anymesh.applications.policy.env_ import make_env
 from anymesh.errors import AnymeshError
+from benchmarks.plan_objects import true_object
+from benchmarks.policy import exact_asset
 
 CASES = [
     (thing, task, robot, observation)

@@ -1,8 +1,8 @@
 """Every committed report of `anymesh eval`, made anew, and one table over all of them.
 
-python benchmarks/reports.py WORK               all; WORK keeps what is done, so a stopped run goes on
-python benchmarks/reports.py WORK NAME ...      some of them, such as sweethome3d-parts; the table is of those in WORK
-python benchmarks/reports.py WORK --place sweethome3d=FILE.deb     a set that lies elsewhere
+python -m benchmarks.reports WORK               all; WORK keeps what is done, so a stopped run goes on
+python -m benchmarks.reports WORK NAME ...      some of them, such as sweethome3d-parts; the table is of those in WORK
+python -m benchmarks.reports WORK --place sweethome3d=FILE.deb     a set that lies elsewhere
 """
 
 from __future__ import annotations
@@ -47,7 +47,7 @@ TABLES = {
 }
 HEAD = """# Reports
 
-Made by `python benchmarks/reports.py WORK`; each report begins with its command. Answerer: geometry (no key, no network).
+Made by `python -m benchmarks.reports WORK`; each report begins with its command. Answerer: geometry (no key, no network).
 The columns are explained in [docs/evaluation.md](../../docs/evaluation.md); "all" is over all sets together.
 
 The shipped classifiers were trained on these sets (each report says on how many of its objects). These figures therefore show

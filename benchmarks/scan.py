@@ -1,6 +1,6 @@
 """Scans of the examples, recorded by a simulated depth camera, against the truth, and articulated end to end (docs/scan.md).
 
-    python benchmarks/scan.py OUT [NAME ...] [--answers geometry,recorded] [--views 60] [--noise 0.0015] [--seed 0] [--pictures]
+    python -m benchmarks.scan OUT [NAME ...] [--answers geometry,recorded] [--views 60] [--noise 0.0015] [--seed 0] [--pictures]
 
 --answers: by geometry, and with the recorded answers of a general model to the pictures of the scans (scan_answers/).
 --pictures: scan the pictures without their depth (needs CUDA and the extra scan-gpu); no answers are recorded for these scans.

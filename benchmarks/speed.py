@@ -1,6 +1,6 @@
 """Times, peak memory and the time of each stage on synthetic objects with more and more faces or components.
 
-python benchmarks/speed.py [NAME[:SIZE,...] ...]      writes benchmarks/speed.md
+python -m benchmarks.speed [NAME[:SIZE,...] ...]      writes benchmarks/speed.md
 
 Names: pot (by faces), boards, chandelier, shelf and pile (by connected components), see speed_scenes.py. The slope is that of
 a line fitted to log(processor time) over log(size), sizes below a tenth of the largest left out: 1 is linear.
@@ -22,7 +22,8 @@ from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
-from speed_scenes import COMPONENTS, FACES
+
+from benchmarks.speed_scenes import COMPONENTS, FACES
 
 HERE = Path(__file__).parent
 STAGES = ("load", "segment", "joints", "export")
@@ -117,7 +118,7 @@ def write(lines: list[str]) -> None:
     head = [
         "# Speed",
         "",
-        f"`python benchmarks/speed.py {' '.join(sys.argv[1:])}`, {datetime.date.today()}, "
+        f"`python -m benchmarks.speed {' '.join(sys.argv[1:])}`, {datetime.date.today()}, "
         f"version {version('articulate-anymesh')}, Python {platform.python_version()}, {os.cpu_count()} cores. Synthetic "
         "objects of `speed_scenes.py`; size: requested number of faces (pot), connected components (the others). Slope: "
         "exponent of the growth of the processor time with the size, over the largest tenfold range. cpu: processor time of "

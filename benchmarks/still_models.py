@@ -1,6 +1,6 @@
 """Count the parts that are found on real models of which nothing moves, which nothing was trained or tuned on.
 
-python benchmarks/still_models.py WORK    writes still_models.md
+python -m benchmarks.still_models WORK    writes still_models.md
 
 Furniture of Sweet Home 3D (Debian package `sweethome3d`) without openings, chosen by its pictures in the catalogue: nothing on
 it is meant to move. Left out are models with taps, lids, cords, drawers, swivels or loose things that the file does not mark.
@@ -13,10 +13,9 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from held_out import measure
-
 from anymesh.evaluation.datasets.sweethome3d import SweetHome3D
 from anymesh.evaluation.record import Record
+from benchmarks.held_out import measure
 
 STILL = (
     "armchair armchair2 bath bed bed140x190 bed90x190 bedsideTable bookcase bunkBed90x190 chair chair2 coffeeTable "
@@ -47,7 +46,7 @@ def page(records: Sequence[Record]) -> str:
     with_parts = [(name, count) for name, count in found if count]
     return "\n".join([
         "# Parts found where nothing moves", "",
-        f"`python benchmarks/still_models.py WORK`: {len(found)} models of Sweet Home 3D's furniture of which nothing moves,",
+        f"`python -m benchmarks.still_models WORK`: {len(found)} models of Sweet Home 3D's furniture of which nothing moves,",
         "by geometry alone, without names. Nothing is trained on them;",
         "still kinds for the training were chosen with this page in view.", "",
         f"On {len(found) - len(with_parts)} of them no part is found; on the others {sum(c for _, c in with_parts)}:", "",

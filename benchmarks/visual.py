@@ -1,10 +1,10 @@
 """The visual method with an answerer that sees, over many objects: asks, keeps the answers, and replays them for the tables.
 
-python benchmarks/visual.py ask FOLDER --place infinigen=DIR --wait --jobs 4    asks, in FOLDER/NNN/PROTOCOL/, to the end
-python benchmarks/visual.py keep FOLDER                                         answers to benchmarks/recordings/, no pictures
-python benchmarks/visual.py table --place infinigen=DIR [--ablation]            benchmarks/visual.md, from the recordings alone
-python benchmarks/visual.py scores FOLDER                                       benchmarks/visual.md, as measured while asking
-python benchmarks/visual.py pictures FOLDER --only 001                          recorded questions with their pictures
+python -m benchmarks.visual ask FOLDER --place infinigen=DIR --wait --jobs 4    asks, in FOLDER/NNN/PROTOCOL/, to the end
+python -m benchmarks.visual keep FOLDER                                         answers to benchmarks/recordings/, no pictures
+python -m benchmarks.visual table --place infinigen=DIR [--ablation]            benchmarks/visual.md, from the recordings alone
+python -m benchmarks.visual scores FOLDER                                       benchmarks/visual.md, as measured while asking
+python -m benchmarks.visual pictures FOLDER --only 001                          recorded questions with their pictures
 
 Objects have numbers in the folders of questions, as their names would show what they are (`recordings/objects.json`), and what
 is known of the truth lies beside, in FOLDER.results/. The parts are given only once the object was answered without them.
@@ -23,11 +23,6 @@ from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
 
-from visual_choices import FILE as CHOICES
-from visual_choices import Wrapper, choices_of, write_choices
-from visual_replay import VARIANTS, Row, replayed
-from visual_table import MEASURED, page
-
 from anymesh.errors import AnymeshError, OpenQuestionError
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, evaluate_sample
@@ -37,6 +32,10 @@ from anymesh.pipeline.solving import solve
 from anymesh.vlm.asking import Answer, Question, VisualAnswerer
 from anymesh.vlm.file_answerer import open_questions
 from anymesh.vlm.question_files import ANSWER, OWNER, QUESTION, find_questions
+from benchmarks.visual_choices import FILE as CHOICES
+from benchmarks.visual_choices import Wrapper, choices_of, write_choices
+from benchmarks.visual_replay import VARIANTS, Row, replayed
+from benchmarks.visual_table import MEASURED, page
 
 HERE = Path(__file__).parent
 RECORDINGS = HERE / "recordings"

@@ -7,8 +7,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from visual_choices import FILE, WithChoices, read_choices
-
 from anymesh.config import Config
 from anymesh.errors import ModelError
 from anymesh.evaluation.datasets.dataset import Dataset
@@ -23,6 +21,7 @@ from anymesh.vlm.reference_answerer import ReferenceAnswerer
 from anymesh.vlm.replay import Replay
 from anymesh.vlm.reply_text import reply_object
 from anymesh.vlm.vlm_answerer import VlmAnswerer, request_of
+from benchmarks.visual_choices import FILE, WithChoices, read_choices
 
 VARIANTS = ("as recorded", "--verify off", "one view", "geometry alone")
 ONE_VIEW = "1@15+30"

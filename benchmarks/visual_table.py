@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from itertools import groupby
 from statistics import fmean, median
 
-from visual_replay import VARIANTS, Row
+from benchmarks.visual_replay import VARIANTS, Row
 
 HEAD = """# The visual method, with recorded answers
 
@@ -30,12 +30,12 @@ angle, position at the part (the diagonal is 2), whether positive opens. Calls: 
 {seconds}
 """
 REPLAYED = {
-    "how": "`python benchmarks/visual.py table --ablation --place SET=PLACE ...` replays `benchmarks/recordings/`: no model, "
+    "how": "`python -m benchmarks.visual table --ablation --place SET=PLACE ...` replays `benchmarks/recordings/`: no model, "
     "no network.",
     "seconds": "Seconds: of the tool, without the answerer, cold, median over objects.",
 }
 MEASURED = {
-    "how": "Scores at the time of the recording: `python benchmarks/visual.py scores FOLDER`, after `ask`. `python "
+    "how": "Scores at the time of the recording: `python -m benchmarks.visual scores FOLDER`, after `ask`. `python "
     "benchmarks/visual.py table --place SET=PLACE ...` replays the recordings in `benchmarks/recordings/` without a model.",
     "seconds": "Seconds include the wait for answers, with up to twelve objects at a time.",
 }

@@ -121,7 +121,11 @@ def test_options_in_prose_exist_somewhere() -> None:
         for option in command.params
         for o in (*option.opts, *option.secondary_opts)
     }
-    scripts = "".join(path.read_text(encoding="utf-8") for path in sorted((ROOT / "benchmarks").glob("*.py")))
+    scripts = "".join(
+        path.read_text(encoding="utf-8")
+        for folder in ("benchmarks", "training")
+        for path in sorted((ROOT / folder).glob("**/*.py"))
+    )
     foreign = {"--install-completion", "--mesh-input", "--output-dir"}
     missing = {o for o in inline_options() - known - foreign if f'"{o}"' not in scripts}
     assert not missing

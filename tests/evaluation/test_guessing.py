@@ -47,7 +47,7 @@ def test_whatever_is_answered_there_is_a_result() -> None:
 
 @pytest.mark.slow
 def test_no_example_crashes_on_random_answers() -> None:
-    command = [sys.executable, str(ROOT / "benchmarks" / "guesses.py"), f"examples:{ROOT / 'examples'}", "--seeds", "2"]
-    done = subprocess.run(command, capture_output=True, text=True)
+    command = [sys.executable, "-m", "benchmarks.guesses", f"examples:{ROOT / 'examples'}", "--seeds", "2"]
+    done = subprocess.run(command, capture_output=True, text=True, cwd=ROOT)
     assert done.returncode == 0, done.stdout[-2000:] + done.stderr[-2000:]
     assert "0 crashes in" in done.stdout

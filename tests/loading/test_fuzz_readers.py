@@ -1,44 +1,32 @@
 """Test a short fuzzing run of the readers, and decompression bombs.
 
-`python benchmarks/fuzz_readers.py` does thousands of runs.
+`python -m benchmarks.fuzz_readers` does thousands of runs.
 """
 
 from __future__ import annotations
 
 import struct
-import sys
 import zlib
-from pathlib import Path
 
 import pytest
 from mesh_files import all_files, dae, plain_gltf, put
 
 from anymesh.isolation import ChildLimits, ChildPool
-
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
-
-
-@pytest.fixture
-def fuzz(monkeypatch):
-    monkeypatch.syspath_prepend(BENCHMARKS)
-    import fuzz_readers
-
-    yield fuzz_readers
-    sys.modules.pop("fuzz_readers")
+from benchmarks import fuzz_readers
 
 
-def test_mutated_files_end_in_a_mesh_or_an_input_error_and_open_nothing_outside(fuzz) -> None:
-    fuzzer = fuzz.Fuzzer(seed=7)
+def test_mutated_files_end_in_a_mesh_or_an_input_error_and_open_nothing_outside() -> None:
+    fuzzer = fuzz_readers.Fuzzer(seed=7)
     fuzzer.run(100)
     assert fuzzer.failures == []
     assert fuzzer.counts["mesh"] > 10
     assert fuzzer.counts["refused"] > 10
 
 
-def test_the_watch_sees_what_leaves_the_folder(fuzz, tmp_path) -> None:
+def test_the_watch_sees_what_leaves_the_folder(tmp_path) -> None:
     (tmp_path / "inside").mkdir()
     (tmp_path / "secret").write_text("x")
-    watch = fuzz.Watch()
+    watch = fuzz_readers.Watch()
     watch.folder = str(tmp_path / "inside")
     (tmp_path / "secret").read_text()
     watch.folder = None
@@ -108,15 +96,14 @@ BOMBS = {
 
 @pytest.fixture(scope="module")
 def child():
-    with pytest.MonkeyPatch.context() as patch, ChildPool(1, ChildLimits(seconds=20.0, memory=3 << 30)) as pool:
-        patch.syspath_prepend(BENCHMARKS)
+    with ChildPool(1, ChildLimits(seconds=20.0, memory=3 << 30)) as pool:
         yield pool
 
 
 @pytest.mark.parametrize("name", BOMBS)
 def test_bombs_take_little_memory_and_time(child, tmp_path, name) -> None:
     path = put(tmp_path, name, BOMBS[name]())
-    (result,) = child.run("fuzz_readers", "try_inputs", {"inputs": [(name, path.read_bytes())], "every": 0})
+    (result,) = child.run("benchmarks.fuzz_readers", "try_inputs", {"inputs": [(name, path.read_bytes())], "every": 0})
     assert result["outcome"] in ("mesh", "refused"), result
     assert result["outside"] == []
     assert result["outcome"] == "refused" or name in ("picture.glb", "instances.glb")

@@ -1,4 +1,4 @@
-"""Learned scores of a part's motions: boosted trees on named features (`benchmarks/train_motions.py`).
+"""Learned scores of a part's motions: boosted trees on named features (`training/train_motions.py`).
 
 One classifier scores motions by the part at rest alone, which decides what is swept; the other scores swept motions.
 """

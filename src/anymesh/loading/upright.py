@@ -79,7 +79,7 @@ def up_of(direction: Float[np.ndarray, " 3"], probability: float | None = None) 
 
 @cache
 def up_classifier() -> Classifier:
-    """Read the classifier (`benchmarks/train_up.py`)."""
+    """Read the classifier (`training/train_up.py`)."""
     return Classifier.read("anymesh.loading", "up_classifier.npz")
 
 

@@ -1,0 +1,1 @@
+"""Boats, ship parts, trains, and vehicles for snow and water."""

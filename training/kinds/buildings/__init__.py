@@ -1,0 +1,1 @@
+"""Buildings, rooms and garden houses."""

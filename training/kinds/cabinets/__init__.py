@@ -1,0 +1,1 @@
+"""Cabinets, drawers and shelves."""

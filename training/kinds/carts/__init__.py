@@ -1,0 +1,1 @@
+"""Carts, trolleys, prams and carriages."""

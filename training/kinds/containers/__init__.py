@@ -1,0 +1,1 @@
+"""Boxes, cases, bottles and cans."""

@@ -1,0 +1,1 @@
+"""Small kitchen appliances and kitchenware."""

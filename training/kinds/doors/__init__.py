@@ -1,0 +1,1 @@
+"""Doors, gates, barriers and locks."""

@@ -1,0 +1,1 @@
+"""Electronic devices, controls, cameras and optics."""

@@ -1,0 +1,1 @@
+"""Seats, tables, beds and desks."""

@@ -1,0 +1,1 @@
+"""Bathroom, laundry, cleaning and fans."""

@@ -1,0 +1,1 @@
+"""Fitted kitchens and large appliances."""

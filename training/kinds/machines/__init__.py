@@ -1,0 +1,1 @@
+"""Building and farm machines, cranes, mills, plant."""

@@ -1,0 +1,1 @@
+"""Hospital and laboratory equipment."""

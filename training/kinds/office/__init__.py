@@ -1,0 +1,1 @@
+"""Office machines, drafting and sewing."""

@@ -1,0 +1,1 @@
+"""Playgrounds, games and sports equipment."""

@@ -1,0 +1,43 @@
+"""All kinds by name, and how one object of a kind is built and written."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable
+from importlib import import_module
+from pathlib import Path
+from zlib import crc32
+
+import numpy as np
+
+from training.kinds.model import Model, left_by_an_artist, write_urdf
+
+Kinds = dict[str, Callable[[Model], None]]
+
+
+def _named(section: str) -> Kinds:
+    """Return the functions that build the kinds of a section of kinds.toml, from the module SUBJECT/FAMILY of each family."""
+    subjects = tomllib.loads((Path(__file__).parent / "kinds.toml").read_text(encoding="utf-8"))[section]
+    return {
+        name: getattr(import_module(f"training.kinds.{subject}.{family}"), name)
+        for subject, families in subjects.items()
+        for family, names in families.items()
+        for name in names.split()
+    }
+
+
+KINDS, TEST, UNTRAINED, RESERVED = map(_named, ("train", "test", "untrained", "reserved"))
+ALL = KINDS | TEST | UNTRAINED | RESERVED
+
+
+def build(kind: str, seed: int, number: int) -> Model:
+    """Object `number` of a kind; the same for the same seed."""
+    model = Model(np.random.default_rng([seed, crc32(kind.encode()), number]))
+    ALL[kind](model)
+    return left_by_an_artist(model)
+
+
+def write(kind: str, seed: int, number: int, folder: Path) -> Path:
+    """Build one object and write it; return its URDF."""
+    name = f"{kind}-{number:02d}"
+    return write_urdf(build(kind, seed, number), name, folder / name, ("obj", "stl")[number % 2])

@@ -1,0 +1,1 @@
+"""The reserved kinds, which nothing is trained or tuned on."""

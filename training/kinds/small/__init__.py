@@ -1,0 +1,1 @@
+"""Pocket things, trinkets and ornaments."""

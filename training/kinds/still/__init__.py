@@ -1,0 +1,1 @@
+"""Plants, figures, lamps, food: objects of which nothing moves."""

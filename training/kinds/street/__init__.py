@@ -1,0 +1,1 @@
+"""Street furniture, shop and ticket machines."""

@@ -1,0 +1,1 @@
+"""Cars, lorries, buses, motorcycles and bicycles."""

@@ -1,0 +1,1 @@
+"""Windows, hatches and shutters."""

@@ -1,0 +1,1 @@
+"""Hand tools and machine tools."""
