@@ -27,6 +27,7 @@ include_patterns = [
     "benchmarks/*.md",
     "benchmarks/reports/*.md",
     "CHANGELOG.md",
+    "CONTRIBUTING.md",
     "SECURITY.md",
     "examples/README.md",
 ]
