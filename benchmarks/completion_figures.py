@@ -10,9 +10,9 @@ from jaxtyping import Bool, Float
 from PIL import Image
 from scipy import ndimage
 
-from anymesh.completion.protocol import Finished
-from anymesh.completion.scenes import widest
-from anymesh.completion.visible import GRAZE, escapes
+from anymesh.finishing.protocol import Finished
+from anymesh.finishing.scenes import widest
+from anymesh.finishing.visible import GRAZE, escapes
 from anymesh.geometry.distance_ import distance_to_mesh, winding_number
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene

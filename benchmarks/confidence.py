@@ -1,4 +1,4 @@
-"""How often joints are right, and how sure, if answers are wrong on purpose (`articulation/answer_evidence.py`).
+"""How often joints are right, and how sure, if answers are wrong on purpose (`prompted/motions/answer_evidence.py`).
 
 python -m benchmarks.confidence DATASET... [--step 1] [--rounds 2] [--markdown FILE]      data sets as `anymesh eval` names them
 
@@ -16,10 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
-from anymesh.articulation import offers
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_question import Candidate
-from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.config import Config
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.ground_truth import EvalSample
@@ -27,7 +25,9 @@ from anymesh.evaluation.oracle import Noisy, Random, oracle
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.score import score
 from anymesh.evaluation.success import right
-from anymesh.rendering.visual_prompts import VisualPrompts
+from anymesh.prompted.motions import offers
+from anymesh.prompted.motions.prompted import Questions, prompt_joints
+from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import MOVING
 from anymesh.types.recognition import Recognition, RecognizedLabel

@@ -18,10 +18,10 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import anymesh
+from anymesh.checking.engines.engines import ENGINES, sweep_in
+from anymesh.checking.engines.report import SweepReport
 from anymesh.checking.find import find_description
 from anymesh.errors import AnymeshError, InputError, MissingExtraError
-from anymesh.simulation.engines import ENGINES, sweep_in
-from anymesh.simulation.report import SweepReport
 
 ROOT = Path(__file__).parents[1]
 EXAMPLES = ("microwave", "cabinet", "laptop", "stove")

@@ -20,11 +20,11 @@ import trimesh
 import xatlas
 from scipy.spatial.transform import Rotation
 
-from anymesh.completion.bake_charts import lay_out
 from anymesh.export.rotations import quaternion, rpy
+from anymesh.finishing.bake_charts import lay_out
 from anymesh.loading import load_mesh
+from anymesh.prompted.models.prices import PRICES, cost_of
 from anymesh.types import JointType, Motion
-from anymesh.vlm.prices import PRICES, cost_of
 
 SIZE, PADDING = 1024, 2  # [px]
 MESHES = Path(__file__).parents[1] / "examples" / "meshes"

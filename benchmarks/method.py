@@ -14,17 +14,17 @@ import numpy as np
 
 from anymesh.articulation.estimate import motion_questions
 from anymesh.articulation.motion_question import Candidate
-from anymesh.articulation.offers import MAX_SHOWN_ANGLE_RAD, MAX_SHOWN_TRAVEL_RATIO
 from anymesh.articulation.rank_motions import motion_scores
 from anymesh.config import Config
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline import articulate
 from anymesh.pipeline.solving import Solver
+from anymesh.prompted.motions.offers import MAX_SHOWN_ANGLE_RAD, MAX_SHOWN_TRAVEL_RATIO
+from anymesh.prompted.pictures.sheet import question_sheet
+from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.rendering.encode import encode
 from anymesh.rendering.paint import mark_color
 from anymesh.rendering.render import render
-from anymesh.rendering.sheet import question_sheet
-from anymesh.rendering.visual_prompts import VisualPrompts
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.part_assignment import assign_parts
 from anymesh.segmentation.part_candidates import PartCandidates, part_candidates

@@ -15,11 +15,11 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.errors import ModelError
+from anymesh.prompted.answerers.question_files import CHECK, QuestionFolder
+from anymesh.prompted.questions.asking import Answer, Question, VisualAnswerer
+from anymesh.prompted.questions.motion_choice import MotionPick, MotionTable, PartFit, WhichMotions
+from anymesh.prompted.questions.saved_question import unpack_question
 from anymesh.types import Exchange, JointType, Motion
-from anymesh.vlm.asking import Answer, Question, VisualAnswerer
-from anymesh.vlm.motion_choice import MotionPick, MotionTable, PartFit, WhichMotions
-from anymesh.vlm.question_files import CHECK, QuestionFolder
-from anymesh.vlm.saved_question import unpack_question
 
 FILE = "choices.json"
 KIND = "motions"

@@ -14,13 +14,13 @@ from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, evaluat
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import ObjectScore
 from anymesh.pipeline.solving import solve
+from anymesh.prompted.answerers.reference import reference_of
+from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
+from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer, request_of
+from anymesh.prompted.models.replay import Replay
+from anymesh.prompted.questions.asking import Answer, Question, VisualAnswerer
+from anymesh.prompted.questions.reply_text import reply_object
 from anymesh.types import Exchange, Joint, Mesh, Segmentation
-from anymesh.vlm.asking import Answer, Question, VisualAnswerer
-from anymesh.vlm.reference import reference_of
-from anymesh.vlm.reference_answerer import ReferenceAnswerer
-from anymesh.vlm.replay import Replay
-from anymesh.vlm.reply_text import reply_object
-from anymesh.vlm.vlm_answerer import VlmAnswerer, request_of
 from benchmarks.visual_choices import FILE, WithChoices, read_choices
 
 VARIANTS = ("as recorded", "--verify off", "one view", "geometry alone")

@@ -5,11 +5,11 @@ from pathlib import Path
 import contract
 import pytest
 
+from anymesh.checking.engines.mujoco_ import sweep_joints
 from anymesh.evaluation.ground_truth import example_truths
 from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.score import score
 from anymesh.pipeline import articulate
-from anymesh.simulation.mujoco_ import sweep_joints
 from anymesh.types import JointType
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

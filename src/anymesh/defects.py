@@ -13,7 +13,7 @@ from typing import Any
 
 from anymesh import __version__
 from anymesh.errors import failed_stage
-from anymesh.vlm.error_redaction import SECRET
+from anymesh.prompted.models.error_redaction import SECRET
 
 LIBRARIES = "numpy scipy trimesh embreex mujoco manifold3d libigl fast-simplification pillow pycollada typer".split()
 PATH = re.compile(r"(?:(?<!\w)[A-Za-z]:)?[^\s:#'\"(),=<>]*[\\/]([^\\/\s:#'\"(),=<>]*)")

@@ -3,7 +3,7 @@
 import pytest
 from known import cases_once, scored_once
 
-from anymesh.articulation import offers, prompted
+from anymesh.prompted.motions import offers, prompted
 
 
 @pytest.fixture

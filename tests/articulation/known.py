@@ -10,19 +10,19 @@ import numpy as np
 from assets import box
 from scenes import Scene, built, case, door, drawer, lid, slider, wheel
 
-from anymesh.articulation.cases import PartCase, make_cases
 from anymesh.articulation.motion_question import MotionQuestion
-from anymesh.articulation.offers import scored_motions
-from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.config import Config, PromptConfig, ViewsConfig
 from anymesh.geometry.patches import ObjectShape
-from anymesh.rendering.visual_prompts import VisualPrompts
+from anymesh.prompted.answerers.reference import Reference
+from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
+from anymesh.prompted.motions.cases import PartCase, make_cases
+from anymesh.prompted.motions.offers import scored_motions
+from anymesh.prompted.motions.prompted import Questions, prompt_joints
+from anymesh.prompted.pictures.visual_prompts import VisualPrompts
+from anymesh.prompted.questions.asking import VisualAnswerer
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Exchange, Joint, JointType, KnownJoint, Mesh, Segmentation
 from anymesh.types.recognition import Recognition
-from anymesh.vlm.asking import VisualAnswerer
-from anymesh.vlm.reference import Reference
-from anymesh.vlm.reference_answerer import ReferenceAnswerer
 
 X, Y, Z = np.eye(3)
 # half the resolution

@@ -9,7 +9,7 @@ from known import the_case
 from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND
 from scenes import door
 
-from anymesh.articulation.answer_evidence import (
+from anymesh.prompted.motions.answer_evidence import (
     FIXED_SHARE,
     RELIABILITIES,
     SHARES,
@@ -18,11 +18,11 @@ from anymesh.articulation.answer_evidence import (
     answered_confidence,
     posteriors,
 )
-from anymesh.articulation.cases import PartCase
-from anymesh.articulation.offers import MotionOffers
+from anymesh.prompted.motions.cases import PartCase
+from anymesh.prompted.motions.offers import MotionOffers
+from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import JointType
 from anymesh.types.recognition import RecognizedLabel
-from anymesh.vlm.prompting import JointAppearance, KindAnswer
 
 ALONG, OUT, FIXED = JointAppearance.HINGE_ALONG, JointAppearance.SLIDE_OUT, JointAppearance.FIXED
 MOTIONS = (EDGE, FAR_EDGE, PULL, ROUND)

@@ -12,23 +12,23 @@ from known import KNOWN, QUICK, ready, the_case
 from made import EDGE, PULL, X, Y, Z, slide, turn
 from scenes import door, prism
 
-from anymesh.articulation.answer_evidence import answered_confidence
-from anymesh.articulation.candidate_points import axis_points, cluster_points, followed, with_more
-from anymesh.articulation.cases import PartCase, make_cases
-from anymesh.articulation.decode import hinge, plane_normal
 from anymesh.articulation.estimate import motion_questions
 from anymesh.articulation.freedom import stays_free
-from anymesh.articulation.offers import MAX_SHOWN_ANGLE_RAD, make_offers, scored_motions, shown_amount
-from anymesh.articulation.own_axes import round_patches
-from anymesh.articulation.prompted import _joint
-from anymesh.articulation.relabel import labels_by_name, relabelled, unlabelled
-from anymesh.articulation.unverified import as_answered, normal_outwards
-from anymesh.articulation.verify import Choice
 from anymesh.config import Config, PromptConfig
 from anymesh.deadline import Deadline
+from anymesh.prompted.motions.answer_evidence import answered_confidence
+from anymesh.prompted.motions.candidate_points import axis_points, cluster_points, followed, with_more
+from anymesh.prompted.motions.cases import PartCase, make_cases
+from anymesh.prompted.motions.decode import hinge, plane_normal
+from anymesh.prompted.motions.offers import MAX_SHOWN_ANGLE_RAD, make_offers, scored_motions, shown_amount
+from anymesh.prompted.motions.own_axes import round_patches
+from anymesh.prompted.motions.prompted import _joint
+from anymesh.prompted.motions.relabel import labels_by_name, relabelled, unlabelled
+from anymesh.prompted.motions.unverified import as_answered, normal_outwards
+from anymesh.prompted.motions.verify import Choice
+from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import JointType, Part, Segmentation
 from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
-from anymesh.vlm.prompting import JointAppearance, KindAnswer
 
 ALONG, OUT, FIXED = JointAppearance.HINGE_ALONG, JointAppearance.SLIDE_OUT, JointAppearance.FIXED
 

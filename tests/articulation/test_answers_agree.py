@@ -8,15 +8,15 @@ from assets import box
 from known import KNOWN, QUICK, Watched, prompted, ready, true_answers, visual_prompts
 from scenes import Scene, prism, wheel
 
-from anymesh.articulation.cases import make_cases
-from anymesh.articulation.prompted import PromptedJoints, Questions, prompt_joints
-from anymesh.articulation.relabel import labels_by_name
-from anymesh.articulation.unverified import normal_outwards, opening_slide
 from anymesh.pipeline.solving import Solver
+from anymesh.prompted.motions.cases import make_cases
+from anymesh.prompted.motions.prompted import PromptedJoints, Questions, prompt_joints
+from anymesh.prompted.motions.relabel import labels_by_name
+from anymesh.prompted.motions.unverified import normal_outwards, opening_slide
+from anymesh.prompted.questions.motion_choice import MotionPick, PartFit
+from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import JointType, Part, Segmentation
 from anymesh.types.recognition import Recognition, RecognizedLabel
-from anymesh.vlm.motion_choice import MotionPick, PartFit
-from anymesh.vlm.prompting import JointAppearance, KindAnswer
 
 pytestmark = pytest.mark.usefixtures("computed_once")
 LEFT = KNOWN["left"]

@@ -12,16 +12,16 @@ from known import QUICK, the_case
 from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, Z, candidate, turn
 from scenes import door
 
-from anymesh.articulation.cases import PartCase
-from anymesh.articulation.contradictions import contradictions
 from anymesh.articulation.motion_question import Candidate
-from anymesh.articulation.offers import MotionOffers, _crowding, _pages, fits, moves_as
-from anymesh.articulation.verify import MotionQuestioner, choose_motions
-from anymesh.rendering.visual_prompts import VisualPrompts
+from anymesh.prompted.motions.cases import PartCase
+from anymesh.prompted.motions.contradictions import contradictions
+from anymesh.prompted.motions.offers import MotionOffers, _crowding, _pages, fits, moves_as
+from anymesh.prompted.motions.verify import MotionQuestioner, choose_motions
+from anymesh.prompted.pictures.visual_prompts import VisualPrompts
+from anymesh.prompted.questions.motion_choice import MotionPick, PartFit, WhichMotions
+from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import Exchange, Joint, JointType
 from anymesh.types.recognition import RecognizedLabel
-from anymesh.vlm.motion_choice import MotionPick, PartFit, WhichMotions
-from anymesh.vlm.prompting import JointAppearance, KindAnswer
 
 ALONG, OUT, FIXED = JointAppearance.HINGE_ALONG, JointAppearance.SLIDE_OUT, JointAppearance.FIXED
 CUBE = mesh_of([box((0, 0, 0), (1, 1, 1))])[0]
@@ -125,7 +125,7 @@ class Picks:
 def chosen(monkeypatch: pytest.MonkeyPatch, offers: MotionOffers, *picks: int | None, fit: PartFit = PartFit.RIGHT):
     """Return the choice among offers by given picks, and the motions of each picture that was shown."""
     who = Picks(list(picks), offers, fit)
-    monkeypatch.setattr("anymesh.articulation.verify.make_offers", lambda *_: offers)
+    monkeypatch.setattr("anymesh.prompted.motions.verify.make_offers", lambda *_: offers)
     asking = MotionQuestioner(VisualPrompts(CUBE, QUICK), np.array([0, 1] * 6), who, "object", ask_fit=True)
     (found,) = choose_motions([offers.case], asking, 7, 0).values()
     assert [q.ask_fit for q in who.asked] == [True, False, False][: len(who.asked)]

@@ -15,11 +15,11 @@ from trimesh.creation import annulus
 
 from anymesh.articulation.motion_question import PartFacts
 from anymesh.articulation.part_values import part_values
-from anymesh.articulation.prompted import PromptedJoints, Questions, prompt_joints
-from anymesh.rendering.visual_prompts import VisualPrompts
+from anymesh.prompted.motions.prompted import PromptedJoints, Questions, prompt_joints
+from anymesh.prompted.pictures.visual_prompts import VisualPrompts
+from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, PointTable
 from anymesh.types import JointType
 from anymesh.types.recognition import Recognition, RecognizedLabel
-from anymesh.vlm.prompting import JointAppearance, KindAnswer, PointTable
 
 INTO, HIDDEN, ALONG = JointAppearance.HINGE_INTO, JointAppearance.HINGE_HIDDEN, JointAppearance.HINGE_ALONG
 CLOSE = replace(QUICK.prompts, label_apart=2.0)  # numbers may be beside each other

@@ -11,9 +11,9 @@ from known import KNOWN, the_case
 from scipy.spatial import KDTree
 from scipy.spatial.distance import pdist
 
-from anymesh.articulation.candidate_points import axis_points, cluster_points, superpoint_centres, with_more
 from anymesh.config import GroundingConfig, PromptConfig
 from anymesh.geometry.sampling import sample_surface
+from anymesh.prompted.motions.candidate_points import axis_points, cluster_points, superpoint_centres, with_more
 from anymesh.types import JointType, Motion
 from anymesh.types.camera import Camera
 

@@ -5,11 +5,11 @@ import pytest
 from assets import box
 from scenes import Scene, built
 
-from anymesh.articulation.cases import make_cases
 from anymesh.articulation.hypotheses import distinct, propose
-from anymesh.articulation.moved_points import MovedPoints
 from anymesh.config import Config
 from anymesh.motion.part_context import PartContext
+from anymesh.prompted.motions.cases import make_cases
+from anymesh.prompted.motions.moved_points import MovedPoints
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion
 

@@ -8,7 +8,6 @@ from assets import box
 from made import context_of, slide, turn
 from scenes import Scene, built, case, door, drawer, lid, prism, similarity, wheel
 
-from anymesh.articulation.cases import make_cases
 from anymesh.articulation.evidence import initial_direction, sweep_candidates, swept, unswept
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.motion_classifier import PartMotionScores, likeliest
@@ -16,6 +15,7 @@ from anymesh.articulation.motion_features import MISSING, SWEPT_FEATURES, motion
 from anymesh.articulation.rank_motions import rank_motions
 from anymesh.config import Config
 from anymesh.motion.part_context import PartContext
+from anymesh.prompted.motions.cases import make_cases
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion
 

@@ -12,16 +12,16 @@ from known import the_case
 from made import EDGE, PLATE, PULL, X, Z, context_of, slide, turn
 from scenes import door
 
-from anymesh.articulation import offers
-from anymesh.articulation.cases import PartCase
 from anymesh.articulation.estimate import choose_motion
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_question import Candidate, MotionQuestion
-from anymesh.articulation.moved_points import MovedPoints
-from anymesh.articulation.offers import MotionOffers, make_offers, scored_motions
+from anymesh.prompted.motions import offers
+from anymesh.prompted.motions.cases import PartCase
+from anymesh.prompted.motions.moved_points import MovedPoints
+from anymesh.prompted.motions.offers import MotionOffers, make_offers, scored_motions
+from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import JointType
 from anymesh.types.recognition import RecognizedLabel
-from anymesh.vlm.prompting import JointAppearance, KindAnswer
 
 ALONG, OUT = JointAppearance.HINGE_ALONG, JointAppearance.SLIDE_OUT
 

@@ -9,13 +9,13 @@ from assets import box
 from known import KNOWN, QUICK, Watched, known, prompted, ready, row_of, the_case, true_answers, visual_prompts
 from scenes import Scene
 
-from anymesh.articulation.cases import ask_each
-from anymesh.articulation.prompted import Questions, prompt_joints
 from anymesh.evaluation.metrics import angle_error, line_distance, opens_both_ways
+from anymesh.prompted.motions.cases import ask_each
+from anymesh.prompted.motions.prompted import Questions, prompt_joints
+from anymesh.prompted.questions.motion_choice import MotionPick, WhichMotions
+from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import Joint, JointType, KnownJoint, Motion, Part
 from anymesh.types.recognition import Recognition, RecognizedLabel
-from anymesh.vlm.motion_choice import MotionPick, WhichMotions
-from anymesh.vlm.prompting import JointAppearance, KindAnswer
 
 pytestmark = pytest.mark.usefixtures("computed_once")
 X, Y, Z = np.eye(3)

@@ -15,12 +15,12 @@ from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import limits
 from anymesh.articulation.motion_features import MISSING, motion_features
 from anymesh.articulation.motion_question import ProposedMotion
-from anymesh.articulation.moved_points import MovedPoints
 from anymesh.articulation.part_contexts import part_context
 from anymesh.articulation.repeated_parts import ScoredMotions, in_one_manner, share_opening_directions
 from anymesh.articulation.tree import descendants
 from anymesh.config import ArticulationConfig
 from anymesh.motion.part_context import PartContext
+from anymesh.prompted.motions.moved_points import MovedPoints
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType
 

@@ -9,9 +9,9 @@ from assets import box
 from known import KNOWN, scored_once, the_case
 from scenes import Scene, door, prism
 
-from anymesh.articulation.cases import PartCase
 from anymesh.articulation.motion_question import Candidate
-from anymesh.articulation.offers import (
+from anymesh.prompted.motions.cases import PartCase
+from anymesh.prompted.motions.offers import (
     BLOCKED_SHOWN_RATIO,
     DUPLICATE_MOTION_RATIO,
     DUPLICATE_OBJECT_RATIO,
@@ -22,9 +22,9 @@ from anymesh.articulation.offers import (
     make_offers,
     shown_amount,
 )
-from anymesh.articulation.own_axes import CENTRAL
+from anymesh.prompted.motions.own_axes import CENTRAL
+from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import JointType, Motion
-from anymesh.vlm.prompting import JointAppearance, KindAnswer
 
 pytestmark = pytest.mark.usefixtures("computed_once")
 X, Y, Z = np.eye(3)

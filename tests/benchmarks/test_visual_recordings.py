@@ -15,18 +15,18 @@ from anymesh.errors import ModelError
 from anymesh.evaluation.record import Record, record_text
 from anymesh.evaluation.score import JointScore, ObjectScore
 from anymesh.geometry.raycast_ import RayScene
+from anymesh.prompted.answerers.file_answerer import FileAnswerer
+from anymesh.prompted.answerers.question_files import find_questions
+from anymesh.prompted.answerers.question_store import QuestionStore
+from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
+from anymesh.prompted.answerers.vlm_answerer import SYSTEM
+from anymesh.prompted.models.replay import Replay
+from anymesh.prompted.models.vision import Request
+from anymesh.prompted.questions.motion_choice import MotionPick, MotionTable, PartFit, WhichMotions
+from anymesh.prompted.questions.prompting import PartShown
+from anymesh.prompted.questions.recognition import Recognize
 from anymesh.rendering.encode import encode
 from anymesh.types import JointType, Motion
-from anymesh.vlm.file_answerer import FileAnswerer
-from anymesh.vlm.motion_choice import MotionPick, MotionTable, PartFit, WhichMotions
-from anymesh.vlm.prompting import PartShown
-from anymesh.vlm.question_files import find_questions
-from anymesh.vlm.question_store import QuestionStore
-from anymesh.vlm.recognition import Recognize
-from anymesh.vlm.reference_answerer import ReferenceAnswerer
-from anymesh.vlm.replay import Replay
-from anymesh.vlm.vision import Request
-from anymesh.vlm.vlm_answerer import SYSTEM
 from benchmarks import visual
 from benchmarks.visual_choices import Choice, pick_again
 from benchmarks.visual_replay import Row

@@ -10,13 +10,21 @@ from assets import cabinet
 from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.oracle import Noisy, oracle, true_reference
 from anymesh.geometry.kinematics import joint_transform
+from anymesh.prompted.answerers.reference import Reference
+from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
+from anymesh.prompted.questions.asking import VisualAnswerer
+from anymesh.prompted.questions.grounding import WhichMarks
+from anymesh.prompted.questions.motion_choice import MotionTable, WhichMotions
+from anymesh.prompted.questions.prompting import (
+    ArrowTable,
+    JointAppearance,
+    PartShown,
+    PointTable,
+    WhichArrows,
+    WhichKinds,
+    WhichPoints,
+)
 from anymesh.types import Joint, JointType, KnownJoint, Motion, Part
-from anymesh.vlm.asking import VisualAnswerer
-from anymesh.vlm.grounding import WhichMarks
-from anymesh.vlm.motion_choice import MotionTable, WhichMotions
-from anymesh.vlm.prompting import ArrowTable, JointAppearance, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
-from anymesh.vlm.reference import Reference
-from anymesh.vlm.reference_answerer import ReferenceAnswerer
 
 X, Y, Z = np.eye(3)
 ASSET = cabinet()

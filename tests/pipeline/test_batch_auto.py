@@ -5,7 +5,8 @@ import json
 from pathlib import Path
 from typing import Any
 
-from anymesh.pipeline import answering, batch
+from anymesh.pipeline import batch
+from anymesh.prompted.answerers import answering
 
 MESH = Path(__file__).parents[2] / "examples" / "meshes" / "microwave.glb"
 

@@ -10,11 +10,11 @@ import trimesh
 from surfaces import case_with_door
 
 from anymesh.checking import check_asset
-from anymesh.completion.settings import ShapeConfig
-from anymesh.completion.texture import Carried
 from anymesh.errors import ModelError, OptionError, OutputError
+from anymesh.finishing.finishing import finish_asset
+from anymesh.finishing.settings import ShapeConfig
+from anymesh.finishing.texture import Carried
 from anymesh.pipeline import articulate, export_asset, finish
-from anymesh.pipeline.finishing import finish_asset
 
 
 @pytest.fixture(scope="module")

@@ -11,7 +11,6 @@ from anymesh.cli.app import app
 from anymesh.export import Base, Driven
 from anymesh.export.formats import DEFAULT
 from anymesh.pipeline import api
-from anymesh.pipeline.answering import choose_answerer
 from anymesh.pipeline.options import (
     FLAGS,
     HELP,
@@ -24,6 +23,7 @@ from anymesh.pipeline.options import (
     command_fields,
     defaults,
 )
+from anymesh.prompted.answerers.answering import choose_answerer
 
 CLASSES = (AnswererOptions, PlacementOptions, CompletionOptions, FormatOptions, RunOptions)
 NAMES = {

@@ -6,7 +6,7 @@ from assets import box, mesh_of
 
 from anymesh.config import ViewsConfig
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.rendering.card import BAR, card_view, part_card, titled
+from anymesh.prompted.pictures.card import BAR, card_view, part_card, titled
 from anymesh.rendering.paint import HIGHLIGHT
 from anymesh.rendering.posed import Posed
 from anymesh.rendering.render import render

@@ -7,11 +7,19 @@ from typing import Any
 import numpy as np
 from assets import cabinet, checker
 
+from anymesh.prompted.questions.grounding import WhichMarks
+from anymesh.prompted.questions.motion_choice import MotionTable, WhichMotions
+from anymesh.prompted.questions.prompting import (
+    ArrowTable,
+    JointAppearance,
+    PartShown,
+    PointTable,
+    WhichArrows,
+    WhichKinds,
+    WhichPoints,
+)
+from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import JointType, Motion, Picture
-from anymesh.vlm.grounding import WhichMarks
-from anymesh.vlm.motion_choice import MotionTable, WhichMotions
-from anymesh.vlm.prompting import ArrowTable, JointAppearance, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
-from anymesh.vlm.recognition import Recognize
 
 ASSET = cabinet()
 MESH = ASSET.mesh

@@ -7,6 +7,11 @@ import pytest
 from asked_cabinet import FACE_PART, MESH, marks, motions, part, points, questions
 
 from anymesh.geometry.raycast_ import RayScene
+from anymesh.prompted.answerers.question_store import QuestionStore
+from anymesh.prompted.models.vision import Request
+from anymesh.prompted.questions.answer_json import answer_object
+from anymesh.prompted.questions.asking import BadAnswerError
+from anymesh.prompted.questions.saved_question import pack_question
 from anymesh.viewer.ask_forms import LabelRow, form_of
 from anymesh.viewer.ask_marks import SPLIT, MarksForm
 from anymesh.viewer.ask_shapes import (
@@ -25,11 +30,6 @@ from anymesh.viewer.ask_shapes import (
 from anymesh.viewer.ask_words import guide, label_words, marks_table, motion_words, title
 from anymesh.viewer.open_question import SUGGESTED, WAITING, OpenQuestion, find_open_question
 from anymesh.viewer.scene import color_of
-from anymesh.vlm.answer_json import answer_object
-from anymesh.vlm.asking import BadAnswerError
-from anymesh.vlm.question_store import QuestionStore
-from anymesh.vlm.saved_question import pack_question
-from anymesh.vlm.vision import Request
 
 KINDS = list(questions())
 

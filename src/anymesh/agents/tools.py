@@ -19,10 +19,10 @@ from anymesh.deadline import DEFAULT_SECONDS
 from anymesh.errors import OpenQuestionError, OptionError, OutputError
 from anymesh.export.formats import DEFAULT
 from anymesh.files import read_json
-from anymesh.pipeline.answering import FILES
 from anymesh.progress import Progress, silent
-from anymesh.vlm.answers import open_in, record_answer
-from anymesh.vlm.question_files import QuestionFolder, find_questions
+from anymesh.prompted.answerers.answering import FILES
+from anymesh.prompted.answerers.answers import open_in, record_answer
+from anymesh.prompted.answerers.question_files import QuestionFolder, find_questions
 
 AUTHOR = "agent"  # in the log of corrections
 QUESTIONS = ".questions"  # suffix of the folder with an output's questions, beside the output

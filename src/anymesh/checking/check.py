@@ -8,6 +8,12 @@ from pathlib import Path
 from anymesh.checking.collision import check_collision
 from anymesh.checking.content import Content, read_content
 from anymesh.checking.direction import check_direction
+from anymesh.checking.engines.contacts_ import rest_contacts
+from anymesh.checking.engines.engines import check_engine
+from anymesh.checking.engines.mjcf_ import read_mjcf
+from anymesh.checking.engines.report import SweepReport
+from anymesh.checking.engines.robot import Robot
+from anymesh.checking.engines.urdf import read_urdf
 from anymesh.checking.find import MJCF, find_description, kind_of
 from anymesh.checking.inertia import check_inertia
 from anymesh.checking.joints import check_joints
@@ -20,12 +26,6 @@ from anymesh.checking.schema_ import NAME, check_asset_json
 from anymesh.checking.texture import check_texture
 from anymesh.checking.tree import CHECK, check_files, check_tree
 from anymesh.errors import InputError, MissingExtraError
-from anymesh.simulation.contacts_ import rest_contacts
-from anymesh.simulation.engines import check_engine
-from anymesh.simulation.mjcf_ import read_mjcf
-from anymesh.simulation.report import SweepReport
-from anymesh.simulation.robot import Robot
-from anymesh.simulation.urdf import read_urdf
 
 
 def check_asset(path: str | Path, *, engines: Sequence[str] = ("mujoco",)) -> CheckReport:

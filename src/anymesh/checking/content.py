@@ -10,12 +10,12 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.checking.engines.files import find_file
+from anymesh.checking.engines.robot import Geometry, Robot, shape_triangles
 from anymesh.errors import InputError
 from anymesh.loading.checks import check_file
 from anymesh.loading.folder import Folder
 from anymesh.loading.load import READERS
-from anymesh.simulation.files import find_file
-from anymesh.simulation.robot import Geometry, Robot, shape_triangles
 from anymesh.types import Mesh
 
 

@@ -7,13 +7,13 @@ from collections.abc import Iterator
 import numpy as np
 
 from anymesh.checking.content import Content
+from anymesh.checking.engines.robot import RobotJoint
 from anymesh.checking.groups import rigid_groups
 from anymesh.checking.report import Finding, failure, warning
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.sweep import Obstacles, free_amount
 from anymesh.geometry.topology import components
 from anymesh.geometry.triangle_set import TriangleSet
-from anymesh.simulation.robot import RobotJoint
 from anymesh.types import JointType, Motion
 from anymesh.types.triangles import normals_and_areas
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from anymesh.simulation.robot import Robot
+from anymesh.checking.engines.robot import Robot
 
 
 def rigid_groups(robot: Robot) -> dict[str, frozenset[str]]:

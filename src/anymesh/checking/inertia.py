@@ -7,9 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from anymesh.checking.content import Content
+from anymesh.checking.engines.robot import Inertial, RobotLink
 from anymesh.checking.groups import rigid_groups
 from anymesh.checking.report import Finding, failure, warning
-from anymesh.simulation.robot import Inertial, RobotLink
 
 CHECK = "inertia"
 REL_TOLERANCE = 1e-6  # relative, for rounded numbers

@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from anymesh.checking.engines.robot import MOVING, Robot, RobotJoint
 from anymesh.checking.report import Finding, failure, warning
-from anymesh.simulation.robot import MOVING, Robot, RobotJoint
 
 CHECK = "joints"
 TYPES = (*MOVING, "fixed", "floating", "planar")

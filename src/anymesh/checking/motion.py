@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from anymesh.checking.engines.engines import sweep_in
+from anymesh.checking.engines.report import SweepReport
 from anymesh.checking.report import Finding, Severity, failure, warning
 from anymesh.errors import InputError, MissingExtraError
-from anymesh.simulation.engines import sweep_in
-from anymesh.simulation.report import SweepReport
 
 CHECK = "motion"
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from anymesh.checking.engines.robot import Robot
 from anymesh.checking.report import Finding, warning
 from anymesh.names import legal_name
-from anymesh.simulation.robot import Robot
 
 CHECK = "naming"
 LEGAL_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]*")

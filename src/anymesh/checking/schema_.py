@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+from anymesh.checking.engines.robot import Robot
 from anymesh.checking.report import Finding, failure
 from anymesh.checking.tree import CHECK
-from anymesh.simulation.robot import Robot
 
 NAME = "asset.json"
 MAX_VIOLATIONS = 5  # maximum number of reported violations

@@ -10,8 +10,8 @@ from pathlib import Path
 from PIL import Image
 
 from anymesh.checking.content import Content
+from anymesh.checking.engines.files import find_file
 from anymesh.checking.report import Finding, failure, warning
-from anymesh.simulation.files import find_file
 
 CHECK = "texture"
 MESHES = "meshes"  # mesh folder of an asset of this project

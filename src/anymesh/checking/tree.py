@@ -6,9 +6,9 @@ from collections import Counter
 from collections.abc import Iterator
 
 from anymesh.checking.content import Content
+from anymesh.checking.engines.files import PACKAGE
+from anymesh.checking.engines.robot import Robot
 from anymesh.checking.report import Finding, failure, warning
-from anymesh.simulation.files import PACKAGE
-from anymesh.simulation.robot import Robot
 
 CHECK = "schema"
 

@@ -14,7 +14,7 @@ from anymesh.cli.output import plain
 from anymesh.errors import OptionError
 
 if TYPE_CHECKING:
-    from anymesh.vlm.question_files import QuestionFolder
+    from anymesh.prompted.answerers.question_files import QuestionFolder
 
 QuestionsPath = Annotated[
     Path, typer.Argument(metavar="FOLDER", help="The folder of --answerer files:FOLDER, or of one question in it.")
@@ -44,7 +44,7 @@ def answer(
     quiet: Quiet = False,
 ) -> None:
     """Show the open question in FOLDER, or answer it with VALUE, which is checked immediately."""
-    from anymesh.vlm.answers import open_in, record_answer
+    from anymesh.prompted.answerers.answers import open_in, record_answer
 
     if batch_api is not None:
         if value is not None:
@@ -70,7 +70,7 @@ def answer(
 def _answer_by_batch(folder: Path, model: str, max_cost: float | None, json_: bool, quiet: bool) -> None:
     from dataclasses import asdict
 
-    from anymesh.vlm.batch_api import answer_by_batch
+    from anymesh.prompted.models.batch_api import answer_by_batch
 
     state = answer_by_batch(folder, model, max_cost=max_cost)
     if json_:
@@ -81,7 +81,7 @@ def _answer_by_batch(folder: Path, model: str, max_cost: float | None, json_: bo
 
 def question_record(question: QuestionFolder) -> dict[str, Any]:
     """Return everything that an agent needs to answer a question."""
-    from anymesh.vlm.question_files import SHEET
+    from anymesh.prompted.answerers.question_files import SHEET
 
     pictures = [{"path": str(question.path / p["file"]), "caption": p["caption"]} for p in question.record["pictures"]]
     return {
@@ -97,8 +97,8 @@ def question_record(question: QuestionFolder) -> dict[str, Any]:
 
 
 def _shown(questions: list[QuestionFolder]) -> str:
-    from anymesh.vlm.question_files import SHEET
-    from anymesh.vlm.question_words import example_answer, explain_schema
+    from anymesh.prompted.answerers.question_files import SHEET
+    from anymesh.prompted.questions.question_words import example_answer, explain_schema
 
     first, record = questions[0], questions[0].record
     lines = [f"{first.path}: {first.kind}", "", record["text"], ""]

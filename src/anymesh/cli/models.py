@@ -14,8 +14,8 @@ from anymesh.cli.output import plain
 
 def models(json_: Json = False) -> None:
     """List the models available on this machine, and which keys are set (without their values)."""
-    from anymesh.vlm.address import KEYS
-    from anymesh.vlm.servers import SERVERS, first_vision_model, probe_servers
+    from anymesh.prompted.models.address import KEYS
+    from anymesh.prompted.models.servers import SERVERS, first_vision_model, probe_servers
 
     probes = probe_servers()
     chosen = first_vision_model(probes)

@@ -90,7 +90,7 @@ def chosen_answerer(name: str, hidden: bool) -> str:
     """Return the answerer's name; for `auto`, the chosen one, which is also printed."""
     if name != "auto":
         return name
-    from anymesh.pipeline.answering import resolve_auto
+    from anymesh.prompted.answerers.answering import resolve_auto
 
     name, reason = resolve_auto(name)
     if not hidden:

@@ -18,8 +18,8 @@ from anymesh.pipeline.storage.packing import CORRECTION
 from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.pipeline.storage.saved import Saved
 from anymesh.pipeline.storage.stage_files import stage_key
+from anymesh.prompted.models.cache import cache_folder
 from anymesh.rendering.preview import write_preview
-from anymesh.vlm.cache import cache_folder
 
 
 class StaleError(OutputError):

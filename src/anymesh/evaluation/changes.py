@@ -21,7 +21,7 @@ from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.sampling import SurfacePoints, sample_surface, spread_directions
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.topology import components, weld
-from anymesh.segmentation.cloud import point_colors
+from anymesh.prompted.grounding.cloud import point_colors
 from anymesh.types import Mesh, Node
 from anymesh.types.triangles import normals_and_areas
 

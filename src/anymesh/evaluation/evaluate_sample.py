@@ -25,8 +25,8 @@ from anymesh.evaluation.score import JointScore, ObjectScore, failed, score
 from anymesh.evaluation.single_view import observation
 from anymesh.evaluation.worst import badness
 from anymesh.names import legal_name
+from anymesh.prompted.questions.asking import VisualAnswerer
 from anymesh.types import Joint, Segmentation
-from anymesh.vlm.asking import VisualAnswerer
 
 log = logging.getLogger("anymesh")
 PICTURES = "pictures"  # folder in the report's folder

@@ -32,11 +32,11 @@ from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.training import trained_note
 from anymesh.isolation.workers import worker_processes
 from anymesh.names import legal_name, listed
-from anymesh.pipeline.answering import FILES, choose_answerer
 from anymesh.pipeline.options import GEOMETRY, Answering
 from anymesh.pipeline.solving import solve
 from anymesh.progress import Progress, silent
-from anymesh.vlm.asking import AnswererFactory
+from anymesh.prompted.answerers.answering import FILES, choose_answerer
+from anymesh.prompted.questions.asking import AnswererFactory
 
 ORACLE = "oracle"
 Examined = list[Record] | OpenQuestionError  # the records of an object, or the question that it waits for

@@ -9,11 +9,11 @@ from pathlib import Path
 
 import numpy as np
 
+from anymesh.checking.engines.mujoco_ import sweep_joints
 from anymesh.errors import InputError
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.score import ObjectScore
 from anymesh.export import write_asset
-from anymesh.simulation.mujoco_ import sweep_joints
 from anymesh.types import Asset, Joint, JointType, Mesh, Segmentation, Source
 
 STEPS = 100  # positions along each range

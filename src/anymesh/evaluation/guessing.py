@@ -7,13 +7,13 @@ from typing import Any, cast
 
 import numpy as np
 
+from anymesh.prompted.questions.asking import Answer, Question, check_schema
+from anymesh.prompted.questions.grounding import WhichMarks, WhichViews
+from anymesh.prompted.questions.motion_choice import WhichMotions
+from anymesh.prompted.questions.prompting import WhichArrows, WhichKinds, WhichPoints
+from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import Exchange
 from anymesh.types.recognition import BASE
-from anymesh.vlm.asking import Answer, Question, check_schema
-from anymesh.vlm.grounding import WhichMarks, WhichViews
-from anymesh.vlm.motion_choice import WhichMotions
-from anymesh.vlm.prompting import WhichArrows, WhichKinds, WhichPoints
-from anymesh.vlm.recognition import Recognize
 
 WORDS = ("door", "lid", "drawer", "knob", "wheel", "handle", "arm", "button")
 MAX_KINDS, MAX_PARTS = 4, 6  # maximum number of labels, and of parts in an answer about marks

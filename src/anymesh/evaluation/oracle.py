@@ -9,13 +9,21 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from anymesh.evaluation.ground_truth import EvalSample
+from anymesh.prompted.answerers.reference import Reference
+from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
+from anymesh.prompted.questions.asking import Answer, Question, VisualAnswerer
+from anymesh.prompted.questions.grounding import WhichMarks
+from anymesh.prompted.questions.motion_choice import MotionPick, WhichMotions
+from anymesh.prompted.questions.prompting import (
+    JointAppearance,
+    KindAnswer,
+    PartShown,
+    PointTable,
+    WhichArrows,
+    WhichKinds,
+    WhichPoints,
+)
 from anymesh.types import Exchange, KnownJoint
-from anymesh.vlm.asking import Answer, Question, VisualAnswerer
-from anymesh.vlm.grounding import WhichMarks
-from anymesh.vlm.motion_choice import MotionPick, WhichMotions
-from anymesh.vlm.prompting import JointAppearance, KindAnswer, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
-from anymesh.vlm.reference import Reference
-from anymesh.vlm.reference_answerer import ReferenceAnswerer
 from anymesh.vocabulary import recognize
 
 Item = TypeVar("Item")

@@ -9,8 +9,8 @@ from anymesh.evaluation.ground_truth import EvalSample, GroundTruth
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.score import ObjectScore, score
 from anymesh.loading import load_mesh, place_mesh
+from anymesh.prompted.questions.asking import VisualAnswerer
 from anymesh.types import Joint, Mesh, Segmentation
-from anymesh.vlm.asking import VisualAnswerer
 
 Change = Callable[[EvalSample], EvalSample]  # rotates, adds noise, fuses, and so on
 

@@ -6,12 +6,12 @@ import json
 from pathlib import Path
 from typing import Any
 
-from anymesh.vlm.answer_json import answer_object
-from anymesh.vlm.asking import Answer, Question, VisualAnswerer
-from anymesh.vlm.cache import Cached
-from anymesh.vlm.prices import cost_of, max_picture_tokens
-from anymesh.vlm.vision import Reply, Request
-from anymesh.vlm.vlm_answerer import VlmAnswerer
+from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer
+from anymesh.prompted.models.cache import Cached
+from anymesh.prompted.models.prices import cost_of, max_picture_tokens
+from anymesh.prompted.models.vision import Reply, Request
+from anymesh.prompted.questions.answer_json import answer_object
+from anymesh.prompted.questions.asking import Answer, Question, VisualAnswerer
 
 LETTERS = 4  # approximate letters per token of English and JSON
 

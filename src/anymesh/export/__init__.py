@@ -12,8 +12,8 @@ from anymesh.export.formats import DEFAULT, Format, load_libraries, parse_format
 from anymesh.export.meshes import write_meshes
 from anymesh.export.model import Base, Driven, Model
 from anymesh.export.settings import ExportConfig
+from anymesh.prompted.answerers.transcript import write_transcript
 from anymesh.types import Asset
-from anymesh.vlm.transcript import write_transcript
 
 TRANSCRIPT = "transcript"  # folder of the questions and answers, browsable and replayable
 

@@ -16,13 +16,13 @@ from anymesh.export.options import ExportOptions
 from anymesh.export.package import write_package
 from anymesh.files import read_json
 from anymesh.isolation import AHEAD, shared_pool
-from anymesh.pipeline.answering import choose_answerer, object_name
 from anymesh.pipeline.options import Answering, PlacementOptions
 from anymesh.pipeline.stages import Keyed, Run, estimate_joints, load, recognize, segment_parts, write_files
 from anymesh.pipeline.stopped_run import kept_transcript
 from anymesh.pipeline.storage.packing import MESH, SEGMENTATION
 from anymesh.pipeline.storage.run_folder import LAST, RunFolder
 from anymesh.progress import Progress, silent
+from anymesh.prompted.answerers.answering import choose_answerer, object_name
 from anymesh.types import Asset, Joint, Segmentation
 
 
@@ -167,7 +167,7 @@ def finish(
     as for `articulate`.
     Raise OptionError, OutputError, ModelError or BudgetError; a paid task that was started is resumed by the next run.
     """
-    from anymesh.pipeline.finishing import Completion, complete_asset  # imports on use: only this stage needs its modules
+    from anymesh.finishing.finishing import Completion, complete_asset  # imports on use: only this stage needs its modules
 
     written, deadline, out = ExportOptions.parse(base, formats, drives), Deadline(time_limit), Path(out)
     how = Completion(completer, texture, watertight, max_calls, state=out.parent / f".{out.name}.meshy.json")

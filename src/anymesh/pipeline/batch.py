@@ -12,11 +12,11 @@ from anymesh import pipeline
 from anymesh.errors import AnymeshError, BudgetError, InputError, MissingExtraError, OpenQuestionError, OptionError, OutputError
 from anymesh.files import read_json
 from anymesh.loading.checks import FORMATS
-from anymesh.pipeline.answering import FILES, resolve_auto
 from anymesh.pipeline.options import GEOMETRY
 from anymesh.progress import Progress, silent
-from anymesh.vlm.budget import Spent
-from anymesh.vlm.question_files import NAME
+from anymesh.prompted.answerers.answering import FILES, resolve_auto
+from anymesh.prompted.answerers.question_files import NAME
+from anymesh.prompted.models.budget import Spent
 
 ENDING = (BudgetError, MissingExtraError, OptionError)  # errors that would recur for every other object
 

@@ -18,11 +18,11 @@ from anymesh.geometry.patches import DividedSurface, ObjectShape
 from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.progress import Progress, silent
+from anymesh.prompted.answerers.reference import Reference, reference_of
 from anymesh.segmentation.divide import divide_surface, object_shape
 from anymesh.segmentation.segment import segment_parts
 from anymesh.types import JointType, Mesh, Segmentation
 from anymesh.types.recognition import Recognition
-from anymesh.vlm.reference import Reference, reference_of
 
 GROUND_WARNING = "the file contains a ground, which is part of the base"
 

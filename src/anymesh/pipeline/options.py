@@ -11,8 +11,8 @@ from anymesh.config import DEFAULT_VIEWS
 from anymesh.deadline import CALL_SECONDS, DEFAULT_SECONDS
 
 if TYPE_CHECKING:
-    from anymesh.vlm.budget import Account
-    from anymesh.vlm.rates import Limiter
+    from anymesh.prompted.models.budget import Account
+    from anymesh.prompted.models.rates import Limiter
 
 GEOMETRY = "geometry"  # name of the answerer that needs no key and no network
 FLAGS, METAVAR, KIND, HELP = "flags", "metavar", "kind", "help"  # metadata of a field that is also an option of commands

@@ -12,7 +12,6 @@ from anymesh.deadline import PREVIEW, Deadline
 from anymesh.export import load_libraries, write_asset
 from anymesh.export.options import ExportOptions
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.pipeline.answering import AnswererSetup
 from anymesh.pipeline.options import PlacementOptions
 from anymesh.pipeline.results import JointResult, LoadResult, RecognitionResult, SegmentationResult
 from anymesh.pipeline.solving import Solver
@@ -20,10 +19,11 @@ from anymesh.pipeline.storage.packing import JOINTS, MESH, RECOGNITION, SEGMENTA
 from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.pipeline.storage.stage_files import stage_key
 from anymesh.progress import Progress
+from anymesh.prompted.answerers.answering import AnswererSetup
+from anymesh.prompted.models.cache import cache_folder
 from anymesh.rendering.preview import write_legend, write_preview
 from anymesh.segmentation.given import GIVEN
 from anymesh.types import Asset, Mesh, Source
-from anymesh.vlm.cache import cache_folder
 
 Result = TypeVar("Result")
 Answered = TypeVar("Answered", RecognitionResult, SegmentationResult, JointResult)

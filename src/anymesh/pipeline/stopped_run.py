@@ -8,11 +8,11 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from anymesh.errors import OpenQuestionError, OutputError
-from anymesh.pipeline.answering import AnswererSetup
 from anymesh.pipeline.storage.packing import JOINTS, RECOGNITION, SEGMENTATION
 from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.prompted.answerers.answering import AnswererSetup
+from anymesh.prompted.answerers.transcript import remove_transcript, write_transcript
 from anymesh.types import Exchange
-from anymesh.vlm.transcript import remove_transcript, write_transcript
 
 log = logging.getLogger("anymesh")
 

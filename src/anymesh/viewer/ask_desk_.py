@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from anymesh.prompted.answerers.question_files import LEAVE
 from anymesh.types import Mesh
 from anymesh.viewer.ask_fields_ import Choices, azimuth_of
 from anymesh.viewer.ask_forms import PartsForm
@@ -16,7 +17,6 @@ from anymesh.viewer.ask_scene_ import QuestionScene
 from anymesh.viewer.ask_shapes import closer_view
 from anymesh.viewer.open_question import OpenQuestion, find_open_question
 from anymesh.viewer.panels_page import Page
-from anymesh.vlm.question_files import LEAVE
 
 
 class AskDesk:

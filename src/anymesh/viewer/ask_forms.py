@@ -6,14 +6,22 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol, runtime_checkable
 
+from anymesh.prompted.questions.asking import Question
+from anymesh.prompted.questions.grounding import WhichMarks
+from anymesh.prompted.questions.motion_choice import MotionTable, PartFit, WhichMotions
+from anymesh.prompted.questions.prompting import (
+    OTHER,
+    JointAppearance,
+    PartShown,
+    PointTable,
+    WhichArrows,
+    WhichKinds,
+    WhichPoints,
+)
+from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import JointType
 from anymesh.types.recognition import BASE
 from anymesh.viewer.ask_marks import MarksForm
-from anymesh.vlm.asking import Question
-from anymesh.vlm.grounding import WhichMarks
-from anymesh.vlm.motion_choice import MotionTable, PartFit, WhichMotions
-from anymesh.vlm.prompting import OTHER, JointAppearance, PartShown, PointTable, WhichArrows, WhichKinds, WhichPoints
-from anymesh.vlm.recognition import Recognize
 
 UNNAMED = "part"
 

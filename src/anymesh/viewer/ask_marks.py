@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.vlm.grounding import WhichMarks
+from anymesh.prompted.questions.grounding import WhichMarks
 
 SPLIT = ("to be divided", 0)  # the group of marks that lie on more than one part
 Group = tuple[str, int]  # label and instance of a part

@@ -9,13 +9,13 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.simplify_ import simplify
+from anymesh.prompted.questions.motion_choice import MotionTable
+from anymesh.prompted.questions.prompting import ArrowTable, PartShown, PointTable
 from anymesh.rendering.axes import axis_line
 from anymesh.rendering.viewpoints import away
 from anymesh.types import JointType, Mesh
 from anymesh.viewer.ask_marks import SPLIT, MarksForm
 from anymesh.viewer.scene import MAX_DISPLAY_FACES, MIN_PART_FACES, Color, DisplayMesh, color_of
-from anymesh.vlm.motion_choice import MotionTable
-from anymesh.vlm.prompting import ArrowTable, PartShown, PointTable
 
 SAME_SIZE = 0.05  # tolerance of the ratio of sizes, below which a part has the scale of the mesh
 REACH = 0.03  # maximum distance of a clicked point from the ray, as a share of its distance from the eye

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from html import escape
 
+from anymesh.prompted.questions.motion_choice import MotionTable, PartFit
+from anymesh.prompted.questions.prompting import JointAppearance
 from anymesh.types import JointType
 from anymesh.viewer.ask_forms import ArrowsForm, Form, KindsForm, LabelRow, MotionsForm, PartsForm, PointsForm, RecognizeForm
 from anymesh.viewer.ask_marks import SPLIT, Group, MarksForm
 from anymesh.viewer.ask_shapes import group_color
 from anymesh.viewer.panels import SMALL
-from anymesh.vlm.motion_choice import MotionTable, PartFit
-from anymesh.vlm.prompting import JointAppearance
 
 KINDS = {
     "hinge along an edge (door, lid)": JointAppearance.HINGE_ALONG,

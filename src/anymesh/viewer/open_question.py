@@ -7,12 +7,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from anymesh.errors import InputError
+from anymesh.prompted.answerers.file_answerer import check_answer
+from anymesh.prompted.answerers.question_files import CHECK, LEAVE, QuestionFolder
+from anymesh.prompted.answerers.question_store import QuestionStore
+from anymesh.prompted.questions.asking import BadAnswerError
+from anymesh.prompted.questions.saved_question import unpack_question
 from anymesh.viewer.ask_forms import Form, form_of
-from anymesh.vlm.asking import BadAnswerError
-from anymesh.vlm.file_answerer import check_answer
-from anymesh.vlm.question_files import CHECK, LEAVE, QuestionFolder
-from anymesh.vlm.question_store import QuestionStore
-from anymesh.vlm.saved_question import unpack_question
 
 WAITING = "Geometry is working out a suggestion; you need not wait for it."
 SUGGESTED = "Filled in as geometry would answer; change what is wrong."

@@ -14,12 +14,12 @@ from anymesh.export.build import build_model
 from anymesh.export.model import Base, Driven, Model
 from anymesh.export.rotations import quaternion
 from anymesh.export.settings import ExportConfig
+from anymesh.prompted.models.cache import cache_folder
 from anymesh.rendering.viewpoints import away
 from anymesh.types import Asset, JointType, Mesh, Segmentation
 from anymesh.viewer.live import part_poses
 from anymesh.viewer.report_display import display_glb, displayed
 from anymesh.viewer.scene import DisplayMesh, Surfaces, box_lines, color_of, inertia_box, joint_lines, shade_of, shape_surface
-from anymesh.vlm.cache import cache_folder
 
 AXIS, SENSE, RANGE, SELECTED, CHOSEN = (190, 20, 40), (190, 20, 40), (30, 110, 200), (255, 120, 0), (230, 0, 200)
 INERTIA = (140, 70, 200)

@@ -15,8 +15,8 @@ from typing import Any
 
 from anymesh.applications.annotate import work
 from anymesh.errors import InputError, ModelError, OpenQuestionError, OutputError
-from anymesh.vlm.budget import Limit
-from anymesh.vlm.retry import UnavailableError
+from anymesh.prompted.models.budget import Limit
+from anymesh.prompted.models.retry import UnavailableError
 
 
 def _finish(out: Path, mesh: Path, force: bool) -> None:

@@ -10,7 +10,7 @@ from anymesh.applications.annotate.entering import enter_objects
 from anymesh.applications.annotate.ledger import Ledger
 from anymesh.applications.annotate.requests import ObjectRequest
 from anymesh.errors import BudgetError, OutputError
-from anymesh.vlm.budget import Limit
+from anymesh.prompted.models.budget import Limit
 
 
 @pytest.fixture

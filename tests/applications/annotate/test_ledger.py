@@ -20,7 +20,7 @@ from anymesh.applications.annotate.requests import ObjectRequest
 from anymesh.applications.annotate.salvage import open_ledger
 from anymesh.applications.annotate.states import AttemptOutcome, Claim, Result, State
 from anymesh.errors import BudgetError, InputError, OutputError
-from anymesh.vlm.budget import Limit
+from anymesh.prompted.models.budget import Limit
 
 DONE = AttemptOutcome(Result.DONE, record={"confidence": 0.5, "sha256": "x"})
 

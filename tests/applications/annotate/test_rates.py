@@ -7,7 +7,7 @@ import pytest
 from anymesh.applications.annotate.accounts import LedgerLimiter
 from anymesh.applications.annotate.outages import Outage
 from anymesh.errors import OptionError
-from anymesh.vlm.rates import Rate, WindowLimiter
+from anymesh.prompted.models.rates import Rate, WindowLimiter
 
 
 class Clock:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 import trimesh
 
-sys.path.append(str(Path(__file__).parents[2] / "vlm"))
+sys.path.append(str(Path(__file__).parents[2] / "prompted"))
 from dialects import _openai
 from wire import SECRET, Service
 

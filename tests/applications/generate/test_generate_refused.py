@@ -11,8 +11,8 @@ from anymesh import pipeline
 from anymesh.applications.generate import explain_generation, generate
 from anymesh.applications.generate.record import STILL
 from anymesh.applications.generate.work import WorkFolder
-from anymesh.completion.retexture import Remote
 from anymesh.errors import AnymeshError, BudgetError, InputError, ModelError, OptionError, OutputError
+from anymesh.finishing.retexture import Remote
 from anymesh.pipeline.storage.atomic_folder import locked
 from anymesh.types import JointType
 
@@ -40,7 +40,7 @@ def test_a_warning_tells_that_nothing_moves(program, tmp_path, quick, monkeypatc
 
 
 def test_looks_by_meshy_are_counted_in_and_limited(server, articulations, tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr("anymesh.completion.outside.Remote", partial(Remote, size=128, padding=1))
+    monkeypatch.setattr("anymesh.finishing.outside.Remote", partial(Remote, size=128, padding=1))
     with pytest.raises(BudgetError, match="would exceed --max-calls 0"):
         generate(PROMPT, tmp_path / "box", **FAST, texture="meshy:oak", max_calls=2)
     assert len(server.tasks) == 2

@@ -6,7 +6,7 @@ from plan_things import BAR, BAR_HALF, turned_about_hinge
 
 from anymesh.applications.plan.plans import GripperContact
 from anymesh.applications.plan.targets import PartSurfaces, sample_targets, velocity
-from anymesh.simulation.robot import Geometry, shape_triangles
+from anymesh.checking.engines.robot import Geometry, shape_triangles
 from anymesh.types import JointType, Motion
 
 STROKE = 0.08

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from anymesh.applications.annotate.ledger import Ledger
-from anymesh.vlm.budget import Limit, spent_words
-from anymesh.vlm.rates import WINDOW, Rate
+from anymesh.prompted.models.budget import Limit, spent_words
+from anymesh.prompted.models.rates import WINDOW, Rate
 
 
 class LedgerAccount:

@@ -28,9 +28,9 @@ from anymesh.deadline import DEFAULT_SECONDS, Deadline
 from anymesh.errors import OptionError
 from anymesh.export.formats import DEFAULT
 from anymesh.export.options import ExportOptions
-from anymesh.pipeline.answering import FILES, choose_answerer
 from anymesh.pipeline.options import GEOMETRY, Answering
-from anymesh.vlm.rates import Rate
+from anymesh.prompted.answerers.answering import FILES, choose_answerer
+from anymesh.prompted.models.rates import Rate
 
 PARQUET = "ledger.parquet"
 UNPINNED = ("max_calls", "max_cost", "cache", "timeout")  # options that may differ between runs on one output

@@ -17,8 +17,8 @@ from typing import Any
 from anymesh.applications.annotate.accounts import LedgerAccount, LedgerLimiter
 from anymesh.applications.annotate.ledger import Ledger
 from anymesh.errors import BudgetError, OutputError
-from anymesh.vlm.budget import Limit
-from anymesh.vlm.rates import Rate
+from anymesh.prompted.models.budget import Limit
+from anymesh.prompted.models.rates import Rate
 
 Ask = Callable[..., Any]
 CLOSING = 5.0  # [s] to wait for the thread of a bridge

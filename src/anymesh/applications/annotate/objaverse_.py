@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from anymesh.errors import InputError, MissingExtraError
-from anymesh.vlm.retry import UnavailableError
+from anymesh.prompted.models.retry import UnavailableError
 
 try:
     import fcntl

@@ -15,9 +15,9 @@ from anymesh.errors import AnymeshError
 from anymesh.evaluation.simulated_vlm import SimulatedVlm
 from anymesh.export.asset_json import usage
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.pipeline.answering import choose_answerer
 from anymesh.pipeline.options import GEOMETRY, Answering
 from anymesh.pipeline.solving import Solver
+from anymesh.prompted.answerers.answering import choose_answerer
 
 
 def rehearse_object(job: dict[str, Any]) -> dict[str, Any]:

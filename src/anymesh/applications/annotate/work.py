@@ -24,7 +24,7 @@ from anymesh.errors import (
     OptionError,
     failed_stage,
 )
-from anymesh.vlm.retry import UnavailableError
+from anymesh.prompted.models.retry import UnavailableError
 
 STORAGE = {getattr(errno, name, errno.ENOSPC) for name in "ENOSPC EROFS EDQUOT EIO ENODEV ESTALE EACCES EPERM".split()}
 FILES = "files:"
@@ -102,7 +102,7 @@ def _metered(job: Job) -> dict[str, Any]:
         remote = RemoteMeter(job.bridge, job.name, job.token)
         return {"spent": remote, "limiter": remote if any(job.rate) else None}
     from anymesh.applications.annotate.accounts import open_account
-    from anymesh.vlm.rates import Rate
+    from anymesh.prompted.models.rates import Rate
 
     rate = Rate(*job.rate) if any(job.rate) else None
     account, limiter = open_account(Path(job.collection), job.name, job.token, rate)
@@ -158,7 +158,7 @@ def _is_storage(error: BaseException | None) -> bool:
 
 
 def _line(error: BaseException) -> str:
-    from anymesh.vlm.error_redaction import SECRET
+    from anymesh.prompted.models.error_redaction import SECRET
 
     keys = re.compile(r"\b(?:sk-|AIza|Bearer )\S+")  # not SECRET alone: paths may be as long as keys
     line = " ".join(str(error).split())

@@ -15,10 +15,10 @@ from anymesh.applications.generate.program import log_tail, run_program
 from anymesh.applications.generate.protocol import GeneratedMesh, MeshRequest, Step, Unit
 from anymesh.defects import redacted
 from anymesh.errors import InputError, ModelError, OptionError
+from anymesh.finishing.meshy_api import KEY
 from anymesh.loading import load_mesh
-from anymesh.models.meshy_api import KEY
 from anymesh.progress import Progress
-from anymesh.vlm.address import KEYS
+from anymesh.prompted.models.address import KEYS
 
 PLACEHOLDERS = ("prompt", "image", "out", "seed")
 VALID = "command:PROGRAM with {out}, and {prompt} or {image}, such as 'command:python run.py --image {image} --out {out}'"

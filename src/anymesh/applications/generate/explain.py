@@ -12,7 +12,7 @@ from anymesh.applications.generate.run import finished_before, mesh_before
 from anymesh.applications.generate.work import WorkFolder
 from anymesh.errors import OutputError
 from anymesh.export.options import ExportOptions
-from anymesh.models.meshy_api import RETEXTURE
+from anymesh.finishing.meshy_api import RETEXTURE
 from anymesh.pipeline.options import GEOMETRY
 
 CHECKED = "2026-11-21, docs.meshy.ai/en/api/retexture"  # date and source of the credits of retexturing

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
+from anymesh.applications.generate.meshy_generate import FACES, Generated, Meshy3D, check_prompt, data_uri
 from anymesh.applications.generate.protocol import GeneratedMesh, MeshRequest, PaidTask, Step, Unit
 from anymesh.errors import InputError, ModelError, OptionError
 from anymesh.files import write_whole
+from anymesh.finishing.meshy_api import PRICED, Task, TaskKind, read_key
 from anymesh.loading import load_mesh
-from anymesh.models.meshy_api import PRICED, Task, TaskKind, read_key
-from anymesh.models.meshy_generate import FACES, Generated, Meshy3D, check_prompt, data_uri
 from anymesh.progress import Progress
 
 STATE = "meshy.json"

@@ -12,7 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from anymesh.errors import ModelError
-from anymesh.vlm.error_redaction import SECRET
+from anymesh.prompted.models.error_redaction import SECRET
 
 GRACE = 3.0  # [s] between SIGTERM and SIGKILL
 LOOK = 0.2  # [s] between checks of a running program

@@ -15,10 +15,10 @@ from anymesh.applications.generate.protocol import GeneratedMesh, PaidTask, file
 from anymesh.defects import redacted
 from anymesh.errors import InputError
 from anymesh.files import read_json, write_json
+from anymesh.finishing.meshy_api import RETEXTURE
+from anymesh.finishing.meshy_task import Bought
 from anymesh.geometry.topology import components
 from anymesh.loading import load_mesh
-from anymesh.models.meshy_api import RETEXTURE
-from anymesh.models.meshy_task import Bought
 from anymesh.pipeline.storage.outputs import GENERATED, GENERATION
 from anymesh.pipeline.storage.run_folder import RunFolder
 

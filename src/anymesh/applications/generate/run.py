@@ -20,8 +20,8 @@ from anymesh.errors import ModelError, OutputError, note_stage
 from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.pipeline.storage.saved import Saved
 from anymesh.progress import Progress, silent
+from anymesh.prompted.models.budget import Account, Spent
 from anymesh.types import Asset, JointType
-from anymesh.vlm.budget import Account, Spent
 
 
 def generate(

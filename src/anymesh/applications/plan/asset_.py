@@ -10,10 +10,10 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.applications.plan.plans import PlanError
+from anymesh.checking.engines.mujoco_bench_ import read_spec
 from anymesh.checking.find import find_description
 from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco
-from anymesh.simulation.mujoco_bench_ import read_spec
 from anymesh.types import JointType, Motion
 
 OVERLAP = 1e-4  # share of the object's extent; links that overlap by more at rest do not collide
@@ -143,7 +143,7 @@ def _shown_geoms(model: Any) -> list[int]:
 
 def geom_triangles(mujoco: Any, model: Any, data: Any, geom: int) -> Float[np.ndarray, "n 3 3"]:
     """Return the surface of a geom in the world frame [m]; cylinders, capsules and spheres as polyhedra."""
-    from anymesh.simulation.robot import Geometry, shape_triangles
+    from anymesh.checking.engines.robot import Geometry, shape_triangles
 
     kinds, kind = mujoco.mjtGeom, int(model.geom_type[geom])
     size = model.geom_size[geom]

@@ -14,9 +14,9 @@ from jaxtyping import Float
 
 from anymesh.applications.plan.robot_packages_ import RobotFiles
 from anymesh.applications.plan.servos_ import add_servos
+from anymesh.checking.engines.files import find_file
 from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco
-from anymesh.simulation.files import find_file
 
 USUAL_VELOCITY, USUAL_ACCELERATION, DEFAULT_CLOSING_FORCE = 1.0, 2.0, 40.0  # used if a file states none
 HAND = "hand_"  # prefix of the names of a mounted gripper

@@ -11,10 +11,10 @@ from jaxtyping import Float
 
 from anymesh.applications.plan.asset_ import ArticulatedObject, description, open_object
 from anymesh.applications.policy.tasks import AJAR, MAX_OPENING, MAX_TURN, JointGoal, PolicyTask, joint_goal
+from anymesh.checking.engines.mujoco_bench_ import read_spec
 from anymesh.checking.find import kind_of
 from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco
-from anymesh.simulation.mujoco_bench_ import read_spec
 from anymesh.types import JointType, Motion
 from anymesh.types.triangles import face_cross
 

@@ -1,0 +1,95 @@
+"""Drake: a URDF parsed into a multibody plant with implicit motors, and Drake's convex hulls of the collision meshes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.checking.engines.driving import STEP, ReadBack, drive
+from anymesh.checking.engines.motors import Motor, motors_of, readable
+from anymesh.checking.engines.outside import engine_version, load_engine
+from anymesh.checking.engines.report import SweepReport
+from anymesh.checking.engines.urdf import read_urdf
+from anymesh.errors import InputError
+
+
+def sweep_joints(path: Path) -> SweepReport:
+    """Drive every joint of a URDF over its range. Raise InputError if Drake cannot load it, MissingExtraError without Drake."""
+    drake = load_engine("pydrake.all", shown="Drake", extra="drake")
+    robot = readable(read_urdf(path))
+    return drive(_World(drake, Path(path), motors_of(robot), robot.roots[0]), robot)
+
+
+class _World:
+    def __init__(self, drake: Any, path: Path, motors: tuple[Motor, ...], root: str) -> None:
+        self.engine = engine_version("drake", "drake")
+        builder = drake.DiagramBuilder()
+        plant, _ = drake.AddMultibodyPlantSceneGraph(builder, time_step=STEP)
+        try:
+            (model,) = drake.Parser(plant).AddModels(str(path))
+        except Exception as error:  # its parser raises RuntimeError and others
+            raise InputError(f"Drake cannot load {path}: {error}") from error
+        self.plant, self.model = plant, model
+        base = self._body(root)
+        if base.index() != plant.world_body().index() and not any(
+            plant.get_joint(j).child_body().index() == base.index() for j in plant.GetJointIndices(model)
+        ):
+            plant.WeldFrames(plant.world_frame(), base.body_frame())
+        plant.mutable_gravity_field().set_gravity_vector(np.zeros(3))
+        joints = [plant.get_joint(j) for j in plant.GetJointIndices(model)]
+        joints = [j for j in joints if j.num_positions() == 1]
+        by_name = {m.joint: m for m in motors}
+        for joint in joints:
+            motor = by_name[joint.name()]
+            if not plant.HasJointActuatorNamed(f"{joint.name()}_motor", model):
+                actuator = plant.AddJointActuator(f"{joint.name()}_motor", joint, motor.effort)
+                actuator.set_controller_gains(drake.PdControllerGains(p=motor.stiffness, d=motor.damping))
+        plant.Finalize()
+        self.joints = [ReadBack(j.name(), j.child_body().name(), _limits(j)) for j in joints]
+        self.root, self._drake = base, drake
+        self.diagram = builder.Build()
+        self.order = [j.position_start() for j in joints]
+        self.commands = [plant.GetJointActuatorByName(f"{j.name()}_motor", model).index() for j in joints]
+        self.reset()
+
+    def reset(self) -> None:
+        self.simulator = self._drake.Simulator(self.diagram)
+        self.context = self.plant.GetMyMutableContextFromRoot(self.simulator.get_mutable_context())
+        self.plant.SetPositions(self.context, np.zeros(self.plant.num_positions()))
+        self.simulator.Initialize()
+        self.time = 0.0
+
+    def step(self, targets: Float[np.ndarray, " n"]) -> None:
+        count = self.plant.num_actuators(self.model)
+        wanted = np.zeros(2 * count)
+        wanted[[int(c) for c in self.commands]] = targets
+        self.plant.get_desired_state_input_port(self.model).FixValue(self.context, wanted)
+        self.time += STEP
+        self.simulator.AdvanceTo(self.time)
+
+    def positions(self) -> Float[np.ndarray, " n"]:
+        return self.plant.GetPositions(self.context)[self.order]
+
+    def _body(self, link: str) -> Any:
+        """Return the body of a link; a link called world is Drake's own world."""
+        known = self.plant.HasBodyNamed(link, self.model)
+        return self.plant.GetBodyByName(link, self.model) if known else self.plant.world_body()
+
+    def _placed(self, link: str) -> Float[np.ndarray, "4 4"]:
+        body = self._body(link)
+        root = self.plant.EvalBodyPoseInWorld(self.context, self.root).GetAsMatrix4()
+        return np.linalg.inv(root) @ self.plant.EvalBodyPoseInWorld(self.context, body).GetAsMatrix4()
+
+    def origin(self, link: str) -> Float[np.ndarray, " 3"]:
+        return self._placed(link)[:3, 3]
+
+    def turned(self, link: str) -> Float[np.ndarray, "3 3"]:
+        return self._placed(link)[:3, :3]
+
+
+def _limits(joint: Any) -> tuple[float, float] | None:
+    lower, upper = float(joint.position_lower_limits()[0]), float(joint.position_upper_limits()[0])
+    return (lower, upper) if np.isfinite([lower, upper]).all() else None

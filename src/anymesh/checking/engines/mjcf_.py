@@ -1,0 +1,155 @@
+"""MJCF files as links and joints, from the model compiled by MuJoCo.
+
+A link's frame is at the anchor of its joint, with the axes of the body at rest. Several joints of one body become links without
+shapes between them. Positions are relative to the rest pose of the file (its `ref`).
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from jaxtyping import Float
+
+from anymesh.checking.engines.mujoco_bench_ import read_spec
+from anymesh.checking.engines.robot import Geometry, Inertial, Robot, RobotJoint, RobotLink, shape_triangles
+from anymesh.errors import InputError
+from anymesh.mujoco_ import load_mujoco
+
+
+def read_mjcf(path: Path) -> Robot:
+    """Read the links and joints of an MJCF. Raise InputError if MuJoCo rejects it, MissingExtraError without MuJoCo."""
+    mujoco = load_mujoco()
+    path = Path(path)
+    try:
+        spec = read_spec(mujoco, path)
+        spec.compiler.fusestatic = False
+        for mesh in spec.meshes:
+            mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # flat visuals have no volume
+        for word, things in (("joint", spec.joints), ("body", spec.bodies)):
+            for number, thing in enumerate(things):
+                thing.name = thing.name or f"{word}_{number}"
+        model = spec.compile()
+    except (ValueError, mujoco.FatalError, InputError) as error:
+        raise InputError(f"MuJoCo cannot load {path}: {' '.join(str(error).split())}") from error
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    pictures = tuple(str(Path(spec.texturedir) / t.file) for t in spec.textures if t.file)
+    return _Reader(mujoco, model, data).robot(path, spec.modelname, pictures)
+
+
+class _Reader:
+    def __init__(self, mujoco: Any, model: Any, data: Any) -> None:
+        self.mujoco, self.model, self.data = mujoco, model, data
+        self.kinds = {
+            int(mujoco.mjtJoint.mjJNT_HINGE): "revolute",
+            int(mujoco.mjtJoint.mjJNT_SLIDE): "prismatic",
+            int(mujoco.mjtJoint.mjJNT_BALL): "ball",
+            int(mujoco.mjtJoint.mjJNT_FREE): "floating",
+        }
+        self.frames = {b: self._frame(b) for b in range(model.nbody)}
+
+    def robot(self, path: Path, name: str, pictures: tuple[str, ...]) -> Robot:
+        links: list[RobotLink] = []
+        joints: list[RobotJoint] = []
+        for body in range(0 if self._world_counts() else 1, self.model.nbody):
+            parent = int(self.model.body_parentid[body])
+            shown, met = self._shapes(body)
+            links.append(RobotLink(self._name(body), shown, met, self._inertial(body)))
+            if body == 0 or (parent == 0 and not self._world_counts()):
+                continue
+            added = self._joints(body, parent)
+            joints += added
+            links += [RobotLink(j.child) for j in added[:-1]]
+        pairs = [(int(s) >> 16, int(s) & 0xFFFF) for s in self.model.exclude_signature]
+        excluded = frozenset(frozenset((self._name(a), self._name(b))) for a, b in pairs)
+        return Robot(path, name, tuple(links), tuple(joints), excluded, pictures=pictures, format="MJCF")
+
+    def _world_counts(self) -> bool:
+        """Return whether the world is a link: it has shapes, several bodies, or a body with joints to it."""
+        tops = [b for b in range(1, self.model.nbody) if self.model.body_parentid[b] == 0]
+        held = [self._kind(j) for b in tops for j in self._of(b)]
+        return len(tops) != 1 or bool(self.model.body_geomnum[0]) or any(kind != "floating" for kind in held)
+
+    def _name(self, body: int) -> str:
+        return self.model.body(body).name
+
+    def _of(self, body: int) -> range:
+        first = int(self.model.body_jntadr[body])
+        return range(first, first + int(self.model.body_jntnum[body])) if first >= 0 else range(0)
+
+    def _kind(self, joint: int) -> str:
+        return self.kinds[int(self.model.jnt_type[joint])]
+
+    def _frame(self, body: int, joint: int | None = None) -> Float[np.ndarray, "4 4"]:
+        """Return the pose of a link in the world at rest."""
+        own = [j for j in self._of(body) if self._kind(j) != "floating"]
+        chosen = joint if joint is not None else (own[-1] if own else None)
+        T = np.eye(4)
+        T[:3, :3] = self.data.xmat[body].reshape(3, 3)
+        T[:3, 3] = self.data.xpos[body] if chosen is None else self.data.xanchor[chosen]
+        return T
+
+    def _joints(self, body: int, parent: int) -> list[RobotJoint]:
+        own, name, at, before = list(self._of(body)), self._name(body), self.frames[parent], self._name(parent)
+        if not own:
+            return [RobotJoint(f"{name}_fixed", "fixed", before, name, np.linalg.inv(at) @ self.frames[body], np.eye(3)[2])]
+        joints = []
+        for joint in own:
+            label, T = self.model.joint(joint).name, self._frame(body, joint)
+            child = name if joint == own[-1] else f"{name}__{label}"
+            kind, limits = self._kind(joint), None
+            if self.model.jnt_limited[joint]:
+                low, high = self.model.jnt_range[joint] - self.model.qpos0[self.model.jnt_qposadr[joint]]
+                limits = (float(low), float(high))
+            elif kind == "revolute":
+                kind = "continuous"
+            axis = T[:3, :3].T @ self.data.xaxis[joint]
+            joints.append(RobotJoint(label, kind, before, child, np.linalg.inv(at) @ T, axis, limits))
+            at, before = T, child
+        return joints
+
+    def _inertial(self, body: int) -> Inertial | None:
+        mass = float(self.model.body_mass[body])
+        if mass <= 0:
+            return None
+        link, turn = self.frames[body], self.data.ximat[body].reshape(3, 3)
+        turn = link[:3, :3].T @ turn
+        center = link[:3, :3].T @ (self.data.xipos[body] - link[:3, 3])
+        return Inertial(mass, center, turn @ np.diag(self.model.body_inertia[body]) @ turn.T)
+
+    def _shapes(self, body: int) -> tuple[tuple[Geometry, ...], tuple[Geometry, ...]]:
+        """Return visual and collision shapes; without visual-only shapes, the collision shapes are the visuals."""
+        first, count = int(self.model.body_geomadr[body]), int(self.model.body_geomnum[body])
+        shown, met = [], []
+        for geom in range(first, first + count) if count else ():
+            shape = self._shape(geom, np.linalg.inv(self.frames[body]))
+            if shape is not None:
+                collides = self.model.geom_contype[geom] or self.model.geom_conaffinity[geom]
+                (met if collides else shown).append(shape)
+        return tuple(shown or met), tuple(met)
+
+    def _shape(self, geom: int, T_link_world: np.ndarray) -> Geometry | None:
+        """Return a shape; None for planes and height fields, which have no finite surface."""
+        kinds, kind = self.mujoco.mjtGeom, int(self.model.geom_type[geom])
+        T = np.eye(4)
+        T[:3, :3], T[:3, 3] = self.data.geom_xmat[geom].reshape(3, 3), self.data.geom_xpos[geom]
+        T = T_link_world @ T
+        size = [float(v) for v in self.model.geom_size[geom]]
+        if kind == int(kinds.mjGEOM_MESH):
+            mesh = int(self.model.geom_dataid[geom])
+            start, faces = int(self.model.mesh_vertadr[mesh]), int(self.model.mesh_faceadr[mesh])
+            points = self.model.mesh_vert[start : start + int(self.model.mesh_vertnum[mesh])].astype(float)
+            triangles = points[self.model.mesh_face[faces : faces + int(self.model.mesh_facenum[mesh])]]
+            return Geometry("mesh", T, file=self.model.mesh(mesh).name, triangles=triangles @ T[:3, :3].T + T[:3, 3])
+        if kind == int(kinds.mjGEOM_BOX):
+            return Geometry("box", T, tuple(2 * v for v in size))
+        if kind in (int(kinds.mjGEOM_CYLINDER), int(kinds.mjGEOM_CAPSULE)):
+            return Geometry("cylinder" if kind == int(kinds.mjGEOM_CYLINDER) else "capsule", T, (size[0], 2 * size[1]))
+        if kind == int(kinds.mjGEOM_SPHERE):
+            return Geometry("sphere", T, (size[0],))
+        if kind == int(kinds.mjGEOM_ELLIPSOID):
+            unit = shape_triangles(Geometry("sphere", np.eye(4), (1.0,))) * size
+            return Geometry("ellipsoid", T, tuple(size), triangles=unit @ T[:3, :3].T + T[:3, 3])
+        return None

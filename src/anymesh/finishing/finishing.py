@@ -1,0 +1,108 @@
+"""Stage C on one asset, with any completer and retexturer (paper, 3.4)."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from anymesh.deadline import Deadline
+from anymesh.errors import ModelError
+from anymesh.finishing.complete import complete
+from anymesh.finishing.outside import open_completer, open_retexturer
+from anymesh.finishing.protocol import Completer, Finished
+from anymesh.finishing.settings import ShapeConfig
+from anymesh.finishing.texture import Retexturer
+from anymesh.pipeline.results import CompletionResult
+from anymesh.pipeline.storage.packing import COMPLETION
+from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.storage.stage_files import stage_key
+from anymesh.progress import Progress
+from anymesh.types import Asset
+
+
+@dataclass(frozen=True, eq=False)
+class Completion:
+    """Options of `finish`: the names that a user gave, and what they open.
+
+    state: file of the paid tasks that were started.
+    Raise OptionError for invalid names.
+    """
+
+    completer: str
+    texture: str
+    watertight: bool
+    max_calls: int | None
+    state: Path
+    first: Completer | None = field(init=False)
+    retexturer: Retexturer = field(init=False)
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "first", open_completer(self.completer))
+        object.__setattr__(self, "retexturer", open_retexturer(self.texture, state=self.state, max_calls=self.max_calls))
+
+
+def complete_asset(folder: RunFolder, how: Completion, deadline: Deadline, progress: Progress) -> None:
+    """Complete shapes and textures, unless the saved result has the same inputs and options."""
+    progress("finish", how.completer, 0, 1)
+    settings = {"by": how.completer, "texture": how.texture, "tight": how.watertight, "limit": deadline.limit}
+    key = stage_key(COMPLETION, previous=folder.last_key(), config=settings)
+    if folder.load(COMPLETION, key) is None:
+        with folder.timed("finish"):
+            completion = finish_asset(
+                folder.asset(),
+                shapes=how.completer != "off",
+                completer=how.first,
+                retexturer=how.retexturer,
+                config=ShapeConfig(watertight=how.watertight),
+                deadline=deadline,
+            )
+        folder.save(COMPLETION, key, completion)
+
+
+def finish_asset(
+    asset: Asset,
+    *,
+    shapes: bool,
+    completer: Completer | None,
+    retexturer: Retexturer,
+    config: ShapeConfig,
+    deadline: Deadline | None = None,
+) -> CompletionResult:
+    """Return the mesh of an asset with completed shapes and textures.
+
+    shapes: if False, shapes stay unchanged. completer: used first, None for none; the built-in completer handles the parts that
+    it omits or that disagree with the visible surface. deadline: past it, further surfaces stay open.
+    """
+    deadline = deadline or Deadline()
+    finished = Finished(asset, np.arange(len(asset.mesh.faces)))
+    notes: list[str] = []
+    if shapes:
+        finished, notes = _completed(asset, completer, config, deadline)
+    painted = retexturer.retexture(finished)
+    segmentation = painted.asset.segmentation
+    return CompletionResult(
+        painted.asset.mesh, segmentation.face_part, finished.source_face, (*notes, *deadline.warnings(), *painted.notes)
+    )
+
+
+def _completed(
+    asset: Asset, completer: Completer | None, config: ShapeConfig, deadline: Deadline
+) -> tuple[Finished, list[str]]:
+    try:
+        finished = complete(asset, config, completer=completer, deadline=deadline)
+        return finished, list(_note_lines(finished))
+    except ModelError as error:
+        if completer is None:
+            raise
+        finished = complete(asset, config, deadline=deadline)
+        return finished, [f"{completer.name}: {error}; the built-in completer did all parts", *_note_lines(finished)]
+
+
+def _note_lines(finished: Finished) -> Iterator[str]:
+    for part, notes in finished.notes.items():
+        for note, times in Counter(notes).items():
+            yield f"{part}: {note}" + (f" ({times} times)" if times > 1 else "")

@@ -1,0 +1,157 @@
+"""An asset at rest and with open joints, for ray casting, and its parts as they grow during completion."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from anymesh.finishing.visible import GRAZE, escapes
+from anymesh.geometry.kinematics import link_transforms
+from anymesh.geometry.raycast_ import RayScene
+from anymesh.types import Asset, Joint, JointType
+
+HALF_REVOLUTION_RAD = np.pi
+SKIP = 1e-4  # share of the diagonal: nearer surfaces are in contact
+FLOOR = 1e-3  # share of the diagonal: points within this distance of the ground stand on it
+
+
+@dataclass(frozen=True, eq=False)
+class Scenes:
+    """The original surface. Part numbers are those of the asset's segmentation."""
+
+    asset: Asset
+
+    @cached_property
+    def diagonal(self) -> float:
+        return self.asset.mesh.diagonal
+
+    @cached_property
+    def rest(self) -> RayScene:
+        return RayScene(self.asset.mesh.vertices, self.asset.mesh.faces)
+
+    @cached_property
+    def number(self) -> dict[str, int]:
+        """Part name -> number."""
+        return {part.name: k for k, part in enumerate(self.asset.segmentation.parts)}
+
+    @cached_property
+    def joint(self) -> dict[int, Joint]:
+        """Part number -> the joint that carries it."""
+        return {self.number[j.child]: j for j in self.asset.joints}
+
+    @cached_property
+    def order(self) -> tuple[int, ...]:
+        """Part numbers, each after its parent."""
+        return tuple(sorted(range(len(self.number)), key=lambda k: (len(self.carriers(k)), k)))
+
+    def carriers(self, part: int) -> tuple[int, ...]:
+        """Return the ancestors of a part, nearest first."""
+        ancestors: list[int] = []
+        while (joint := self.joint.get(ancestors[-1] if ancestors else part)) is not None:
+            ancestors.append(self.number[joint.parent])
+        return tuple(ancestors)
+
+    def opened(self, part: int) -> Float[np.ndarray, "p 4 4"]:
+        """Return the transform of each part, relative to `part`, with all descendants of `part` at their widest positions."""
+        wide = {j.name: widest(j) for k, j in self.joint.items() if part in self.carriers(k)}
+        moved = link_transforms(self.asset, wide)
+        return np.stack([moved[p.name] for p in self.asset.segmentation.parts])
+
+    @cached_property
+    def _opened_scenes(self) -> dict[int, RayScene]:
+        return {}
+
+    def scene_opened(self, part: int) -> RayScene:
+        """Return the surface with all descendants of `part` at their widest positions."""
+        if part not in self._opened_scenes:
+            self._opened_scenes[part] = self._scene_opened(part)
+        return self._opened_scenes[part]
+
+    def _scene_opened(self, part: int) -> RayScene:
+        T = self.opened(part)[self.asset.segmentation.face_part]
+        t = np.einsum("fij,fkj->fki", T[:, :3, :3], self.asset.mesh.triangles) + T[:, None, :3, 3]
+        return RayScene(t.reshape(-1, 3), np.arange(3 * len(t)).reshape(-1, 3))
+
+    def seen(self, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, "n 2"]:
+        """Return which points are visible at rest from the side of their normals, and which from the other side."""
+        return escapes(self.rest, points, normals, self.diagonal) >= GRAZE
+
+    def on_the_ground(self, points: Float[np.ndarray, "n 3"]) -> bool:
+        """Return whether points lie in the ground plane of the object."""
+        return bool((points[:, 2] < self.asset.mesh.bounds[0, 2] + FLOOR * self.diagonal).all())
+
+
+def widest(joint: Joint) -> float:
+    """Return the position furthest from rest [rad or m]; half a turn for continuous joints."""
+    if joint.type is JointType.FIXED:
+        return 0.0
+    return HALF_REVOLUTION_RAD if joint.limits is None else max(joint.limits[::-1], key=abs)
+
+
+@dataclass(eq=False)
+class Growing:
+    """The parts during completion: original surface, added triangles, and notes on what was done.
+
+    late: returns whether the time for completion is over.
+    """
+
+    scenes: Scenes
+    late: Callable[[], bool] = lambda: False
+    added: dict[int, list[Float[np.ndarray, "_ 3 3"]]] = field(default_factory=dict)
+    notes: dict[int, list[str]] = field(default_factory=dict)
+
+    def undo(self, part: int) -> None:
+        """Remove all that was added to a part."""
+        self.added.pop(part, None)
+        self.notes.pop(part, None)
+
+    def add(self, part: int, triangles: Float[np.ndarray, "n 3 3"], notes: Sequence[str]) -> None:
+        if len(triangles):
+            self.added.setdefault(part, []).append(triangles)
+        if notes:
+            self.notes.setdefault(part, []).extend(notes)
+
+    def faces(self, part: int) -> Int[np.ndarray, " n"]:
+        return self.scenes.asset.segmentation.faces(part)
+
+    def triangles(self, *parts: int) -> Float[np.ndarray, "n 3 3"]:
+        """Return the current triangles of these parts."""
+        old = [self.scenes.asset.mesh.triangles[self.faces(k)] for k in parts]
+        return np.concatenate([*old, *(t for k in parts for t in self.added.get(k, []))])
+
+    def others(self, part: int) -> Float[np.ndarray, "n 3 3"]:
+        """Return the current triangles of the other parts."""
+        rest = [k for k in self.scenes.order if k != part]
+        return self.triangles(*rest) if rest else np.zeros((0, 3, 3))
+
+
+def scene_of(triangles: Float[np.ndarray, "n 3 3"]) -> RayScene | None:
+    """Return a ray scene of triangles; None without any."""
+    if len(triangles) == 0:
+        return None
+    return RayScene(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
+
+
+def room(
+    scene: RayScene | None,
+    points: Float[np.ndarray, "n 3"],
+    ways: Float[np.ndarray, "n 3"],
+    max_distance: float,
+    skip: float,
+    *,
+    without: Int[np.ndarray, " m"] | None = None,
+) -> Float[np.ndarray, " n"]:
+    """Return the distance from points along directions to the first surface [m].
+
+    It is `max_distance` if there is none, or if it is one of the faces `without`. Surfaces nearer than `skip` are in contact,
+    and are ignored.
+    """
+    if scene is None or len(points) == 0:
+        return np.full(len(points), max_distance)
+    hits = scene.first_hit(points + skip * ways, ways, max_distance)
+    far = np.minimum(hits.distance + skip, max_distance)
+    return far if without is None else np.where(np.isin(hits.face, without), max_distance, far)

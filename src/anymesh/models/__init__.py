@@ -1,1 +1,0 @@
-"""External models other than vision-language models: SAM, HoloPart and Meshy, each behind a small protocol."""

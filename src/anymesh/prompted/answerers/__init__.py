@@ -1,0 +1,1 @@
+"""Who answers: a model, files, a replay, or a reference."""

@@ -1,0 +1,97 @@
+"""Cameras for close-ups of regions that are small or thin in every view, such as a button on a machine."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from anymesh.config import REFERENCE_PX, ViewsConfig
+from anymesh.prompted.grounding.cloud import Cloud, seen_points
+from anymesh.rendering.render import View
+from anymesh.types.camera import Camera
+
+MAX_CLOSE_UPS = 8  # close-ups per object; each adds a picture to a question
+MIN_AREA_PX, MIN_WIDTH_PX = 250.0, 4.0  # [px, px across] in a 640 px view: regions below either are too small to judge
+LEGIBLE_AREA_PX, LEGIBLE_WIDTH_PX = 1500.0, 12.0  # [px, px across] size that a close-up should give such regions
+MIN_ZOOM = 2.0  # minimum magnification of a close-up
+MIN_CLOSE_UP_SHARE = 0.1  # share of a region's surface that views must see; less is a glimpse through a gap
+WINDOW = 0.8  # share of the close-up's side that holds the centers of its regions
+
+
+def close_ups(
+    region: Int[np.ndarray, " F"],
+    cloud: Cloud,
+    views: Sequence[View],
+    pictures: ViewsConfig | None = None,
+) -> tuple[Camera, ...]:
+    """Return at most MAX_CLOSE_UPS cameras for regions that are too small in every view.
+
+    The smallest regions come first. Each camera stands where one of the views does and covers as many small regions as fit.
+
+    region: index of each face, -1 for none.
+    """
+    pictures = pictures or ViewsConfig()
+    size, across, middle = _shown(region, views)
+    scale = views[0].camera.height / REFERENCE_PX
+    zoom = np.sqrt(LEGIBLE_AREA_PX * scale**2 / np.maximum(size, 1))
+    zoom = np.maximum(zoom, np.where(across < MIN_WIDTH_PX * scale, LEGIBLE_WIDTH_PX * scale / np.maximum(across, 0.1), 0))
+    zoom = np.clip(zoom, MIN_ZOOM, pictures.zoom_size / pictures.size)
+    little = (size < MIN_AREA_PX * scale**2).all(0) | (across < MIN_WIDTH_PX * scale).all(0)
+    open_to = little & (size > 0).any(0) & _open(region, cloud, views)
+    cameras: list[Camera] = []
+    while open_to.any() and len(cameras) < MAX_CLOSE_UPS:
+        most = size.max(0)
+        first = int(np.where(open_to, most, np.inf).argmin())
+        v = int(size[:, first].argmax())
+        wanted = float(zoom[v, first])
+        reach = WINDOW * views[v].camera.height / wanted / 2
+        near = open_to & (size[v] > 0) & (np.abs(middle[v] - middle[v, first]) <= reach).all(1)
+        near &= size[v] * wanted**2 >= 0.5 * size.max(0)  # leave out regions that another view shows better
+        low, high = middle[v, near].min(0), middle[v, near].max(0)
+        cameras.append(_camera(views[v], (low + high) / 2, wanted))
+        open_to[near] = False
+    return tuple(cameras)
+
+
+def _shown(
+    region: np.ndarray, views: Sequence[View]
+) -> tuple[Int[np.ndarray, "V R"], Float[np.ndarray, "V R"], Float[np.ndarray, "V R 2"]]:
+    """Return the pixels, the width [px] and the center (column, row) of every region in every view."""
+    count = int(region.max()) + 1
+    sizes, widths, middles = [], [], []
+    for view in views:
+        label = np.where(view.face >= 0, region[np.maximum(view.face, 0)], -1)
+        row, column = np.nonzero(label >= 0)
+        own = label[row, column]
+        size = np.bincount(own, minlength=count)
+        rim = np.zeros(count)
+        for one, two in ((label[:, 1:], label[:, :-1]), (label[1:], label[:-1])):
+            for side, differs in ((one, one != two), (two, one != two)):
+                at = side[differs]
+                rim += np.bincount(at[at >= 0], minlength=count)
+        at = [np.bincount(own, x + 0.5, count) / np.maximum(size, 1) for x in (column, row)]
+        sizes.append(size)
+        widths.append(2 * size / np.maximum(rim, 1))
+        middles.append(np.stack(at, 1))
+    return np.stack(sizes), np.stack(widths), np.stack(middles)
+
+
+def _open(region: np.ndarray, cloud: Cloud, views: Sequence[View]) -> Bool[np.ndarray, " R"]:
+    """Return the regions of which the views see at least MIN_CLOSE_UP_SHARE of the surface."""
+    seen = seen_points(cloud, views)
+    own = region[cloud.faces]
+    count = int(region.max()) + 1
+    return np.bincount(own[seen & (own >= 0)], minlength=count) >= MIN_CLOSE_UP_SHARE * np.maximum(
+        np.bincount(own[own >= 0], minlength=count), 1
+    )
+
+
+def _camera(view: View, pixel: np.ndarray, zoom: float) -> Camera:
+    """Return a camera at the same place that looks at a pixel of the view with `zoom` times its magnification."""
+    camera = view.camera
+    local = np.r_[(pixel - np.array([camera.width, camera.height]) / 2) / camera.focal, 1.0]
+    eye = camera.T_world_camera[:3, 3]
+    fov = 2 * float(np.arctan(np.tan(camera.fov / 2) / zoom))
+    return Camera.looking_at(eye, eye + camera.T_world_camera[:3, :3] @ local, fov, camera.width, camera.height)

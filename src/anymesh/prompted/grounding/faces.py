@@ -1,0 +1,131 @@
+"""Parts of faces from labelled points: patches are assigned as a whole, or cut if they hold several parts."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+import numpy as np
+from jaxtyping import Bool, Int
+from scipy.spatial import KDTree
+
+from anymesh.config import Config
+from anymesh.geometry.patches import ObjectShape
+from anymesh.prompted.grounding.cloud import Cloud
+from anymesh.prompted.grounding.unseen import UNSEEN, StaysFree, join_unseen
+from anymesh.prompted.masks.fuse import Instances
+from anymesh.segmentation.surface_regions import patch_sizes
+from anymesh.types import Mesh
+
+MIN_COMPONENT_SHARE = 0.5  # a component joins the part of this share of its visible surface (as in the paper's implementation)
+MIN_SEEN_SHARE = 0.02  # minimum visible share of a patch's surface; less is a glimpse through a gap
+# minimum share of a patch's visible surface in one part for that part to take the whole patch, if the patch may hold several
+# parts because it is large or was cut out of a fused surface
+MIN_CUTTABLE_PATCH_SHARE = 0.85
+
+
+def face_parts(
+    mesh: Mesh,
+    whole: ObjectShape,
+    cloud: Cloud,
+    point_part: Int[np.ndarray, " n"],
+    config: Config,
+    stays_free: StaysFree | None = None,
+) -> Int[np.ndarray, " F"]:
+    """Return a part index per face, 0 for the base.
+
+    point_part: part of every point of the cloud, 0 for the base, -1 if unknown.
+
+    A patch joins one part as a whole. A patch with several parts is cut along the borders of its superpoints. An unseen patch
+    joins the part that supports it if that part can still move as far (see `join_unseen`).
+    """
+    most = int(point_part.max(initial=0)) + 1
+    patch = whole.mesh_patch[cloud.faces]
+    patches = int(whole.mesh_patch.max()) + 1
+    known = point_part >= 0
+    votes = np.bincount(patch[known] * most + point_part[known], minlength=patches * most).reshape(patches, most)
+    total = votes.sum(1)
+    seen = total > MIN_SEEN_SHARE * np.bincount(patch, minlength=patches)
+    winner = np.where(seen, votes.argmax(1), UNSEEN)
+    share = votes.max(1) / np.maximum(total, 1)
+    mixed = seen & (share <= np.where(_cuttable(mesh, whole, config), MIN_CUTTABLE_PATCH_SHARE, MIN_COMPONENT_SHARE))
+    winner = join_unseen(whole, winner, config, stays_free)
+    face_part = winner[whole.mesh_patch]
+    for p in np.flatnonzero(mixed):
+        mine = np.flatnonzero(patch == p)
+        faces, label = _cut(cloud, mine, point_part[mine], most)
+        face_part[faces] = label
+    return np.maximum(face_part, 0)
+
+
+def _cuttable(mesh: Mesh, whole: ObjectShape, config: Config) -> Bool[np.ndarray, " P"]:
+    """Return the patches that may hold several parts: those of a fused surface, and large ones."""
+    large = patch_sizes(mesh, whole) > config.patches.fused_size * whole.diagonal
+    large[whole.shared.reshape(-1)] = True
+    return large
+
+
+def _cut(cloud: Cloud, mine: np.ndarray, part: np.ndarray, max_parts: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the faces of one patch and the part of each.
+
+    The superpoints vote first, so that a border between parts follows one between superpoints.
+
+    mine: points of the patch; part: part of each point, -1 if unknown.
+    """
+    names, own = np.unique(cloud.superpoint[mine], return_inverse=True)
+    own = own.reshape(-1)
+    known = part >= 0
+    votes = np.bincount(own[known] * max_parts + part[known], minlength=len(names) * max_parts).reshape(-1, max_parts)
+    best = np.where(votes.sum(1) > 0, votes.argmax(1), UNSEEN)
+    label = best[own]
+    lost = label < 0
+    if lost.any():  # take the part of the nearest known point of the same patch
+        nearest = KDTree(cloud.points[mine[~lost]]).query(cloud.points[mine[lost]], workers=-1)[1]
+        label[lost] = label[~lost][nearest]
+    faces, where = np.unique(cloud.faces[mine], return_inverse=True)
+    inside = np.bincount(where.reshape(-1) * max_parts + label, minlength=len(faces) * max_parts).reshape(-1, max_parts)
+    return faces, inside.argmax(1)
+
+
+def mark_parts(
+    mesh: Mesh,
+    whole: ObjectShape,
+    face_mark: Int[np.ndarray, " F"],
+    parts: Sequence[Collection[int]],
+    little: Bool[np.ndarray, " P"],
+    config: Config,
+    stays_free: StaysFree | None = None,
+) -> Int[np.ndarray, " F"]:
+    """Return a part index per face from exact marks, 0 for the base.
+
+    parts: marks of each part; little: patches that views show too little of to assign them to the base.
+
+    A face without a mark takes the part of the nearest marked face of its patch. A patch without marks joins the part that
+    supports it if that part can still move as far.
+    """
+    part_of = np.zeros(int(face_mark.max(initial=0)) + 2, np.int64)
+    for k, marks in enumerate(parts, start=1):
+        part_of[[m for m in marks if m > 0]] = k
+    part_of[-1] = UNSEEN
+    face_part = part_of[face_mark]
+    patch = whole.mesh_patch
+    face_part[(face_part == 0) & little[patch]] = UNSEEN
+    count = int(patch.max()) + 1
+    weight = np.maximum(mesh.face_areas, 1e-300)
+    known = face_part >= 0
+    most = len(parts) + 1
+    votes = np.bincount(patch[known] * most + face_part[known], weight[known], count * most).reshape(count, most)
+    winner = np.where(votes.any(1), votes.argmax(1), UNSEEN)
+    joined = join_unseen(whole, winner, config, stays_free)
+    mixed = (votes > 0).sum(1) > 1
+    lost = np.flatnonzero(~known)
+    face_part[lost] = joined[patch[lost]]
+    centers = mesh.triangles.mean(1)
+    for p in np.unique(patch[lost][mixed[patch[lost]]]):
+        own, sure = lost[patch[lost] == p], np.flatnonzero(known & (patch == p))
+        face_part[own] = face_part[sure[KDTree(centers[sure]).query(centers[own])[1]]]
+    return np.maximum(face_part, 0)
+
+
+def point_parts(cloud: Cloud, instances: Instances, shown: Bool[np.ndarray, " n"]) -> Int[np.ndarray, " n"]:
+    """Return the part index of each point, from its superpoint: 0 for the base, -1 if no view shows the point."""
+    return np.where(shown, instances.number[cloud.superpoint], UNSEEN)

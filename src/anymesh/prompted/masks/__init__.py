@@ -1,0 +1,1 @@
+"""Masks of pictures by SAM, and how masks of many views become parts (PartSlip++)."""

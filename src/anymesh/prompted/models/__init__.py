@@ -1,0 +1,1 @@
+"""Clients of vision-language models: providers, retries, budget, cache."""

@@ -1,0 +1,233 @@
+"""Choice of the motions of a part that are shown: the answered one, the part's own axes, and the likeliest others.
+
+Only motions that would look different are shown.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from anymesh.articulation.evidence import sweep_candidates
+from anymesh.articulation.hypotheses import distinct, propose
+from anymesh.articulation.limits import STROKE_RATIO, answered_range, pressed
+from anymesh.articulation.motion_classifier import PartMotionScores
+from anymesh.articulation.motion_question import (
+    BOX_RIM_ROLES,
+    Candidate,
+    MotionQuestion,
+    PartFacts,
+    ProposedMotion,
+    SlideDirection,
+)
+from anymesh.articulation.rank_motions import motion_scores
+from anymesh.prompted.motions.cases import PartCase
+from anymesh.prompted.motions.moved_points import MovedPoints
+from anymesh.prompted.motions.own_axes import CENTRAL, pivots
+from anymesh.prompted.questions.motion_choice import MotionTable
+from anymesh.prompted.questions.prompting import JointAppearance
+from anymesh.types import JointType
+
+MAX_SHOWN_ANGLE_RAD = np.deg2rad(60.0)  # [rad] maximum rotation in a picture
+MAX_SHOWN_TRAVEL_RATIO = 0.6  # of the part's size: maximum travel of a slide in a picture
+BLOCKED_SHOWN_RATIO = 0.6  # share of these maxima at which a blocked motion is shown
+SIMILAR_RATIO = 0.2  # of the travel: motions that take the part's points to places this close are similar
+# limits for similar motions in the first picture: their number, and their loss to the best of them [log-odds]
+MAX_SIMILAR, MAX_SIMILAR_LOSS = 2, 1.0
+DUPLICATE_PART_RATIO = 0.01  # of the part's diagonal: motions this close are near-duplicates; about two or three pixels
+# of the tolerance length: motions that take the part's points to places this close are near-duplicates
+DUPLICATE_OBJECT_RATIO = 0.02
+DUPLICATE_MOTION_RATIO = 0.15  # of the travel: upper limit of the object-based distance, for small parts
+OFF_PART = 0.02  # of the tolerance length: hinge lines farther from the part's surface are not in the first picture
+MAX_LOSS = 8.0  # [log-odds] motions that are worse than the best one by more are in the second picture, unless few are left
+MIN_FREE_MOTIONS = 3  # minimum number of free motions in the first picture, even if implausible
+SHAPE_AXES = 3  # number of axes of the part's own shape that are always in the first picture
+# [log-odds] penalty of a line through picked points, which is less exact than a similar one of the part's own
+PICKED_POINT_PENALTY = 2.0
+ANSWERED_BONUS = 2.0  # [log-odds] bonus of a motion of the answered kind
+
+
+@dataclass(frozen=True, eq=False)
+class MotionOffers:
+    """Motions of a part that look different, likeliest first.
+
+    shares: (k,) share of each by geometry alone; amounts: displacement of each in a picture [rad or m]; first, second: indices
+    of the motions in the first and the second picture, in drawing order; answered: index of the motion that is, or looks like,
+    the answered one.
+    """
+
+    case: PartCase
+    facts: PartFacts
+    motions: tuple[Candidate, ...]
+    shares: tuple[float, ...]
+    amounts: tuple[float, ...]
+    first: tuple[int, ...]
+    second: tuple[int, ...]
+    answered: int | None
+
+    def table(self, shown: tuple[int, ...]) -> MotionTable:
+        """Return the motions with these indices, in this order."""
+        some = [self.motions[k] for k in shown]
+        return MotionTable(
+            self.case.shown,
+            tuple(c.opening_motion for c in some),
+            tuple(self.amounts[k] for k in shown),
+            tuple(not c.is_free for c in some),
+        )
+
+
+def make_offers(case: PartCase, max_motions: int, seed: int) -> MotionOffers:
+    """Propose, sweep, score and select the motions of a part.
+
+    max_motions: number of motions in a picture; seed: of their order in it.
+    """
+    question = scored_motions(case)
+    facts, candidates, plain = question.part, list(question.candidates), motion_scores(question).tolist()
+    values = [v + _agrees(c, case) - PICKED_POINT_PENALTY * (c.role == "asked") for v, c in zip(plain, candidates, strict=True)]
+    order = sorted(range(len(candidates)), key=lambda k: (not candidates[k].is_free, -values[k], k))
+    kept, amounts, answered, kin = _unlike(case, candidates, [k for k in order if _shown(candidates[k])])
+    motions = [candidates[k] for k in kept]
+    best = max((values[k] for k in kept), default=0.0)
+    crowding = _crowding(kin, [plain[k] for k in kept])
+    likely = [
+        c.is_free and not (crowding[rank] or _off_part(case, c)) and (values[k] > best - MAX_LOSS or rank < MIN_FREE_MOTIONS)
+        for rank, (k, c) in enumerate(zip(kept, motions, strict=True))
+    ]
+    first, second = _pages(motions, case.kind, likely, answered, max_motions)
+    rng = np.random.default_rng([seed, case.number])
+    shares = np.exp(np.array([plain[k] for k in kept]) - max((plain[k] for k in kept), default=0.0))
+    return MotionOffers(
+        case, facts, tuple(motions), tuple((shares / max(shares.sum(), 1e-12)).tolist()), tuple(amounts),
+        tuple(rng.permutation(first).tolist()), tuple(rng.permutation(second).tolist()), answered,
+    )  # fmt: skip
+
+
+def scored_motions(case: PartCase) -> MotionQuestion:
+    """Propose, sweep and score the motions of a part, in both opening directions if both are possible.
+
+    The answered motion comes first, even if it repeats another.
+    """
+    context = case.context
+    proposed = propose(context)
+    circles: list[ProposedMotion] = [("circle", motion) for motion in case.circles]
+    proposed = distinct([*proposed, *circles, *pivots(context, case.shown.normal)], context.tolerance_length)
+    first: list[ProposedMotion] = [("asked", case.asked)] if case.asked is not None else []
+    question = PartMotionScores(context, case.label, sweep_candidates(context, first + proposed)).question()
+    scores, chosen = motion_scores(question), []
+    for k in range(0, len(scores), 2):
+        best, other = sorted((k, k + 1), key=lambda i: (not question.candidates[i].is_free, -scores[i]))
+        c = question.candidates[other]
+        chosen += [best] if c.is_endless or c.role == "asked" or not c.is_free else [best, other]
+    return MotionQuestion(
+        question.part,
+        tuple(question.candidates[k] for k in chosen),
+        question.scores[chosen],
+        lambda k: question.reason(chosen[k]),
+    )
+
+
+def fits(c: Candidate, kind: JointAppearance) -> bool:
+    """Return whether a motion is of the answered kind."""
+    if kind is JointAppearance.FIXED:
+        return False
+    if kind.is_rotation or c.motion.kind is JointType.REVOLUTE:
+        return kind.is_rotation and c.motion.kind is JointType.REVOLUTE
+    return (c.slide_direction is SlideDirection.ALONG_SURFACE) != (kind is JointAppearance.SLIDE_OUT)
+
+
+def moves_as(c: Candidate, moves: JointType) -> bool:
+    """Return whether a motion is a rotation or a slide as recognized."""
+    return (moves is JointType.PRISMATIC) == (c.motion.kind is JointType.PRISMATIC)
+
+
+def shown_amount(c: Candidate, case: PartCase) -> float:
+    """Return the displacement of a motion in a picture [rad or m].
+
+    It is positive (opening), or negative (into the parent) for a part that is pressed.
+    """
+    context = case.context
+    if c.motion.kind is JointType.REVOLUTE:
+        return float(min(c.opening, MAX_SHOWN_ANGLE_RAD) if c.is_free else BLOCKED_SHOWN_RATIO * MAX_SHOWN_ANGLE_RAD)
+    size = MAX_SHOWN_TRAVEL_RATIO * context.part.box.diagonal
+    if pressed(c, answered_range(case.recognized, JointType.PRISMATIC)):
+        return -STROKE_RATIO * min(float(np.ptp(context.part.corners @ c.motion.axis)), size)
+    return float(min(c.opening * context.tolerance_length, size) if c.is_free else BLOCKED_SHOWN_RATIO * size)
+
+
+def _agrees(c: Candidate, case: PartCase) -> float:
+    """Return the bonus of a motion that agrees with the answers about the part and its label."""
+    recognized = case.recognized.moves if case.recognized else None
+    return ANSWERED_BONUS * fits(c, case.kind) + ANSWERED_BONUS * (recognized is not None and moves_as(c, recognized))
+
+
+def _shown(c: Candidate) -> bool:
+    """Return whether a motion may be shown; a blocked one only if it was answered or is an axis of the part's own shape."""
+    return c.is_free or c.role == "asked" or c.role in CENTRAL
+
+
+def _unlike(
+    case: PartCase, candidates: list[Candidate], order: list[int]
+) -> tuple[list[int], list[float], int | None, list[int]]:
+    """Select the motions that look different, the likeliest of each group of duplicates.
+
+    Return their indices, their displacements, the position of the one that stands for the answered motion, and for each the
+    first one that it is similar to.
+    """
+    moved = MovedPoints(case.context, candidates)
+    part_limit = DUPLICATE_PART_RATIO * case.context.part.box.diagonal
+    object_limit = DUPLICATE_OBJECT_RATIO * case.context.tolerance_length
+    kept: list[int] = []
+    amounts: list[float] = []
+    first: list[int] = []
+    answered = None
+    for k in order:
+        amount, own, head = shown_amount(candidates[k], case), len(kept), len(kept)
+        for n, other in enumerate(kept):
+            apart, way = moved.apart(k, other, max(amount, amounts[n], key=abs))
+            if apart <= max(part_limit, min(object_limit, DUPLICATE_MOTION_RATIO * way)):
+                own = n
+                break
+            if apart <= SIMILAR_RATIO * way:
+                head = min(head, first[n])
+        if own == len(kept):
+            kept.append(k)
+            amounts.append(amount)
+            first.append(head)
+        if candidates[k].role == "asked":
+            answered = own
+    return kept, amounts, answered, first
+
+
+def _crowding(first: list[int], values: list[float]) -> list[bool]:
+    """Return which motions are too similar to others for the first picture.
+
+    They are clearly less plausible than the best of their similar motions, or the third or later of them.
+
+    first: for each motion the first one that it is similar to; values: plausibility of each.
+    """
+    crowded = []
+    for k, head in enumerate(first):
+        kin = [n for n in range(k) if first[n] == head and not crowded[n]]
+        best = max((values[n] for n in kin), default=-np.inf)
+        crowded.append(bool(kin) and (len(kin) >= MAX_SIMILAR or values[k] < best - MAX_SIMILAR_LOSS))
+    return crowded
+
+
+def _off_part(case: PartCase, c: Candidate) -> bool:
+    """Return whether a hinge line is away from the part, like an edge of a box that is enlarged by a handle."""
+    if c.motion.kind is not JointType.REVOLUTE or c.role not in BOX_RIM_ROLES:
+        return False
+    off = c.motion.distance(case.context.part.samples.points)
+    return bool(off.min() > OFF_PART * case.context.tolerance_length)
+
+
+def _pages(
+    motions: list[Candidate], kind: JointAppearance, likely: list[bool], answered: int | None, max_motions: int
+) -> tuple[list[int], list[int]]:
+    """Return the indices of the motions in the first picture and in the second."""
+    own = [k for k, c in enumerate(motions) if c.role in CENTRAL and fits(c, kind)][:SHAPE_AXES]
+    must = ([] if answered is None else [answered]) + [k for k in own if k != answered]
+    first = must[:max_motions]
+    first += [k for k, good in enumerate(likely) if good and k not in first][: max_motions - len(first)]
+    return first, [k for k in range(len(motions)) if k not in first][:max_motions]

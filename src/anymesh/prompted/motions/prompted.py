@@ -1,0 +1,227 @@
+"""Stage B (paper, 3.3) with a visual answerer: kinds of joint, candidate points and arrows, then motions to choose from.
+
+All parts are asked about together, so that an object takes one call per kind of question.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from anymesh.articulation.closed_pose import away_from_closed
+from anymesh.articulation.estimate import joint_of
+from anymesh.articulation.limits import answered_range, opening_as_answered
+from anymesh.config import Config
+from anymesh.geometry.patches import ObjectShape
+from anymesh.progress import Progress, silent
+from anymesh.prompted.motions.candidate_points import axis_points, cluster_points, followed, superpoint_centres, with_more
+from anymesh.prompted.motions.cases import PartCase, ask_each, make_cases
+from anymesh.prompted.motions.contradictions import contradictions
+from anymesh.prompted.motions.decode import hinge, prismatic, surface_directions
+from anymesh.prompted.motions.own_axes import pivots
+from anymesh.prompted.motions.relabel import labels_by_name, relabelled, unlabelled
+from anymesh.prompted.motions.unverified import as_answered, normal_outwards, opening_slide
+from anymesh.prompted.motions.verify import Choice, MotionQuestioner, choose_motions
+from anymesh.prompted.pictures.visual_prompts import Shot, VisualPrompts
+from anymesh.prompted.questions.asking import VisualAnswerer
+from anymesh.prompted.questions.motion_choice import PartFit
+from anymesh.prompted.questions.prompting import ArrowTable, JointAppearance, PointTable, WhichArrows, WhichKinds, WhichPoints
+from anymesh.types import Joint, JointType, Motion, Segmentation
+from anymesh.types.recognition import Recognition
+
+INTO_POINTS = 8  # candidates for an axis into the surface, half of which stand for axes
+ShapeOf = Callable[[Segmentation], ObjectShape]
+Reground = Callable[[Mapping[str, PartFit]], Segmentation | None]  # parts by name that have too much or too little surface
+
+
+@dataclass(frozen=True, eq=False)
+class PromptedJoints:
+    """One joint for every part but the root, in the order of the parts.
+
+    segmentation: with the answered labels, and the parts as grounded again; warnings: contradictions between answers.
+    """
+
+    joints: tuple[Joint, ...]
+    segmentation: Segmentation
+    warnings: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, eq=False)
+class Questions:
+    """Settings of the questions about the joints of one object.
+
+    recognition: of the object, None without one.
+    """
+
+    visual_prompts: VisualPrompts
+    answerer: VisualAnswerer
+    config: Config
+    recognition: Recognition | None = None
+    progress: Progress = silent
+
+    @property
+    def category(self) -> str:
+        """Return the category of the object."""
+        return self.recognition.category if self.recognition else self.config.category or "object"
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """Return the recognized part labels."""
+        return tuple(r.label for r in self.recognition.labels) if self.recognition else ()
+
+
+@dataclass(frozen=True, eq=False)
+class _ChosenMotions:
+    """Parts that were asked about, with the motion chosen for each by number."""
+
+    cases: list[PartCase]
+    chosen: dict[int, Choice]
+    segmentation: Segmentation
+
+    def wrong(self) -> dict[str, PartFit]:
+        """Return the parts, by name, that answers call too much or too little."""
+        fits = {c.name: self.chosen[c.number].fit for c in self.cases}
+        return {name: fit for name, fit in fits.items() if fit is not PartFit.RIGHT}
+
+    def with_changed(self, later: _ChosenMotions) -> _ChosenMotions:
+        """Return these results updated with those of parts that were asked about again, by number."""
+        cases = {c.number: c for c in (*self.cases, *later.cases)}
+        return _ChosenMotions([cases[c.number] for c in self.cases], {**self.chosen, **later.chosen}, later.segmentation)
+
+
+def prompt_joints(
+    questions: Questions, shape_of: ShapeOf, segmentation: Segmentation, reground: Reground | None = None
+) -> PromptedJoints:
+    """Ask how each part moves and build its joint, by the method in `config.verify`.
+
+    The methods are: off, the paper's method; free, which also replaces motions that are blocked; motion, which shows motions to
+    choose from.
+
+    shape_of: prepares the object for these parts; reground: grounds parts again, once, that the answers call too much or too
+    little, with the same names in the same order. Only these parts are asked about again. None keeps the parts.
+    """
+    chosen_motions = _ask(questions, shape_of, labels_by_name(segmentation, questions.labels), fits=reground is not None)
+    wrong = chosen_motions.wrong()
+    again = reground(wrong) if reground is not None and wrong else None
+    if again is not None:
+        chosen_motions = chosen_motions.with_changed(_ask(questions, shape_of, again, fits=False, only=set(wrong)))
+    questions.progress("joints", "limits", 3, 4)
+    verify = questions.config.verify
+    joints = tuple(_joint(c, chosen_motions.chosen[c.number], verify) for c in chosen_motions.cases)
+    return PromptedJoints(joints, chosen_motions.segmentation, contradictions(chosen_motions.cases, joints))
+
+
+def _ask(
+    questions: Questions, shape_of: ShapeOf, segmentation: Segmentation, *, fits: bool, only: Collection[str] | None = None
+) -> _ChosenMotions:
+    """Ask about the parts.
+
+    fits: also ask whether the region shown is the part; only: names of parts, None for all.
+    """
+    whole, config, progress = shape_of(segmentation), questions.config, questions.progress
+    cases = [c for c in make_cases(whole, segmentation, questions.recognition, config) if only is None or c.name in only]
+    progress("joints", "kinds", 0, 4)
+    cases, segmentation = _with_kinds(questions, cases, whole, segmentation)
+    progress("joints", "points and arrows", 1, 4)
+    asked = {**_hinges(questions, cases, whole, segmentation), **_surface_directions(questions, cases, segmentation)}
+    out = normal_outwards if config.verify == "off" else opening_slide
+    asked |= {c.number: out(c) for c in cases if c.kind is JointAppearance.SLIDE_OUT}
+    cases = [replace(c, asked=asked.get(c.number)) for c in cases]
+    progress("joints", "motions", 2, 4)
+    if config.verify != "motion":
+        return _ChosenMotions(cases, {c.number: as_answered(c) for c in cases}, segmentation)
+    asking = MotionQuestioner(questions.visual_prompts, segmentation.face_part, questions.answerer, questions.category, fits)
+    return _ChosenMotions(cases, choose_motions(cases, asking, config.prompts.motions, config.seed), segmentation)
+
+
+def _with_kinds(
+    questions: Questions, cases: list[PartCase], whole: ObjectShape, segmentation: Segmentation
+) -> tuple[list[PartCase], Segmentation]:
+    """Ask for the kind of joint of each part and, if its label was not recognized, which recognized label it has."""
+    pictures, labels = questions.visual_prompts, segmentation.face_part
+    choices = questions.labels if unlabelled(segmentation, questions.labels) else ()
+    kinds = ask_each(
+        questions.answerer,
+        cases,
+        lambda c, title: pictures.card(labels, c.number, title, c.shown.contact),
+        lambda p, some: WhichKinds(p, tuple(c.shown for c in some), choices, questions.category),
+    )
+    answered = {n: a.label for n, a in kinds.items() if a.label is not None}
+    if answered:
+        segmentation = relabelled(segmentation, answered, questions.labels)
+        numbers = {c.number for c in cases}
+        cases = [c for c in make_cases(whole, segmentation, questions.recognition, questions.config) if c.number in numbers]
+    return [replace(c, answer=kinds[c.number]) for c in cases], segmentation
+
+
+def _hinges(questions: Questions, cases: list[PartCase], whole: ObjectShape, segmentation: Segmentation) -> dict[int, Motion]:
+    """Return the hinges by part number: points are shown and picked, and give a line."""
+    labels, pictures = segmentation.face_part, questions.visual_prompts
+    turning = [c for c in cases if c.kind.is_rotation]
+    shots = {c.number: pictures.shot(labels, c.number) for c in turning}
+    tables = {c.number: _points(questions, c, shots[c.number], whole) for c in turning}
+    picks = ask_each(
+        questions.answerer,
+        turning,
+        lambda c, title: shots[c.number].with_points(tables[c.number].points, title, tables[c.number].hidden),
+        lambda p, some: WhichPoints(p, tuple(tables[c.number] for c in some), questions.category),
+    )
+    hinges = {}
+    for case in turning:
+        table, rows = tables[case.number], list(picks[case.number])
+        axis = None if table.axes is None else table.axes[rows[0]]
+        hinges[case.number] = hinge(table.points[rows], case.shown.normal, axis)
+    return hinges
+
+
+def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape) -> PointTable:
+    """Return the candidate points of a rotating part; the paper's method has clusters and superpoints only."""
+    config, pictures = questions.config, questions.visual_prompts
+    project, prompts = shot.project, config.prompts
+    shaped = case.kind is JointAppearance.HINGE_INTO and config.verify != "off"
+    if shaped:
+        prompts = replace(prompts, most_candidates=min(INTO_POINTS, prompts.most_candidates))
+    points = shot.inside(cluster_points(case.shown.contact, project, prompts))
+    axes = np.zeros((0, 3))
+    if shaped:
+        motions = [m for _, m in pivots(case.context, case.shown.normal)]
+        if case.context.is_round:
+            outline = case.context.outline
+            motions.insert(0, Motion(JointType.REVOLUTE, outline.axis, outline.center, "axis of its round outline"))
+        first, axes = axis_points(case.context, [*case.circles, *motions], project, prompts)
+        axes = axes[shot.is_inside(first)]
+        points = followed(first[shot.is_inside(first)], points, project, prompts)
+    if case.kind is JointAppearance.HINGE_HIDDEN:
+        samples = case.context.part.samples
+        colors = pictures.face_colors[whole.source[samples.faces]]
+        points = with_more(points, shot.inside(superpoint_centres(samples, colors, config.grounding)), project, prompts)
+    if len(axes):
+        axes = np.concatenate([axes, np.full((len(points) - len(axes), 3), np.nan)])
+    return PointTable(case.shown, points, case.kind, axes if len(axes) else None, pictures.hidden(shot, points))
+
+
+def _surface_directions(questions: Questions, cases: list[PartCase], segmentation: Segmentation) -> dict[int, Motion]:
+    """Return the slides along the surface by part number: arrows in its plane are shown, and one is picked."""
+    pictures, labels = questions.visual_prompts, segmentation.face_part
+    sliding = [c for c in cases if c.kind is JointAppearance.SLIDE_ALONG]
+    tables = {c.number: ArrowTable(c.shown, surface_directions(c.context)) for c in sliding}
+    rows = ask_each(
+        questions.answerer,
+        sliding,
+        lambda c, title: pictures.arrows(labels, c.number, title, c.context.part.box.center, tables[c.number].directions),
+        lambda p, some: WhichArrows(p, tuple(tables[c.number] for c in some), questions.category),
+    )
+    return {c.number: prismatic(tables[c.number].directions[rows[c.number]], c.context, "arrow picked") for c in sliding}
+
+
+def _joint(case: PartCase, choice: Choice, verify: str) -> Joint:
+    kind = JointType.FIXED
+    if choice.moves:
+        turns = choice.best.motion.kind is JointType.REVOLUTE
+        endless = case.answer.endless and (verify != "motion" or choice.best.is_endless)
+        kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if endless else JointType.REVOLUTE
+    answered = answered_range(case.recognized, kind)
+    best = away_from_closed(case.context, choice.best) if answered is None else opening_as_answered(choice.best, answered)
+    return joint_of(case.context, case.name, case.parent, best, kind, choice.confidence, choice.reason, answered)

@@ -1,0 +1,170 @@
+"""Pictures for questions: an object with its parts, seen from the paper's views."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from jaxtyping import Bool, Float, Int, UInt8
+
+from anymesh.config import Config
+from anymesh.geometry.raycast_ import RayScene
+from anymesh.prompted.pictures.arrows import clearest_view, draw_arrows
+from anymesh.prompted.pictures.card import card_view, part_card, titled
+from anymesh.prompted.pictures.insides import inside_views
+from anymesh.prompted.pictures.points import draw_points
+from anymesh.rendering.encode import encode
+from anymesh.rendering.paint import highlight
+from anymesh.rendering.render import View, face_colors
+from anymesh.rendering.smooth import smoothed
+from anymesh.rendering.strips import motion_strip, silhouette
+from anymesh.rendering.viewpoints import best_view, cameras, caption, close_up, hidden_points, part_pixels, shown, views
+from anymesh.types import Mesh, Motion, Picture
+from anymesh.types.camera import Camera
+
+ARROW = 0.35  # length of an arrow, as a share of the part's size
+UNDER = 0.003  # share of the diagonal: points deeper than this below a surface count as hidden
+
+
+@dataclass(frozen=True, eq=False)
+class Shot:
+    """A part in its best view, in close-up if it is small there."""
+
+    view: View
+    mask: np.ndarray  # (H, W) pixels of the part
+
+    def project(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:
+        """Project points [m] to pixels of the picture, without the title bar."""
+        return self.view.camera.project(points)[0]
+
+    def is_inside(self, points: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
+        """Return which points [m] lie inside the picture, so that they can be drawn."""
+        pixels, camera = self.project(points), self.view.camera
+        return np.all((pixels >= 0) & (pixels < [camera.width, camera.height]), axis=1)
+
+    def inside(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "k 3"]:
+        """Return the points [m] inside the picture; if there are none, the one nearest to its centre."""
+        if len(points) == 0 or (kept := self.is_inside(points)).any():
+            return points[kept] if len(points) else points
+        middle = np.array([self.view.camera.width, self.view.camera.height]) / 2
+        return points[np.linalg.norm(self.project(points) - middle, axis=1).argmin()][None]
+
+    def with_points(
+        self, points: Float[np.ndarray, "k 3"], title: str, hidden: Bool[np.ndarray, " k"] | None = None
+    ) -> Picture:
+        """Draw the picture with points numbered 1, 2, ...; hidden: points that are drawn hollow."""
+        image = draw_points(highlight(self.view.color, self.mask), self.project(points), range(1, len(points) + 1), hidden)
+        return encode(titled(image, title))
+
+
+class VisualPrompts:
+    """Draws the pictures of one object, and of its parts (face_part: (F,) part index per face)."""
+
+    def __init__(self, mesh: Mesh, config: Config) -> None:
+        self._mesh, self._config = smoothed(mesh), config
+        self._inside: tuple[bytes, list[View]] | None = None  # the last faces that were shown alone, and their views
+
+    @cached_property
+    def scene(self) -> RayScene:
+        """Ray scene of the mesh."""
+        return RayScene(self._mesh.vertices, self._mesh.faces)
+
+    @cached_property
+    def views(self) -> list[View]:
+        """Views of the object from all sides."""
+        return views(self._mesh, self._config.views, scene=self.scene)
+
+    @cached_property
+    def face_colors(self) -> Float[np.ndarray, "F 3"]:
+        """sRGB colour of each face, 0..1."""
+        return face_colors(self._mesh) / 255.0
+
+    def view(self, camera: Camera) -> View:
+        """Render the view of another camera."""
+        return shown(self._mesh, camera, self.scene)
+
+    def insides(self, inside: Bool[np.ndarray, " F"]) -> list[View]:
+        """Render some faces alone, with the rest as a ghost, from `config.views.inside_directions`."""
+        config, key = self._config.views, inside.tobytes()
+        if self._inside is None or self._inside[0] != key:
+            eyes = cameras(self._mesh, config, config.size, config.inside_directions)
+            self._inside = key, inside_views(self._mesh, inside, eyes, self.scene)
+        return self._inside[1]
+
+    def clearest_inside_views(self, inside: Bool[np.ndarray, " F"], most: int) -> list[int]:
+        """Return the indices, in ascending order, of at most `most` views of `insides` with most pixels of the faces."""
+        pixels = [int((view.face >= 0).sum()) for view in self.insides(inside)]
+        return sorted(sorted(range(len(pixels)), key=lambda k: -pixels[k])[:most])
+
+    def inside_names(self, front: float | None = None) -> list[str]:
+        """Return the captions of the views of `insides`."""
+        ways = self._config.views.inside_directions
+        return [f"inside the object, {caption(*way, front)}; the rest is shown as a ghost" for way in ways]
+
+    def pictures(
+        self, images: Sequence[UInt8[np.ndarray, "H W 3"]], names: Sequence[str], note: str = ""
+    ) -> tuple[Picture, ...]:
+        """Encode images with captions that number them from 1, as answers refer to them."""
+        return tuple(
+            encode(im, f"picture {k}: {name}{note}") for k, (im, name) in enumerate(zip(images, names, strict=True), 1)
+        )
+
+    def names(self, count: int, front: float | None = None) -> list[str]:
+        """Return `count` captions: of the views from all sides, then of close-ups. front: see `caption`."""
+        captions = [caption(*way, front) for way in self._config.views.directions]
+        return (captions + ["a close-up"] * (count - len(captions)))[:count]
+
+    def card(
+        self, face_part: Int[np.ndarray, " F"], part: int, title: str, contact: Float[np.ndarray, "c 3"] | None = None
+    ) -> Picture:
+        """Draw the highlighted part, and a close-up if it is small; contact: points [m] that should be visible."""
+        view = card_view(self.views, face_part, part, self.scene, contact)
+        return encode(part_card(self._mesh, view, face_part, part, title, self._config.views, self.scene))
+
+    def shot(self, face_part: Int[np.ndarray, " F"], part: int) -> Shot:
+        """Return the part in its best view."""
+        view = self._near(self.views[best_view(self.views, face_part, part)], face_part, part)
+        return Shot(view, self._mask(view, face_part, part))
+
+    def hidden(self, shot: Shot, points: Float[np.ndarray, "k 3"]) -> Bool[np.ndarray, " k"]:
+        """Return which points [m] lie below a surface, as seen by the shot's camera."""
+        return hidden_points(self.scene, shot.view.camera, points, UNDER * self._mesh.diagonal)
+
+    def arrows(
+        self,
+        face_part: Int[np.ndarray, " F"],
+        part: int,
+        title: str,
+        center: Float[np.ndarray, " 3"],
+        directions: Float[np.ndarray, "k 3"],
+    ) -> Picture:
+        """Draw the part with numbered arrows, in the view where they are most distinct."""
+        view = self.views[clearest_view(self.views, center, directions, face_part, part)]
+        view = self._near(view, face_part, part)
+        length = ARROW * float(np.linalg.norm(np.ptp(self._mesh.triangles[face_part == part].reshape(-1, 3), axis=0)))
+        image = highlight(view.color, self._mask(view, face_part, part))
+        drawn = draw_arrows(image, view.camera, center, directions, range(1, len(directions) + 1), length)
+        return encode(titled(drawn, title))
+
+    def strip(
+        self,
+        moving: Bool[np.ndarray, " F"],
+        title: str,
+        motions: Sequence[Motion],
+        amounts: Sequence[float],
+        blocked: Sequence[bool] = (),
+    ) -> Picture:
+        """Draw a part and what it carries, at rest and moved by each amount [rad or m]. blocked: motions labelled so."""
+        shown = list(zip(motions, amounts, strict=True))
+        return encode(titled(motion_strip(self._mesh, moving, shown, blocked=blocked, scene=self.scene), title))
+
+    def _near(self, view: View, face_part: np.ndarray, part: int) -> View:
+        """Return a close-up if the part is small in the view, else the view."""
+        return close_up(self._mesh, view, face_part, part, self._config.views, self.scene) or view
+
+    def _mask(self, view: View, face_part: np.ndarray, part: int) -> np.ndarray:
+        """Return the pixels of the part, or its full silhouette if nothing of it is visible."""
+        mask = part_pixels(view, face_part, part)
+        return mask if mask.any() else silhouette(self._mesh.triangles[face_part == part], view.camera)

@@ -1,0 +1,1 @@
+"""The questions, each with its pictures, text, schema and check."""

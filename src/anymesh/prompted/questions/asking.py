@@ -1,0 +1,160 @@
+"""Questions with pictures, and the protocol of their answerers.
+
+A question holds its pictures, the numbers drawn in them and what these stand for, so that an answer is always decoded with the
+question that was asked. One class holds the text of a question, the schema of its answer and the check of the answer.
+"""
+
+from __future__ import annotations
+
+import reprlib
+from collections.abc import Callable, Mapping
+from typing import Any, Protocol, TypeVar, runtime_checkable
+
+from anymesh.prompted.questions.pictures import Pictures
+from anymesh.types import Exchange
+
+Answer = TypeVar("Answer")
+Answer_co = TypeVar("Answer_co", covariant=True)
+
+
+class BadAnswerError(Exception):
+    """An answer that does not fit its question; the message says what is wrong and what would be valid."""
+
+
+@runtime_checkable
+class Question(Protocol[Answer_co]):
+    """One question about pictures, with its own type of answer."""
+
+    @property
+    def kind(self) -> str: ...
+
+    @property
+    def pictures(self) -> Pictures: ...
+
+    def text(self) -> str:
+        """Return the text of the question."""
+        ...
+
+    def schema(self) -> dict[str, Any]:
+        """Return the JSON schema of the answer, which is an object."""
+        ...
+
+    def parse(self, answer: Mapping[str, Any]) -> Answer_co:
+        """Return the answer from an object that satisfies the schema.
+
+        Raise BadAnswerError if it does not fit the question.
+        """
+        ...
+
+
+@runtime_checkable
+class VisualAnswerer(Protocol):
+    """Answerer of questions with pictures: a model, geometry as its fallback, or ground truth.
+
+    exchanges: every call so far; warnings: messages for the user (which fallback answered, and why).
+    """
+
+    name: str
+
+    @property
+    def exchanges(self) -> tuple[Exchange, ...]: ...
+
+    @property
+    def warnings(self) -> tuple[str, ...]: ...
+
+    def ask(self, question: Question[Answer]) -> Answer: ...
+
+
+AnswererFactory = Callable[[VisualAnswerer], VisualAnswerer]  # makes a visual answerer with the given fallback
+
+
+def an_object(**properties: dict[str, Any]) -> dict[str, Any]:
+    """Return the schema of an object that has exactly these properties."""
+    return {"type": "object", "properties": properties, "required": list(properties), "additionalProperties": False}
+
+
+REASON = "reason"  # optional property before an answer that lets a model reason
+
+
+def an_answer(**properties: dict[str, Any]) -> dict[str, Any]:
+    """Return the schema of an answer: a short reason first, then these properties."""
+    return an_object(**{REASON: {"type": "string", "description": "one or two short sentences"}}, **properties)
+
+
+def with_category(category: str | None, text: str) -> str:
+    """Return the text of a question about an object, with its category if it is known."""
+    return f"The object is a {category}. {text}" if category else text
+
+
+def a_list(items: dict[str, Any]) -> dict[str, Any]:
+    """Return the schema of a list."""
+    return {"type": "array", "items": items}
+
+
+def one_of(values: tuple[str, ...]) -> dict[str, Any]:
+    """Return the schema of a choice between words."""
+    return {"type": "string", "enum": list(values)}
+
+
+LARGEST = 1e9  # limit of numbers in answers; a number of a thousand digits would fill the following questions
+INTEGER, NUMBER, STRING, BOOLEAN = ({"type": t} for t in ("integer", "number", "string", "boolean"))
+_TYPES: dict[str, tuple[type, ...]] = {
+    "object": (dict,), "array": (list,), "string": (str,), "boolean": (bool,), "integer": (int,), "number": (int, float),
+}  # fmt: skip
+
+
+def check_schema(value: Any, schema: Mapping[str, Any], at: str = "the answer") -> None:
+    """Check a value by a schema made of the functions above, and raise BadAnswerError if it does not fit.
+
+    Words of a choice are accepted in any case, and replaced in place by the schema's spelling.
+    """
+    kind = schema["type"]
+    numeric = kind in ("integer", "number")
+    wrong = not isinstance(value, _TYPES[kind]) or (isinstance(value, bool) and numeric)
+    if wrong or (numeric and not abs(value) < LARGEST):
+        raise BadAnswerError(f"{at} must be {_a(kind)}, found {_short(value)}")
+    if kind == "string" and "enum" in schema and value not in schema["enum"]:
+        raise BadAnswerError(f"{at} must be one of {', '.join(schema['enum'])}; found {_short(value)}")
+    if kind == "array":
+        for k, item in enumerate(value):
+            value[k] = _in_case(item, schema["items"])
+            check_schema(value[k], schema["items"], f"{at}[{k}]")
+    if kind == "object":
+        _check_names(value, schema, at)
+        for name, part in schema["properties"].items():
+            if name in value:
+                value[name] = _in_case(value[name], part)
+                check_schema(value[name], part, f"{at}.{name}")
+
+
+def _check_names(value: Mapping[str, Any], schema: Mapping[str, Any], at: str) -> None:
+    """Raise BadAnswerError unless an object has the properties of its schema and no others."""
+    needed = set(schema["required"]) - {REASON}
+    missing, unknown = (sorted(a) for a in (needed - set(value), set(value) - set(schema["properties"])))
+    if missing or unknown:
+        raise BadAnswerError(f"{at} must have exactly {schema['required']}; missing {missing}, unknown {_short(unknown)}")
+
+
+def _in_case(value: Any, schema: Mapping[str, Any]) -> Any:
+    """Return the word of the schema's choice that equals the value up to case and spaces, else the value."""
+    words = {word.lower(): word for word in schema.get("enum", ())}
+    return words.get(" ".join(value.lower().split()), value) if words and isinstance(value, str) else value
+
+
+def _a(kind: str) -> str:
+    return f"an {kind}" if kind[0] in "aio" else f"a {kind}"
+
+
+def _short(value: object) -> str:
+    text = _brief.repr(value)
+    return text if len(text) <= 80 else f"{text[:77]}..."
+
+
+_brief = reprlib.Repr()  # limits depth and length, as answers may be nested or long without end
+_brief.maxlevel, _brief.maxlist, _brief.maxdict, _brief.maxstring = 3, 24, 8, 78
+
+
+def one_each(numbers: list[int], wanted: int, what: str) -> None:
+    """Raise BadAnswerError unless every number 1..wanted occurs exactly once."""
+    if sorted(numbers) != list(range(1, wanted + 1)):
+        raise BadAnswerError(f"each {what} 1..{wanted} must be answered exactly once, found {_short(sorted(numbers))}")

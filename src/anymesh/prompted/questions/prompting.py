@@ -1,0 +1,228 @@
+"""Geometry-aware visual prompting (paper, 3.3): kinds of joint, candidate points, arrows."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+from jaxtyping import Bool, Float, Int
+
+from anymesh.prompted.questions.asking import BOOLEAN, INTEGER, BadAnswerError, a_list, an_answer, an_object, one_each, one_of
+from anymesh.prompted.questions.pictures import Pictures
+
+OTHER = "other"  # label of a part that is none of the recognized kinds
+
+
+class JointAppearance(StrEnum):
+    """Appearance of a joint from outside (paper, 3.3)."""
+
+    HINGE_ALONG = "hinge_along_edge"  # two or more points of the axis are visible where the parts meet
+    HINGE_INTO = "hinge_into_surface"  # the axis enters the surface: one point of it is visible
+    HINGE_HIDDEN = "hinge_hidden"  # the mechanism is under the surface
+    SLIDE_OUT = "slide_in_or_out"
+    SLIDE_ALONG = "slide_along_surface"
+    FIXED = "fixed"
+
+    @property
+    def is_rotation(self) -> bool:
+        return self in (JointAppearance.HINGE_ALONG, JointAppearance.HINGE_INTO, JointAppearance.HINGE_HIDDEN)
+
+    @property
+    def words(self) -> str:
+        return self.value.replace("_", " ")
+
+
+@dataclass(frozen=True, eq=False)
+class PartShown:
+    """A part in a question. The fields after the label are for answerers without pictures [m].
+
+    diagonal: of the object's box, which gives the scale that an answered size may have changed; None if unknown.
+    """
+
+    label: str
+    faces: Int[np.ndarray, " f"]  # of the mesh
+    points: Float[np.ndarray, "n 3"]  # on its surface
+    outward: Float[np.ndarray, " 3"]  # the opening direction of the object
+    normal: Float[np.ndarray, " 3"]  # of the plane of the connecting area
+    contact: Float[np.ndarray, "c 3"]  # points of the connecting area
+    diagonal: float | None = None
+
+
+@dataclass(frozen=True)
+class KindAnswer:
+    """Kind of joint of a part.
+
+    endless: rotates without limits; label: the recognized kind of part, None if it was not asked for.
+    """
+
+    kind: JointAppearance
+    endless: bool = False
+    label: str | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class WhichKinds:
+    """What kind of joint has each part? One picture per part.
+
+    labels: recognized kinds of part to choose from, if parts are given without such a label; category: of the object.
+    """
+
+    pictures: Pictures
+    parts: tuple[PartShown, ...]
+    labels: tuple[str, ...] = ()
+    category: str = "object"
+    kind: str = "kinds"
+
+    def text(self) -> str:
+        labels = f" label: which of these it is: {', '.join(self.labels)}; else {OTHER!r}." if self.labels else ""
+        return (
+            f"Object: {self.category}. {_listed(self.parts)} How is each attached to the object that it belongs to? "
+            "hinge_along_edge: it turns about a line that runs along an edge where it meets the rest, as doors, lids and flaps "
+            "do; hinge_into_surface: it turns about a line that sticks into the surface it sits on, as knobs and wheels do; "
+            "hinge_hidden: it turns, but the hinge is under the surface; slide_in_or_out: it moves out of the object or into "
+            "it, as drawers and push buttons do; slide_along_surface: it slides along the surface, as sliding windows "
+            "and toaster levers do; fixed: it does not move. endless: it can turn round and round. The part is coloured."
+            f"{labels}"
+        )
+
+    def schema(self) -> dict[str, Any]:
+        label = {"label": one_of((*self.labels, OTHER))} if self.labels else {}
+        return an_answer(parts=a_list(an_object(part=INTEGER, joint=one_of(tuple(JointAppearance)), endless=BOOLEAN, **label)))
+
+    def parse(self, answer: Mapping[str, Any]) -> tuple[KindAnswer, ...]:
+        """Return the answers in the order of the parts."""
+        one_each([p["part"] for p in answer["parts"]], len(self.parts), "part")
+        by_part = {p["part"]: p for p in answer["parts"]}
+        return tuple(self._answer(p) for _, p in sorted(by_part.items()))
+
+    def _answer(self, part: Mapping[str, Any]) -> KindAnswer:
+        kind, label = JointAppearance(part["joint"]), part.get("label")
+        return KindAnswer(kind, part["endless"] and kind.is_rotation, None if label == OTHER else label)
+
+
+@dataclass(frozen=True, eq=False)
+class PointTable:
+    """Numbered candidate points of one part, as drawn: number k is row k - 1.
+
+    The number of points to pick depends on the kind.
+
+    axes: for each point the unit direction of its axis, NaN for a position only; hidden: points that lie under a surface.
+    """
+
+    part: PartShown
+    points: Float[np.ndarray, "k 3"]
+    kind: JointAppearance
+    axes: Float[np.ndarray, "k 3"] | None = None
+    hidden: Bool[np.ndarray, " k"] | None = None
+
+    @property
+    def min_points(self) -> int:
+        return 2 if self.kind is JointAppearance.HINGE_ALONG and len(self.points) > 1 else 1
+
+    @property
+    def max_points(self) -> int:
+        into = self.kind is JointAppearance.HINGE_INTO
+        return min(len(self.points), (1 if self.axes is None else 2) if into else len(self.points))
+
+    @property
+    def wanted(self) -> str:
+        if self.kind is JointAppearance.HINGE_INTO:
+            one = "the one point nearest to its axis"
+            return one if self.max_points == 1 else f"{one} where that comes out of the surface, or two points on its axis"
+        far = "two or more points on its hinge line, far apart"
+        return far if self.min_points > 1 else f"{far}, or a single point if the axis sticks out of the surface there"
+
+    @property
+    def listed(self) -> str:
+        """Return the numbers that are drawn, in words."""
+        hidden = np.zeros(len(self.points), bool) if self.hidden is None else self.hidden
+        few = np.flatnonzero(hidden if hidden.mean() <= 0.5 else ~hidden) + 1
+        numbers = f"{'' if hidden.mean() <= 0.5 else 'all but '}{', '.join(map(str, few))}" if len(few) else "all"
+        under = f" (hidden: {numbers})" if hidden.any() else ""
+        return f"{'point 1' if len(self.points) == 1 else f'points 1..{len(self.points)}'}{under}"
+
+
+@dataclass(frozen=True, eq=False)
+class WhichPoints:
+    """Which numbered points lie on the axis? One picture per part."""
+
+    pictures: Pictures
+    tables: tuple[PointTable, ...]
+    category: str = "object"
+    kind: str = "points"
+
+    def text(self) -> str:
+        each = [f"part {k}, a {t.part.label}, {t.listed}: {t.wanted}" for k, t in enumerate(self.tables, 1)]
+        return (
+            f"Object: {self.category}. Each picture shows one part (coloured) that turns about an axis, with "
+            "numbered points on it and round it; hollow dots are hidden under a surface. Think how such a part is mounted and "
+            f"which side its handle is on; the hinge of a door lies opposite its handle. Give for {'; for '.join(each)}."
+        )
+
+    def schema(self) -> dict[str, Any]:
+        return an_answer(parts=a_list(an_object(part=INTEGER, points=a_list(INTEGER))))
+
+    def parse(self, answer: Mapping[str, Any]) -> tuple[tuple[int, ...], ...]:
+        """Return the picked rows of each table, in the order of the tables."""
+        one_each([p["part"] for p in answer["parts"]], len(self.tables), "part")
+        by_part = {p["part"]: tuple(dict.fromkeys(p["points"])) for p in answer["parts"]}
+        for k, table in enumerate(self.tables, 1):
+            wrong = [n for n in by_part[k] if not 1 <= n <= len(table.points)]
+            if wrong:
+                raise BadAnswerError(f"points of part {k} are 1..{len(table.points)}, found {wrong[:10]}")
+            if not table.min_points <= len(by_part[k]) <= table.max_points:
+                raise BadAnswerError(f"part {k} needs {table.wanted}; found {len(by_part[k])} points")
+        return tuple(tuple(n - 1 for n in by_part[k]) for k in range(1, len(self.tables) + 1))
+
+
+@dataclass(frozen=True, eq=False)
+class ArrowTable:
+    """Numbered arrows of one part, as drawn: unit directions, number k is row k - 1."""
+
+    part: PartShown
+    directions: Float[np.ndarray, "k 3"]
+
+
+@dataclass(frozen=True, eq=False)
+class WhichArrows:
+    """Along which arrow does the part open or move from its position? One picture per part."""
+
+    pictures: Pictures
+    tables: tuple[ArrowTable, ...]
+    category: str = "object"
+    kind: str = "arrows"
+
+    def text(self) -> str:
+        each = "; ".join(f"part {k}, a {t.part.label}, arrows 1..{len(t.directions)}" for k, t in enumerate(self.tables, 1))
+        return (
+            f"Object: {self.category}. "
+            "Each picture shows one part (coloured) that slides along the surface of the object, and numbered arrows. Which "
+            f"arrow shows the way it slides when it is opened or used? {each}."
+        )
+
+    def schema(self) -> dict[str, Any]:
+        return an_answer(parts=a_list(an_object(part=INTEGER, arrow=INTEGER)))
+
+    def parse(self, answer: Mapping[str, Any]) -> tuple[int, ...]:
+        """Return the picked row of each table, in the order of the tables."""
+        return picked_rows(answer["parts"], "arrow", [len(t.directions) for t in self.tables], 1)
+
+
+def picked_rows(parts: list[Mapping[str, Any]], name: str, counts: Sequence[int], least: int) -> tuple[int, ...]:
+    """Return the row that each part's answer picks by its number, -1 for 0.
+
+    counts: number of rows of each part; least: lowest valid number.
+    """
+    one_each([p["part"] for p in parts], len(counts), "part")
+    by_part = {p["part"]: p[name] for p in parts}
+    for k, count in enumerate(counts, 1):
+        if not least <= by_part[k] <= count:
+            raise BadAnswerError(f"{name} of part {k} must be of {least}..{count}, found {by_part[k]}")
+    return tuple(by_part[k] - 1 for k in range(1, len(counts) + 1))
+
+
+def _listed(parts: Sequence[PartShown]) -> str:
+    return f"The pictures show, in this order, {', '.join(f'part {k}: a {p.label}' for k, p in enumerate(parts, 1))}."

@@ -1,0 +1,179 @@
+"""Recognition of an object and its movable parts (paper, 3.2 and 4: labels, joint types, parents, limits by the VLM)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from anymesh.errors import OptionError
+from anymesh.prompted.questions.asking import (
+    INTEGER,
+    NUMBER,
+    STRING,
+    BadAnswerError,
+    VisualAnswerer,
+    a_list,
+    an_answer,
+    an_object,
+    one_of,
+)
+from anymesh.prompted.questions.pictures import DrawnPictures, Pictures
+from anymesh.types import MOVING, JointType, Picture
+from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
+
+MAX_LABELS = 24  # kinds of part per answer
+SIZES = (0.002, 200.0)  # [m] range of the size of an object
+ROUGH = 1.5  # an answered size is a guess: the mesh keeps its own size if both agree within this factor
+DOUBTFUL = 2.5  # factor between the answered size and that of a file with a unit above which there is a warning
+FAR = 10.0  # the same for a file without a unit
+WORD = re.compile(r"(?=.{1,40}$)[a-z][a-z0-9]*([ _'-][a-z0-9]+){0,4}")
+
+
+@dataclass(frozen=True, eq=False)
+class Recognize:
+    """What is the object, how large is the real one, where is its front, which parts move and how?
+
+    azimuths: of the pictures [deg].
+    """
+
+    pictures: Pictures
+    category: str | None = None  # if the user gave it
+    azimuths: tuple[float, ...] = ()
+    kind: str = "recognize"
+
+    def text(self) -> str:
+        hint = f" The user says that it is: {self.category!r}." if self.category else ""
+        return (
+            f"The pictures show one rigid 3D model of an object from several sides.{hint} It is to become an articulated model "
+            "for a robot simulator. Name the category, estimate the length in metres of the longest side of such an object in "
+            "reality, and list every kind of part that moves against the rest in the real thing: doors, lids, drawers, knobs, "
+            "buttons, wheels, levers, handles that turn (not handles fixed to a door), and so on. Give one entry a kind, not "
+            "one a piece; leave out what does not move. label: one short English noun in lower case. moves: revolute (turns "
+            "within limits), continuous (turns endlessly) or prismatic (slides). parent: the label of the part that it is "
+            f"mounted on, its own label where such parts hang on each other in a chain, or {BASE!r}. lower, upper: how far it "
+            "can move from the pose that is shown, opening positive: degrees for revolute, centimetres for prismatic, 0 and 0 "
+            "for continuous; lower <= 0 <= upper. front: the number of the picture that looks most squarely at the object's "
+            "front, the side that a user faces; 0 if it has none."
+            f"{self._inside}"
+        )
+
+    @property
+    def _inside(self) -> str:
+        """Return the text on the pictures of the inside, which come last."""
+        outside = len(self.azimuths)
+        if not 0 < outside < len(self.pictures):
+            return ""
+        return (
+            f" Pictures 1..{outside} show it from outside; those after them show what is hidden inside, the rest as a ghost: "
+            "list what moves in there too (drawers, trays, shelves that slide, turntables), but leave out what is fixed."
+        )
+
+    def schema(self) -> dict[str, Any]:
+        label = an_object(label=STRING, moves=one_of(MOVING), parent=STRING, lower=NUMBER, upper=NUMBER)
+        return an_answer(category=STRING, longest_side_m=NUMBER, front=INTEGER, parts=a_list(label))
+
+    def parse(self, answer: Mapping[str, Any]) -> Recognition:
+        size = float(answer["longest_side_m"])
+        if not SIZES[0] <= size <= SIZES[1]:
+            raise BadAnswerError(f"longest_side_m must lie in {SIZES[0]}..{SIZES[1]}, found {size:g}")
+        if not 0 <= answer["front"] <= len(self.azimuths):
+            raise BadAnswerError(
+                f"front must be the number of a picture, 1..{len(self.azimuths)}, or 0; found {answer['front']}"
+            )
+        front = self.azimuths[answer["front"] - 1] if answer["front"] else None
+        named = [{**p, "label": _folded(p["label"]), "parent": _folded(p["parent"])} for p in answer["parts"]]
+        labels = check_labels([p["label"] for p in named])
+        parts = tuple(self._label(p, labels) for p in named)
+        _check_tree({p["label"]: p["parent"] for p in named})
+        category = " ".join(answer["category"].split())[:60]
+        if not category or not (category.isascii() and category.isprintable()):
+            raise BadAnswerError(f"category must be one or a few English words, found {category!r}")
+        return Recognition(category, size, parts, front)
+
+    def _label(self, part: Mapping[str, Any], labels: Sequence[str]) -> RecognizedLabel:
+        if part["parent"] not in (*labels, BASE):
+            raise BadAnswerError(f"parent must be {BASE!r} or one of {list(labels)}, found {part['parent'][:40]!r}")
+        moves = JointType(part["moves"])
+        if moves is JointType.CONTINUOUS:
+            return RecognizedLabel(part["label"], moves, part["parent"], None)
+        unit, most = (3.141592653589793 / 180, 360.0) if moves is JointType.REVOLUTE else (0.01, 100 * SIZES[1])
+        lower, upper = float(part["lower"]), float(part["upper"])
+        if not (-most <= lower <= 0 <= upper <= most and lower < upper):
+            raise BadAnswerError(f"{part['label']}: valid is lower <= 0 <= upper, not both 0; found {lower:g}, {upper:g}")
+        return RecognizedLabel(part["label"], moves, part["parent"], (lower * unit, upper * unit))
+
+
+def check_labels(labels: Sequence[str]) -> tuple[str, ...]:
+    """Return the labels, if each is a plain English noun and none occurs twice.
+
+    Raise BadAnswerError otherwise.
+    """
+    for label in labels:
+        if not WORD.fullmatch(label) or label == BASE:
+            raise BadAnswerError(f"a label is a short English noun in lower case and not {BASE!r}, found {label[:40]!r}")
+    if len(set(labels)) != len(labels) or len(labels) > MAX_LABELS:
+        raise BadAnswerError(f"each label once and at most {MAX_LABELS} of them, found {len(labels)}: {list(labels)[:30]}")
+    return tuple(labels)
+
+
+def _folded(label: str) -> str:
+    """Return a label in lower case, with single spaces."""
+    return " ".join(label.lower().split())
+
+
+def _check_tree(parent: Mapping[str, str]) -> None:
+    """Raise BadAnswerError unless the parents lead to the base; a part may depend on another one with the same label."""
+    for label in parent:
+        seen, at = set[str](), label
+        while at != BASE and parent[at] != at:  # a label that is its own parent is a chain of such parts
+            if at in seen:
+                raise BadAnswerError(f"parents must lead to {BASE!r}, but those of {label!r} form a cycle")
+            seen.add(at)
+            at = parent[at]
+
+
+def parse_labels(labels: Sequence[str]) -> tuple[str, ...]:
+    """Return the labels given by a user.
+
+    Raise OptionError if they are not valid.
+    """
+    try:
+        return check_labels([_folded(label) for label in labels])
+    except BadAnswerError as error:
+        raise OptionError(f"--parts-list: {error}") from None
+
+
+def recognize(
+    pictures: Callable[[], tuple[Picture, ...]],
+    answerer: VisualAnswerer,
+    category: str | None,
+    labels: Sequence[str],
+    azimuths: Sequence[float] = (),
+) -> Recognition:
+    """Ask what the object is, unless the labels were given.
+
+    azimuths: of the pictures [deg].
+    """
+    if labels:
+        return Recognition(category or "object", None, tuple(RecognizedLabel(label, None, None, None) for label in labels))
+    return answerer.ask(Recognize(DrawnPictures(pictures), category, tuple(azimuths)))
+
+
+def answered_scale(recognition: Recognition, size: float, *, metric: bool) -> tuple[float, str, tuple[str, ...]]:
+    """Return the scale factor from an answered size, with a note, and warnings.
+
+    size: longest side of the mesh [m]; metric: its file states a unit, which is kept.
+    """
+    if recognition.size is None:
+        return 1.0, "", ()
+    factor = recognition.size / size
+    basis = f"answered: a {recognition.category} is about {recognition.size:g} m long; the mesh was {size:.3g} m"
+    if 1 / ROUGH <= factor <= ROUGH:
+        return 1.0, "", ()
+    if metric:
+        doubt = f"the file's unit was kept ({basis}); if it is wrong, give --scale"
+        return 1.0, "", () if 1 / DOUBTFUL <= factor <= DOUBTFUL else (doubt,)
+    note = f"scale {factor:g} ({basis})"
+    return factor, note, () if 1 / FAR <= factor <= FAR else (f"{note}; if that is wrong, give --scale",)

@@ -1,0 +1,120 @@
+"""Stages A and B of one mesh by a visual answerer: a vision-language model, answers in files, or ground truth."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cached_property, partial
+
+from anymesh.articulation.freedom import stays_free
+from anymesh.pipeline.geometry_stages import GeometryStages
+from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
+from anymesh.progress import Progress, silent
+from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
+from anymesh.prompted.grounding.ask_marks import MarkQuestioner
+from anymesh.prompted.grounding.cloud import seen_points
+from anymesh.prompted.grounding.ground_exact import ground_exactly
+from anymesh.prompted.grounding.ground_masks import ground_by_masks
+from anymesh.prompted.grounding.grounded import ground_parts
+from anymesh.prompted.grounding.grounded_parts import EXACT, Ground, SampledObject, sample_object
+from anymesh.prompted.grounding.hidden import MIN_RECOGNITION_PATCH_RATIO, inner_faces
+from anymesh.prompted.grounding.regrounding import ground_again
+from anymesh.prompted.masks.sam_load import load_sam
+from anymesh.prompted.motions.prompted import Questions, Reground, prompt_joints
+from anymesh.prompted.pictures.visual_prompts import VisualPrompts
+from anymesh.prompted.questions.asking import AnswererFactory
+from anymesh.prompted.questions.recognition import answered_scale, recognize
+from anymesh.types import Picture, Segmentation
+from anymesh.types.recognition import Recognition
+
+MAX_INSIDE_VIEWS = 2  # pictures of the inside in the question about the object
+
+
+class PromptedStages:
+    """A visual answerer as the answerer of both stages (see `StageAnswerer`); geometry is its fallback."""
+
+    recognizes = True
+
+    def __init__(self, geometry: GeometryStages, answerer_factory: AnswererFactory) -> None:
+        self._geometry, self._see = geometry, answerer_factory
+        self.mesh, self.config, self.deadline = geometry.mesh, geometry.config, geometry.deadline
+
+    @cached_property
+    def _ground(self) -> Ground:
+        spec = self.config.proposer.removeprefix(f"{EXACT}+")
+        return ground_exactly if spec == EXACT else partial(ground_by_masks, segmenter=load_sam(spec))
+
+    @cached_property
+    def _sampled(self) -> SampledObject:
+        return sample_object(self.mesh, self._geometry.whole, self.config)
+
+    @cached_property
+    def visual_prompts(self) -> VisualPrompts:
+        """Return what draws the pictures of the questions."""
+        return VisualPrompts(self.mesh, self.config)
+
+    def recognize(self, *, sized: bool = False, metric: bool = False) -> RecognitionResult:
+        """Recognize the object and its movable parts by a visual answerer.
+
+        sized: the answered size sets the scale, unless the file states its unit (metric). In that case a contradicting size
+        gives a warning.
+        """
+        _ = self._ground  # report unusable weights before anything is asked
+        answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._geometry.reference_parts))
+        azimuths = [azimuth for azimuth, _ in self.config.views.directions]
+        recognition = recognize(self._view_pictures, answerer, self.config.category, self.config.parts_list, azimuths)
+        scale, note, doubt = (
+            answered_scale(recognition, float(self.mesh.extents.max()), metric=metric) if sized else (1.0, "", ())
+        )
+        return RecognitionResult(recognition, answerer.name, scale, note, (*answerer.warnings, *doubt), answerer.exchanges)
+
+    def _view_pictures(self) -> tuple[Picture, ...]:
+        seen, prompts, cloud = self.visual_prompts.views, self.visual_prompts, self._sampled.cloud
+        names = prompts.names(len(seen))
+        inside = inner_faces(self.mesh, self._geometry.whole, cloud, seen_points(cloud, seen), MIN_RECOGNITION_PATCH_RATIO)
+        if inside.any():
+            chosen = prompts.clearest_inside_views(inside, MAX_INSIDE_VIEWS)
+            seen = [*seen, *(prompts.insides(inside)[k] for k in chosen)]
+            names += [prompts.inside_names()[k] for k in chosen]
+        return prompts.pictures([view.color for view in seen], names)
+
+    def find_parts(self, recognition: Recognition | None, progress: Progress = silent) -> SegmentationResult:
+        """Run Stage A; without a recognition there is nothing to ask for, and geometry finds the parts."""
+        if recognition is None:
+            return self._geometry.find_parts(recognition, progress)
+        answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._geometry.reference_parts))
+        labels = tuple(r.label for r in recognition.labels)
+        questioner = MarkQuestioner(answerer, self.visual_prompts, labels, recognition.category, self.config)
+        segmentation, warnings = ground_parts(
+            self._sampled,
+            questioner,
+            recognition,
+            self._ground,
+            self._geometry.parts,
+            partial(stays_free, self._geometry.whole, self.config.articulation),
+            progress,
+        )
+        return segmentation_result(
+            segmentation, answerer.name, (*answerer.warnings, *warnings, *self.deadline.warnings()), answerer.exchanges
+        )
+
+    def estimate_joints(
+        self, segmentation: Segmentation, recognition: Recognition | None, progress: Progress = silent, grounded: bool = False
+    ) -> JointResult:
+        """Run Stage B.
+
+        grounded: the parts come from `find_parts`, so that answers may once call them too much or too little.
+        """
+        answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._geometry.reference(segmentation)))
+        questions = Questions(self.visual_prompts, answerer, self.config, recognition, progress)
+        reground = self._regrounding(questions, segmentation) if grounded and recognition is not None else None
+        made = prompt_joints(questions, self._geometry.shape_for, segmentation, reground)
+        warnings = (*answerer.warnings, *made.warnings, *self.deadline.warnings())
+        estimated = joint_result(made.joints, answerer.name, warnings, answerer.exchanges)
+        return replace(estimated, segmentation=made.segmentation if made.segmentation is not segmentation else None)
+
+    def _regrounding(self, questions: Questions, segmentation: Segmentation) -> Reground:
+        """Return the function that grounds wrong parts again."""
+        recognition = questions.recognition
+        asked = MarkQuestioner(questions.answerer, self.visual_prompts, questions.labels, questions.category, self.config)
+        front = recognition.front if recognition else None
+        return lambda wrong: ground_again(self._sampled, asked, segmentation, wrong, front)

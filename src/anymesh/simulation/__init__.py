@@ -1,1 +1,0 @@
-"""Tests of an asset's motion in simulators: one file per engine, one report format for all."""

@@ -1,0 +1,167 @@
+"""The built-in shape completer: what is added, and what stays as it was."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from assets import cabinet, joint
+from geometry.rigid import move
+from surfaces import (
+    FRONT,
+    SIZE,
+    asset_of,
+    case_with_controls,
+    case_with_door,
+    case_with_drawer,
+    is_closed,
+    part_triangles,
+    shell,
+    volume,
+)
+
+from anymesh.finishing.settings import ShapeConfig
+from anymesh.finishing.shape import complete_shapes
+from anymesh.geometry.distance_ import distance_to_triangles
+from anymesh.geometry.kinematics import posed
+from anymesh.geometry.raycast_ import RayScene
+from anymesh.types import Asset
+
+WALL = ShapeConfig().wall
+
+
+def wall_of(asset: Asset) -> float:
+    return WALL * asset.mesh.diagonal
+
+
+def test_a_case_gets_walls_and_its_door_a_back():
+    asset = case_with_door()
+    done = complete_shapes(asset).asset
+    t, (x, y, z) = wall_of(asset), SIZE
+    assert volume(done, "case") == pytest.approx(x * y * z - (x - 2 * t) * (y - t) * (z - 2 * t), rel=1e-9)
+    assert volume(done, "door") == pytest.approx(x * FRONT * z, rel=1e-9)
+    assert is_closed(part_triangles(done, "case"))
+    assert is_closed(part_triangles(done, "door"))
+
+
+@pytest.mark.parametrize("make", [case_with_door, case_with_drawer, lambda: case_with_controls(0.6)])
+def test_what_was_there_stays_and_twice_is_once(make):
+    asset = make()
+    found = complete_shapes(asset)
+    mesh, old = found.asset.mesh, len(asset.mesh.faces)
+    assert (found.source_face[:old] == np.arange(old)).all()
+    assert (found.source_face[old:] == -1).all()
+    assert len(found.source_face) == len(mesh.faces) > old
+    assert (mesh.triangles[:old] == asset.mesh.triangles).all()
+    for name in ("face_node", "face_material", "corner_uv", "corner_normal"):
+        assert (getattr(mesh, name)[:old] == getattr(asset.mesh, name)).all(), name
+    assert (found.asset.segmentation.face_part[:old] == asset.segmentation.face_part).all()
+    again = complete_shapes(found.asset)
+    assert again.asset is found.asset
+    assert again.notes == {}
+    assert (complete_shapes(asset).asset.mesh.triangles == mesh.triangles).all()
+
+
+def test_new_faces_look_like_their_part_and_are_lit_right():
+    asset = case_with_drawer()
+    found = complete_shapes(asset)
+    mesh, new = found.asset.mesh, found.source_face < 0
+    assert (mesh.face_material[new] == found.asset.segmentation.face_part[new]).all()
+    assert (mesh.face_node[new] == found.asset.segmentation.face_part[new]).all()
+    assert mesh.corner_normal is not None
+    assert np.einsum("fkj,fj->fk", mesh.corner_normal[new], mesh.face_normals[new]).min() > 0.999
+    assert mesh.corner_uv is not None
+    assert (mesh.corner_uv[new] == mesh.corner_uv[new][:, :1]).all()
+
+
+@pytest.mark.parametrize("scale", [1.0, 0.01, 100.0])
+def test_turned_shifted_and_scaled_it_is_the_same(scale):
+    asset = case_with_door()
+    T = move(3) @ np.diag([scale, scale, scale, 1.0])
+    hinge = asset.joints[0]
+    placed = replace(hinge, origin=T[:3, :3] @ hinge.origin + T[:3, 3], axis=T[:3, :3] @ hinge.axis / scale)
+    moved = replace(asset, mesh=asset.mesh.transformed(T), joints=(placed,))
+    diagonal = moved.mesh.diagonal / asset.mesh.diagonal  # the box is another one when turned
+    here = complete_shapes(asset, ShapeConfig(wall=WALL * diagonal / scale)).asset
+    there = complete_shapes(moved).asset
+    for name in ("case", "door"):
+        assert volume(there, name) == pytest.approx(volume(here, name) * scale**3, rel=1e-6)
+
+
+@pytest.mark.parametrize("travel", [0.1, 0.25])
+def test_a_drawer_gets_a_box_that_its_travel_asks_for(travel):
+    asset = case_with_drawer(travel)
+    found = complete_shapes(asset)
+    assert any("drawer box" in note for note in found.notes["drawer"])
+    t = part_triangles(found.asset, "drawer")
+    assert is_closed(t)
+    assert t[..., 1].max() == pytest.approx(travel / (1 - ShapeConfig().drawer_keep), abs=1e-3)
+    clear = ShapeConfig().clearance * asset.mesh.diagonal
+    for amount in (0.0, travel / 2, travel):
+        mesh = posed(found.asset, {"slide": amount})
+        case, drawer = (mesh.triangles[found.asset.segmentation.face_part == k] for k in (0, 1))
+        behind = drawer.reshape(-1, 3)
+        behind = behind[behind[:, 1] > -amount + 1e-6]
+        assert distance_to_triangles(behind, case).min() > 0.9 * clear
+
+
+def test_the_hollow_ends_beside_the_controls():
+    found = complete_shapes(case_with_controls(0.6))
+    assert any("wall" in note for note in found.notes["case"])
+    t = part_triangles(found.asset, "case")
+    scene = RayScene(t.reshape(-1, 3), np.arange(3 * len(t)).reshape(-1, 3))
+    hits = scene.first_hit(np.array([[0.3 * SIZE[0], 0.2, 0.4]]), np.array([[1.0, 0, 0]]))
+    assert 0.3 * SIZE[0] + hits.distance[0] == pytest.approx(0.6 * SIZE[0], abs=0.02)
+    assert is_closed(t)
+    new = found.asset.mesh.triangles[found.source_face < 0]
+    assert (new > np.array([0, -FRONT, 0]) - 1e-9).all()
+    assert (new < SIZE + 1e-9).all()
+
+
+def test_a_small_flap_leaves_the_whole_body_hollow():
+    found = complete_shapes(case_with_controls(0.2))
+    assert not any("wall added" in note for note in found.notes["case"])
+
+
+def test_a_hole_that_a_knob_hides_is_capped():
+    turn = joint("turn", "continuous", "post", "knob", (0.05, 0.05, 0.3), (0, 0, 1), None)
+    pieces = {"post": shell((0, 0, 0), (0.1, 0.1, 0.3), "+z"), "knob": shell((0, 0, 0.3), (0.1, 0.1, 0.35), "-z")}
+    done = complete_shapes(asset_of(pieces, [turn])).asset
+    assert volume(done, "post") == pytest.approx(0.003, rel=1e-9)
+    assert volume(done, "knob") == pytest.approx(0.0005, rel=1e-9)
+
+
+def test_a_hole_on_the_ground_is_capped_and_one_in_sight_is_not():
+    standing = complete_shapes(asset_of({"bin": shell((0, 0, 0), SIZE, "-z")})).asset
+    assert volume(standing, "bin") == pytest.approx(float(SIZE.prod()), rel=1e-9)
+    asset = asset_of({"bin": shell((0, 0, 0), SIZE, "+z")})
+    done = complete_shapes(asset).asset
+    t = ShapeConfig().sheet * asset.mesh.diagonal
+    assert is_closed(part_triangles(done, "bin"))
+    assert volume(done, "bin") == pytest.approx(float(SIZE.prod() - (SIZE - (2 * t, 2 * t, t)).prod()), rel=1e-6)
+
+
+def test_what_is_whole_is_left_alone():
+    asset = cabinet()
+    found = complete_shapes(asset)
+    assert found.asset is asset
+    assert found.notes == {}
+    assert (found.source_face == np.arange(len(asset.mesh.faces))).all()
+
+
+def test_only_the_parts_that_are_asked_for():
+    found = complete_shapes(case_with_door(), parts=["door"])
+    assert set(found.notes) == {"door"}
+    assert not is_closed(part_triangles(found.asset, "case"))
+
+
+def test_without_watertight_what_no_motion_lays_open_stays_open():
+    foot = shell((0.1, 0.1, -0.1), (0.2, 0.2, 0), "+z")
+    asset = case_with_door()
+    pieces = {"case": np.concatenate([part_triangles(asset, "case"), foot]), "door": part_triangles(asset, "door")}
+    asset = asset_of(pieces, asset.joints)
+    loose = complete_shapes(asset, ShapeConfig(watertight=False)).asset
+    tight = complete_shapes(asset).asset
+    assert is_closed(part_triangles(tight, "case"))
+    assert not is_closed(part_triangles(loose, "case"))
+    assert volume(tight, "case") - volume(loose, "case") == pytest.approx(0, abs=1e-9)  # the cap lies in the plane z = 0
+    assert len(part_triangles(tight, "case")) > len(part_triangles(loose, "case"))

@@ -1,0 +1,240 @@
+"""Test numbered regions, the choice of pictures, the fusion of masks and the calls, on views drawn by hand."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from assets import box, mesh_of
+from drawn_views import blocks, drawn_view
+from rows import counts_of, row_cloud
+
+from anymesh.config import Config, GroundingConfig
+from anymesh.prompted.grounding import regions
+from anymesh.prompted.grounding.ask_marks import MarkQuestioner, ask_exact, ask_masks
+from anymesh.prompted.grounding.mark_pictures import MarkPicture, choose_pictures
+from anymesh.prompted.grounding.regions import Marks, min_pixels, number_regions
+from anymesh.prompted.masks.fuse import fuse_masks
+from anymesh.prompted.masks.propose import Proposal, masks_to_labels, propose_masks
+from anymesh.prompted.pictures.visual_prompts import VisualPrompts
+from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
+from anymesh.rendering.render import View
+from anymesh.types.camera import Camera
+
+LEAST = GroundingConfig(least_mask=1600)  # in views of 64 px: 16 px for masks, 4 px for exact regions
+FEW = GroundingConfig(points=10_000)
+CUBE = mesh_of([box((0, 0, 0), (1, 1, 1))])[0]
+
+
+def marks_of(region: list[int], *faces: np.ndarray, depth: np.ndarray | float = 1.0) -> list[int]:
+    """Return the mark of each region of an object with a diagonal of 1 m."""
+    found = number_regions(np.array(region), [drawn_view(f, depth) for f in faces], 1.0, LEAST)
+    return found.face_mark.tolist()
+
+
+def test_a_mask_has_the_same_minimum_size_at_every_resolution() -> None:
+    assert min_pixels(drawn_view(blocks(64)), LEAST) == 16
+    assert min_pixels(drawn_view(blocks(128)), LEAST) == 64
+
+
+def test_the_most_visible_regions_over_all_views_are_numbered_first() -> None:
+    one, two = blocks(64, (0, 0, 10, 10), (20, 20, 12, 10)), blocks(64, (0, 0, 10, 10), (20, 20, 0, 0), (40, 40, 11, 10))
+    assert marks_of([0, 1, 2], one, two) == [1, 2, 3]
+    assert marks_of([0, 1, 2], one) == [2, 1, -1]  # the third is not visible
+    assert marks_of([0, -1, 1], one, two) == [1, -1, 2]  # no region
+    assert marks_of([0, 1, 0], one, two) == [1, 2, 1]  # two faces of one region
+
+
+@pytest.mark.parametrize(("width", "own"), [(3, False), (4, True)])
+def test_a_region_of_fewer_than_four_pixels_joins_the_one_that_it_touches_most(width: int, own: bool) -> None:
+    """It lies on the border between two larger ones, with two pixels less on the first."""
+    face = blocks(64, (0, 0, 20, 30), (20, 0, 20, 20), (19, 10, width, 1))
+    found = marks_of([0, 1, 2], face)
+    assert found[2] == (3 if own else 2)
+    seen_well = blocks(64, (0, 0, 0, 0), (0, 0, 0, 0), (0, 0, 2, 2))
+    assert marks_of([0, 1, 2], face, seen_well)[2] == 3  # one view shows it well enough
+
+
+@pytest.mark.parametrize(("step", "joins"), [(0.019, True), (0.021, False)])
+def test_regions_that_are_behind_each_other_do_not_touch(step: float, joins: bool) -> None:
+    """Depths differ by up to 2 % of the diagonal where things touch."""
+    face = blocks(64, (0, 0, 20, 20), (20, 0, 3, 1))
+    assert marks_of([0, 1], face, depth=1 + step * (face == 1)) == [1, 1 if joins else -1]
+    assert marks_of([0, 1], face.T.copy(), depth=1 + step * (face.T == 1)) == [1, 1 if joins else -1]
+
+
+def test_small_regions_in_a_chain_join_what_the_last_of_them_touches() -> None:
+    face = blocks(64, (0, 0, 20, 20), (20, 0, 2, 1), (22, 0, 1, 1))
+    assert marks_of([0, 1, 2], face) == [1, 1, 1]
+    alone = blocks(64, (0, 0, 20, 20), (30, 0, 2, 1), (32, 0, 2, 1))  # together they are large enough
+    assert marks_of([0, 1, 2], alone) == [1, 2, 2]
+
+
+@pytest.mark.parametrize(("most", "found", "crowded"), [(3, [1, 2, 3], 0), (2, [1, 2, 2], 1), (1, [1, 1, 1], 2)])
+def test_the_smallest_regions_join_others_where_there_are_too_many(
+    monkeypatch: pytest.MonkeyPatch, most: int, found: list[int], crowded: int
+) -> None:
+    monkeypatch.setattr(regions, "MAX_MARKS", most)
+    view = drawn_view(blocks(64, (0, 0, 30, 20), (30, 0, 18, 20), (48, 0, 10, 20)))
+    marks = number_regions(np.arange(3), [view], 1.0, LEAST)
+    assert (marks.face_mark.tolist(), marks.crowded) == (found, crowded)
+
+
+def renders(camera: Camera) -> View:
+    raise AssertionError("no close-up is needed")
+
+
+def chosen(*faces: np.ndarray, wanted: list[int] | None = None) -> dict[str, list[int]]:
+    """Return the marks drawn in each chosen view; mark k + 1 is face k."""
+    views, count = [drawn_view(f) for f in faces], max(int(f.max()) for f in faces) + 1
+    names = [f"view {k}" for k in range(len(views))]
+    found = choose_pictures(
+        Marks(np.arange(1, count + 1)), range(1, count + 1) if wanted is None else wanted, views, names, renders
+    )
+    return {p.name: sorted(p.drawn) for p in found}
+
+
+@pytest.mark.parametrize(
+    ("first", "second", "views"),
+    [
+        ((10, 10), (25, 10), ["view 0", "view 1"]),  # 100 of 250 pixels: less than half
+        ((10, 15), (25, 10), ["view 0", "view 1"]),  # enough, and the second view is free to show it again
+        ((10, 10), (0, 0), ["view 0"]),
+        ((21, 20), (50, 20), ["view 0", "view 1"]),  # 420 pixels are enough at any rate
+    ],
+)
+def test_a_mark_is_shown_where_a_view_shows_half_of_it_or_400_pixels(first, second, views: list[str]) -> None:
+    one, two = blocks(640, (0, 0, 100, 100), (200, 0, *first)), blocks(640, (0, 0, 0, 0), (200, 0, *second))
+    found = chosen(one, two)
+    assert list(found) == views
+    assert found["view 0"] == [1, 2]
+    assert found.get("view 1", [2]) == [2]
+
+
+def test_a_mark_of_less_than_thirty_pixels_is_drawn_only_where_no_view_shows_more() -> None:
+    tiny = blocks(640, (0, 0, 100, 100), (200, 0, 29, 1))
+    large = blocks(640, (0, 0, 0, 0), (200, 0, 40, 10))
+    assert chosen(tiny, large)["view 0"] == [1]
+    assert chosen(tiny)["view 0"] == [1, 2]
+    assert chosen(blocks(640, (0, 0, 100, 100), (200, 0, 30, 1)), large)["view 0"] == [1, 2]
+
+
+def test_one_view_is_enough_where_all_others_show_marks_worse() -> None:
+    good, bad = blocks(640, (0, 0, 30, 20), (200, 0, 30, 20)), blocks(640, (0, 0, 30, 5), (200, 0, 30, 5))
+    assert list(chosen(bad, good, bad)) == ["view 1"]
+    assert chosen(good, wanted=[2]) == {"view 0": [2]}
+    assert chosen(good, wanted=[]) == {}
+
+
+def grid(count: int, top: int = 0) -> np.ndarray:
+    """Return a picture of `count` squares of 21 x 21 pixels, in rows of 20, from face `top` on."""
+    return blocks(640, *[(0, 0, 0, 0)] * top, *((31 * (k % 20), 31 * (k // 20), 21, 21) for k in range(count)))
+
+
+def test_a_picture_holds_up_to_forty_marks() -> None:
+    assert {name: len(marks) for name, marks in chosen(grid(40)).items()} == {"view 0": 40}
+    with pytest.raises(AssertionError, match="no close-up"):
+        chosen(grid(41))
+
+
+def test_a_crowded_picture_shows_the_new_marks_only() -> None:
+    """The second view shows all of the first one's marks, and five more."""
+    both = blocks(640, *((31 * (k % 20), 31 * (k // 20), 21, 10 if k < 38 else 21) for k in range(43)))
+    found = chosen(grid(38), both)
+    assert found["view 0"] == list(range(1, 39))
+    assert found["view 1"] == list(range(39, 44))
+
+
+@pytest.mark.parametrize(("covered", "kept"), [(5, True), (4, False)])
+def test_a_superpoint_has_the_label_of_masks_that_cover_half_of_it(covered: int, kept: bool) -> None:
+    counts = counts_of([[covered, 10 - covered]], ["door"])
+    assert fuse_masks(row_cloud([0.0]), [counts], FEW).number.tolist() == [int(kept)]
+
+
+@pytest.mark.parametrize(("others", "kept"), [(1, True), (2, False)])
+def test_an_instance_needs_a_mask_of_its_place_and_size(others: int, kept: bool) -> None:
+    """Two neighbours are one instance; the mask also covers a few points of one or two others: an IoU of 2/3 or 1/2."""
+    top = [[10, 0], [10, 0], *[[1, 9]] * others]
+    found = fuse_masks(row_cloud([0.0, 0.045, 0.2, 0.4][: 2 + others]), [counts_of(top, ["door"])], FEW)
+    assert found.number.tolist() == [int(kept), int(kept), *[0] * others]
+
+
+@pytest.mark.parametrize(("second", "one"), [(0.049, True), (0.051, False)])
+def test_neighbours_are_within_a_hundredth_of_the_diagonal(second: float, one: bool) -> None:
+    """Each superpoint extends 2 cm to both sides of its place."""
+    counts = counts_of([[10, 0], [10, 0]], ["door"])
+    number = fuse_masks(row_cloud([0.0, second]), [replace(counts, box=np.tile([0.0, 0, 19, 9], (2, 1)))], FEW).number
+    assert (number[0] == number[1]) == one
+
+
+@pytest.mark.parametrize(("inside", "one"), [(9, True), (7, False)])
+def test_neighbours_that_a_mask_covers_to_different_degrees_are_two(inside: int, one: bool) -> None:
+    """One is covered wholly; the other by nine or seven of ten points, and the limit is a fifth."""
+    number = fuse_masks(row_cloud([0.0, 0.045]), [counts_of([[10, 0], [inside, 10 - inside]], ["door"])], FEW).number
+    assert (number[0] == number[1] > 0) == one
+
+
+def test_regions_large_enough_for_a_mark_are_listed() -> None:
+    view = drawn_view(np.zeros((64, 64), int))
+    masks = np.zeros((2, 64, 64), bool)
+    masks[0, 10:20, 10:20] = masks[1, 40:46, 40:46] = True
+    (found,) = propose_masks([masks], [view], replace(LEAST, least_mask=1200))  # 12 px
+    assert found.numbers == (1, 2)
+    assert (found.labels[15, 15], found.labels[42, 42]) == (1, 2)
+    assert masks_to_labels(masks, 50.0).max() == 1
+
+
+class Answers:
+    """Answerer that sees every label in every view, and names mark 1 of each picture."""
+
+    name, exchanges, warnings = "answers", (), ()
+
+    def __init__(self) -> None:
+        self.sizes: list[int] = []
+        self.insides: list[bool] = []
+
+    def ask(self, question: WhichViews | WhichMarks):
+        if isinstance(question, WhichViews):
+            return {label: tuple(range(len(question.faces))) for label in question.labels if label == "door"} | {
+                label: () for label in question.labels if label != "door"
+            }
+        self.sizes.append(len(question.regions))
+        self.insides.append(question.inside)
+        if not question.consistent:
+            assert question.labels == ("door",)  # no view shows a lid
+            return MarksAnswer(tuple(MarkedPart("door", v + 1, v, (1,)) for v in range(len(question.regions))))
+        drawn = sorted(set().union(*(np.unique(r[r > 0]).tolist() for r in question.regions)))
+        return MarksAnswer((MarkedPart("door", 1, None, tuple(drawn)),), tuple(drawn[:1]))
+
+
+def asking(who: Answers, mesh) -> MarkQuestioner:
+    return MarkQuestioner(who, VisualPrompts(mesh, Config()), ("door", "lid"), None, Config())
+
+
+def test_a_call_about_masks_has_up_to_sixteen_pictures_and_numbers_parts_on() -> None:
+    views = [drawn_view(blocks(64, (0, 0, 20, 20)))] * 35
+    proposals = [Proposal(k, np.where(v.face == 0, 1, -1), (1,)) for k, v in enumerate(views)]
+    who = Answers()
+    found = ask_masks(asking(who, CUBE), proposals, views, [f"{k}" for k in range(35)])
+    assert who.sizes == [16, 16, 3]
+    assert [p.view for p in found] == list(range(35))
+    assert [p.instance for p in found] == list(range(1, 36))
+
+
+def test_a_call_about_marks_has_up_to_sixteen_pictures_and_joins_the_parts_of_all() -> None:
+    views = [drawn_view(np.where(blocks(64, (0, 0, 20, 20)) == 0, k, -1)) for k in range(35)]
+    who = Answers()
+    names = [f"{'inside' if k == 34 else 'view'} {k}" for k in range(35)]
+    found = ask_exact(asking(who, CUBE), Marks(np.arange(1, 36)), views, names, lambda marks, some: marks)
+    assert who.sizes == [16, 16, 3]
+    assert who.insides == [False, False, True]
+    assert found.parts == (MarkedPart("door", 1, None, tuple(range(1, 36))),)
+    assert found.unsure == {1, 17, 33}
+
+
+def test_pictures_may_leave_out_marks() -> None:
+    picture = MarkPicture(drawn_view(blocks(8)), np.array([[1, 2], [3, -1]]), "it")
+    assert picture.drawn == {1, 2, 3}
+    assert picture.without([2, 9]).marks.tolist() == [[1, -1], [3, -1]]
+    assert picture.only(np.array([2])).marks.tolist() == [[-1, 2], [-1, -1]]

@@ -1,0 +1,156 @@
+"""Test Stage A with a visual answerer: exact regions, masks of a model, unseen parts, labels without parts."""
+
+from dataclasses import replace
+from pathlib import Path
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from anymesh.config import Config, GroundingConfig, ViewsConfig
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths
+from anymesh.evaluation.matching import match_parts, part_ious
+from anymesh.evaluation.oracle import oracle
+from anymesh.evaluation.protocols import prepared
+from anymesh.loading import load_mesh, place_mesh
+from anymesh.pipeline.results import SegmentationResult
+from anymesh.pipeline.solving import Solver
+from anymesh.prompted import stages as prompted_stages
+from anymesh.prompted.grounding import ground_masks
+from anymesh.prompted.grounding.grounded_parts import UNSURE
+from anymesh.rendering.viewpoints import part_pixels
+from anymesh.types import Mesh, Segmentation
+from anymesh.types.recognition import Recognition, RecognizedLabel
+
+TRUTHS = {t.name: t for t in example_truths(Path(__file__).parents[3] / "examples")}
+FEW, VIEWS = GroundingConfig(points=20_000), ViewsConfig(size=320)
+MORE = GroundingConfig(points=80_000)  # masks are fused on the points themselves
+
+
+def found_in(
+    name: str, proposer: str = "exact", grounding: GroundingConfig = FEW
+) -> tuple[GroundTruth, Mesh, SegmentationResult]:
+    truth = TRUTHS[name]
+    placed = place_mesh(load_mesh(truth.mesh))
+    solver = Solver(placed.mesh, Config(grounding=grounding, views=VIEWS, proposer=proposer), lambda _: oracle(prepared(truth)))
+    return truth, placed.mesh, solver.parts("auto", solver.recognize().recognition)
+
+
+def ious(truth: GroundTruth, mesh: Mesh, found: Segmentation) -> dict[str, float]:
+    pairs = match_parts(part_ious(found.face_part, truth.labels, mesh.face_areas))
+    return {truth.parts[t].name: iou for _, t, iou in pairs}
+
+
+def test_marks_become_parts_those_inside_too() -> None:
+    truth, mesh, found = found_in("microwave")
+    got = ious(truth, mesh, found.segmentation)
+    assert set(got) == {p.name for p in truth.parts[1:]}
+    assert min(got.values()) > 0.97
+    assert {p.reason for p in found.segmentation.parts[1:]} == {"identified by oracle"}
+
+
+@pytest.mark.slow
+def test_parts_inside_come_from_geometry_without_an_answer() -> None:
+    truth = TRUTHS["microwave"]
+    placed = place_mesh(load_mesh(truth.mesh))
+    solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: oracle(prepared(truth)))
+    asked = [label for label in solver.recognize().recognition.labels if label.label != "wheel"]
+    found = solver.parts("auto", Recognition("microwave", None, tuple(asked)))
+    assert "wheel" in ious(truth, placed.mesh, found.segmentation) or len(found.segmentation.parts) == len(truth.parts)
+    assert "no view shows it" in next(p.reason for p in found.segmentation.parts if p.label == "wheel")
+    assert any("no view shows the wheel" in w for w in found.warnings)
+
+
+MOVING = sorted(name for name, truth in TRUTHS.items() if truth.joints)
+
+
+@pytest.mark.parametrize("name", [n if n == "tilted_drawer" else pytest.param(n, marks=pytest.mark.slow) for n in MOVING])
+def test_ideal_masks_lose_no_part_and_divide_none(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The masks cover every part in every view, and their numbers differ between views."""
+    truth = TRUTHS[name]
+    mesh = place_mesh(load_mesh(truth.mesh)).mesh
+    shown, proposed = {}, ground_masks.propose_in_views
+
+    def propose(region, diagonal, seen, *more):
+        shown.update({v.color.tobytes(): v for v in seen})
+        return proposed(region, diagonal, seen, *more)
+
+    class Masker:
+        name, frame = "masker", None
+
+        def embed(self, image): ...
+
+        def predict(self, embedding, points): ...
+
+    def masks(_: object, image: np.ndarray) -> list[SimpleNamespace]:
+        view = shown.get(image.tobytes())
+        parts = [] if view is None else [part_pixels(view, truth.labels, k) for k in range(len(truth.parts))]
+        return [SimpleNamespace(mask=m) for m in parts if m.any()]
+
+    monkeypatch.setattr(prompted_stages, "load_sam", lambda spec: Masker())
+    monkeypatch.setattr(ground_masks, "automatic_masks", masks)
+    monkeypatch.setattr(ground_masks, "propose_in_views", propose)
+    truth, mesh, found = found_in(name, "sam:some", MORE)
+    got = ious(truth, mesh, found.segmentation)
+    assert set(got) == {p.name for p in truth.parts[1:]}
+    assert len(found.segmentation.parts) == len(truth.parts)
+    assert min(got.values()) > 0.9
+    assert found.warnings == ()
+
+
+def test_marks_take_one_question_whose_captions_name_sides_by_the_recognized_front() -> None:
+    truth = TRUTHS["tilted_drawer"]
+    placed = place_mesh(load_mesh(truth.mesh))
+    asked = []
+
+    class Watched:
+        name, exchanges, warnings = "watched", (), ()
+        reference = oracle(prepared(truth))
+
+        def ask(self, question):
+            asked.append(question)
+            found = self.reference.ask(question)
+            if question.kind == "marks":  # all of them may be wrong
+                return replace(found, unsure=found.parts[0].marks)
+            return replace(found, front=90.0)
+
+    solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: Watched())
+    recognition = solver.recognize().recognition
+    found = solver.parts("auto", recognition)
+    assert [q.kind for q in asked] == ["recognize", "marks"]  # which views show a label is asked about masks alone
+    assert any(p.caption == "picture 1: turned by 0 degrees, 15 degrees up" for p in asked[0].pictures)
+    captions = [p.caption.partition(": ")[2] for p in asked[1].pictures]
+    sides = {"from the left, 15 degrees up": 0.0, "from the front, 15 degrees up": 90.0, "from the back, 15 degrees up": 270.0}
+    seen = dict(zip(captions, asked[1].faces, strict=True))
+    views = dict(zip([azimuth for azimuth, _ in VIEWS.directions], solver.answers.visual_prompts.views, strict=False))
+    assert all("turned" not in caption for caption in captions)
+    assert any((seen[side] == views[azimuth].face).all() for side, azimuth in sides.items() if side in seen)
+    (part,) = found.segmentation.parts[1:]
+    assert part.confidence == UNSURE
+    assert "not sure of" in part.reason
+
+
+def test_what_is_expected_and_not_there_is_told() -> None:
+    truth = TRUTHS["tilted_drawer"]
+    placed = place_mesh(load_mesh(truth.mesh))
+    solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: oracle(prepared(truth)))
+    asked = [RecognizedLabel(label, None, None, None) for label in ("drawer", "trapdoor")]
+    found = solver.parts("auto", Recognition("cabinet", None, tuple(asked)))
+    assert [p.label for p in found.segmentation.parts] == ["base", "drawer"]
+    assert found.warnings == ("no trapdoor was found, though oracle expects one",)
+
+
+def test_where_nothing_moves_nothing_is_asked() -> None:
+    placed = place_mesh(load_mesh(TRUTHS["table"].mesh))
+
+    class Silent:
+        name, exchanges, warnings = "silent", (), ()
+
+        def ask(self, question):
+            raise AssertionError(f"asked {question.kind}")
+
+    found = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: Silent()).parts(
+        "auto", Recognition("table", None, ())
+    )
+    assert [p.name for p in found.segmentation.parts] == ["base"]
+    assert "no moving part was found" in found.warnings

@@ -1,0 +1,164 @@
+"""Test numbered exact regions of the surface: which are marked, merged and split."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+import trimesh
+from assets import box, mesh_of
+
+from anymesh.config import GroundingConfig, ViewsConfig
+from anymesh.prompted.grounding import regions
+from anymesh.prompted.grounding.close_ups import close_ups
+from anymesh.prompted.grounding.cloud import sample_cloud
+from anymesh.prompted.grounding.regions import face_regions, number_regions, split_marks
+from anymesh.rendering.render import render
+from anymesh.segmentation.divide import object_shape
+from anymesh.types import Material, Mesh
+from anymesh.types.camera import Camera
+
+FEW = GroundingConfig(points=20_000)
+BODY, FRONT = box((0, 0, 0), (1, 1, 1)), box((0, -0.1, 0), (1, -0.01, 1))
+KNOB, DOT = box((0.4, -0.15, 0.4), (0.6, -0.1, 0.6)), box((0.2, -0.105, 0.2), (0.207, -0.1, 0.207))
+INNER = box((0.3, 0.3, 0.3), (0.6, 0.6, 0.6))
+
+
+def shown(mesh: Mesh, size: int = 300):
+    whole = object_shape(mesh)
+    middle = mesh.bounds.mean(0)
+    eyes = [middle + mesh.diagonal * np.array(e) for e in ((0, -1.0, 0.2), (0.7, -0.7, 0.2), (-0.7, -0.7, 0.2))]
+    views = [render(mesh, Camera.looking_at(eye, middle, np.deg2rad(60.0), size, size)) for eye in eyes]
+    return whole, sample_cloud(mesh, whole, FEW), views
+
+
+def marks_of(mesh: Mesh, size: int = 300):
+    whole, cloud, views = shown(mesh, size)
+    return number_regions(face_regions(whole, cloud), views, whole.diagonal, FEW), cloud, views
+
+
+def test_a_mark_is_a_patch_and_what_no_view_shows_has_none() -> None:
+    mesh, piece = mesh_of([BODY, FRONT, KNOB, INNER])
+    marks, _, views = marks_of(mesh)
+    own = [np.unique(marks.face_mark[piece == k]).tolist() for k in range(4)]
+    assert sorted(n for some in own[:3] for n in some) == [1, 2, 3]
+    assert own[3] == [-1]
+    for view in views:
+        assert ((marks.in_view(view) > 0) == (view.face >= 0)).all()
+
+
+def test_what_is_too_small_joins_what_it_touches_and_a_close_up_shows_it() -> None:
+    mesh, piece = mesh_of([BODY, FRONT, KNOB, DOT])
+    whole, cloud, views = shown(mesh)
+    region = face_regions(whole, cloud)
+    joined = number_regions(region, views, whole.diagonal, FEW).face_mark
+    assert set(joined[piece == 3]) == set(joined[piece == 1])
+    cameras = close_ups(region, cloud, views, replace(ViewsConfig(), size=300, zoom_size=6000))
+    assert 1 <= len(cameras) <= 2
+    views += [render(mesh, camera) for camera in cameras]
+    own = number_regions(region, views, whole.diagonal, FEW).face_mark
+    assert len(set(own[piece == 3])) == 1
+    assert not set(own[piece == 3]) & (set(own[piece == 1]) | {-1})
+
+
+def test_a_thin_strip_gets_a_close_up_and_plain_panels_none() -> None:
+    whole, cloud, views = shown(mesh_of([BODY, FRONT, KNOB])[0])
+    assert close_ups(face_regions(whole, cloud), cloud, views) == ()
+    seam = box((0.1, -0.105, 0.3), (0.9, -0.1, 0.303))
+    mesh, piece = mesh_of([BODY, FRONT, KNOB, seam])
+    whole, cloud, views = shown(mesh)
+    region = face_regions(whole, cloud)
+    (camera,) = close_ups(region, cloud, views)
+    near = render(mesh, camera)
+    across = [(piece[near.face[:, c][near.face[:, c] >= 0]] == 3).sum() for c in range(0, 300, 30)]
+    assert max(across) >= 4  # in rows of pixels; one or two rows before
+
+
+def test_a_piece_without_area_is_no_region() -> None:
+    flat = np.tile([[0.5, -0.2, 0.5]], (4, 1)), np.array([[0, 1, 2], [1, 2, 3]])
+    mesh, piece = mesh_of([flat, BODY, FRONT, flat, KNOB])
+    whole, cloud, views = shown(mesh)
+    region = face_regions(whole, cloud)
+    assert all(len(np.unique(region[piece == k])) == 1 for k in (2, 4))
+    assert not np.isin(region[piece == 2], region[piece == 4]).any()
+    assert set(number_regions(region, views, whole.diagonal, FEW).face_mark) >= {1, 2, 3}
+
+
+def test_a_large_piece_of_two_colours_is_two_regions() -> None:
+    plain, _ = mesh_of([BODY, KNOB])
+    materials = (Material("a", base_color=(1.0, 0.0, 0.0, 1.0)), Material("b", base_color=(0.0, 0.0, 1.0, 1.0)))
+    color = (plain.triangles[:, :, 2].min(1) > 0.99).astype(int)
+    two = replace(plain, face_material=color, materials=materials)
+    for mesh, count in ((plain, 2), (two, 3)):
+        whole, cloud, _ = shown(mesh)
+        # The cube is nearly all of this object, so its 6 sides are separate regions besides the knob.
+        assert face_regions(whole, cloud).max() + 1 in (count, 7)
+    again, _ = mesh_of([BODY, box((2, 0, 0), (3, 1, 1))])
+    color = (again.triangles[:, :, 2].min(1) > 0.99).astype(int)
+    whole, cloud, _ = shown(again)
+    assert face_regions(whole, cloud).max() + 1 == 2
+    whole, cloud, _ = shown(replace(again, face_material=color, materials=materials))
+    region = face_regions(whole, cloud)
+    assert region.max() + 1 == 4
+    assert all(len(np.unique(color[region == r])) == 1 for r in range(4))
+
+
+KEYS = [box((x, -0.2, z), (x + 0.08, -0.1, z + 0.08)) for x in np.arange(0, 1, 0.1) for z in np.arange(0, 1, 0.1)]
+
+
+def test_a_hundred_keys_have_a_mark_each() -> None:
+    mesh, piece = mesh_of([BODY, FRONT, *KEYS])
+    marks, _, _ = marks_of(mesh)
+    own = [set(marks.face_mark[piece == k]) for k in range(102)]
+    assert all(len(some) == 1 for some in own)
+    assert len(set().union(*own)) == 102
+    assert marks.crowded == 0
+
+
+def test_regions_that_join_as_there_are_too_many_are_counted(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(regions, "MAX_MARKS", 30)
+    marks, _, _ = marks_of(mesh_of([BODY, FRONT, *KEYS])[0])
+    assert marks.face_mark.max() == 30
+    assert marks.crowded == 72
+
+
+def test_a_mark_is_split_at_its_edges_and_no_other_is_touched() -> None:
+    vertices, faces = box((0, 0, 0), (1, 1, 1))
+    fine = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(vertices, faces, 0.1))
+    mesh, piece = mesh_of([(np.asarray(fine.vertices), np.asarray(fine.faces)), box((1.5, 0, 0), (2.5, 1, 1))])
+    marks, cloud, views = marks_of(mesh)
+    (first,) = set(marks.face_mark[piece == 0])
+    (second,) = set(marks.face_mark[piece == 1])
+    found = split_marks(marks, [int(first)], mesh, cloud, views, FEW)
+    assert (found.face_mark[piece == 1] == second).all()
+    sides = {}
+    for normal in ((0, -1, 0), (0, 0, 1), (-1, 0, 0)):  # the views are from the front, slightly above
+        own = set(found.face_mark[(piece == 0) & (mesh.face_normals @ np.array(normal) > 0.9)])
+        assert len(own) == 1
+        sides[normal] = own.pop()
+    assert len(set(sides.values())) == 3
+    assert not set(sides.values()) & {first, second, -1}
+
+
+def cabinet_with_seam(closed: float) -> Mesh:
+    """Return a box of 1 x .5 x 1 m with a groove down the middle of its front that is closed in the middle.
+
+    closed: length of the closed stretch [m].
+    """
+    plain = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(*box((0, 0, 0), (1, 0.5, 1)), 0.03))
+    vertices = np.asarray(plain.vertices).copy()
+    off = np.abs(vertices[:, 0] - 0.5)
+    groove = (vertices[:, 1] == 0) & (off < 0.02) & (np.abs(vertices[:, 2] - 0.5) > closed / 2)
+    vertices[groove, 1] += 0.02 - off[groove]
+    return mesh_of([(vertices, np.asarray(plain.faces))])[0]
+
+
+@pytest.mark.parametrize(("closed", "divided"), [(0.2, True), (0.8, False)])
+def test_a_mark_is_split_at_a_seam_that_is_closed_in_places(closed: float, divided: bool) -> None:
+    mesh = cabinet_with_seam(closed)
+    marks, cloud, views = marks_of(mesh)
+    x, front = mesh.triangles[:, :, 0], (mesh.triangles[:, :, 1] == 0).all(1)
+    left, right = front & (x < 0.4).all(1), front & (x > 0.6).all(1)
+    (whole,) = set(marks.face_mark[left | right])
+    found = split_marks(marks, [int(whole)], mesh, cloud, views, FEW).face_mark
+    assert len(set(found[left])) == len(set(found[right])) == 1
+    assert (set(found[left]) != set(found[right])) == divided

@@ -1,0 +1,31 @@
+"""Test that pictures of a question are drawn once, and only when they are read."""
+
+from asked import PICTURE
+
+from anymesh.prompted.answerers.vlm_answerer import request_of
+from anymesh.prompted.questions.pictures import DrawnPictures
+from anymesh.prompted.questions.recognition import recognize
+from anymesh.types.recognition import Recognition
+
+
+def test_pictures_are_drawn_once_when_they_are_first_read() -> None:
+    drawn = []
+    pictures = DrawnPictures(lambda: drawn.append(1) or (PICTURE, PICTURE))  # ty: ignore[invalid-argument-type]
+    assert (pictures.are_drawn, drawn) == (False, [])
+    assert (len(pictures), pictures[0], pictures[1:], tuple(pictures)) == (2, PICTURE, (PICTURE,), (PICTURE, PICTURE))
+    assert (pictures.are_drawn, drawn) == (True, [1])
+
+
+def test_an_answerer_that_does_not_read_pictures_has_none_drawn() -> None:
+    asked = []
+
+    class Reference:
+        name, exchanges, warnings = "reference", (), ()
+
+        def ask(self, question):
+            asked.append(question)
+            return Recognition("box", 1.0, (), None)
+
+    recognize(lambda: (PICTURE,), Reference(), None, (), [0.0])  # ty: ignore[invalid-argument-type]
+    assert not asked[0].pictures.are_drawn
+    assert request_of(asked[0]).pictures == (PICTURE,)

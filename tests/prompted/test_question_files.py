@@ -1,0 +1,242 @@
+"""Questions as folders: the whole road with answers written by hand, faults, other objects, changed input."""
+
+import json
+import shutil
+import threading
+import time
+from functools import partial
+from pathlib import Path
+
+import pytest
+
+from anymesh import pipeline
+from anymesh.cli import run
+from anymesh.config import Config, GroundingConfig, ViewsConfig
+from anymesh.errors import OpenQuestionError, OptionError
+from anymesh.evaluation.evaluating import evaluate
+from anymesh.evaluation.ground_truth import example_truths
+from anymesh.evaluation.oracle import oracle
+from anymesh.evaluation.protocols import prepared
+from anymesh.prompted.answerers import answering
+from anymesh.prompted.answerers import file_answerer as files
+from anymesh.prompted.answerers.answers import open_in, record_answer
+from anymesh.prompted.answerers.question_files import find_questions
+from anymesh.prompted.models.replay import Replay
+from anymesh.prompted.questions.answer_json import answer_object
+from anymesh.prompted.questions.saved_question import unpack_question
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+MESH = EXAMPLES / "meshes" / "storage_box.glb"
+FEW = partial(Config, grounding=GroundingConfig(points=8_000), views=ViewsConfig(size=240))  # faster, and as good here
+
+
+@pytest.fixture
+def work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.setattr(answering, "Config", FEW)
+    monkeypatch.chdir(tmp_path)
+    shutil.copy(MESH, tmp_path / "box.glb")
+    return tmp_path
+
+
+@pytest.fixture(scope="module")
+def known():
+    """Return a function that answers a question from its folder alone, with the true answer."""
+    answerer = oracle(prepared(next(t for t in example_truths(EXAMPLES) if t.name == "storage_box")))
+
+    def answer(folder: Path) -> str:
+        (found,) = [q for q in find_questions(folder) if q.path == folder]
+        question = unpack_question((folder / "check.npz").read_bytes(), found.pictures())
+        return json.dumps(answer_object(question, answerer.ask(question)))
+
+    return answer
+
+
+def waiting(capsys: pytest.CaptureFixture[str], *more: str) -> dict:
+    capsys.readouterr()
+    code = run(["articulate", "box.glb", "-o", "out", "--answerer", "files:q", "--json", *more])
+    found = json.loads(capsys.readouterr().out)
+    assert code == found.get("exit_code", 0)
+    return found
+
+
+@pytest.mark.slow
+def test_questions_are_answered_one_after_another_and_the_recording_replays(work: Path, known, capsys) -> None:
+    kinds = []
+    while "questions" in (found := waiting(capsys)):
+        assert found["exit_code"] == 9
+        assert not Path("out").exists()
+        (folder,) = map(Path, found["questions"])
+        kinds.append(folder.name)
+        names = {p.name for p in folder.iterdir()}
+        assert {"question.md", "schema.json", "question.json", "sheet.png", "01.png"} <= names
+        words = (folder / "question.md").read_text()
+        assert all(f"]({name})" in words for name in names if name.endswith(".png"))
+        assert run(["answer", "q", known(folder), "-q"]) == 0
+    assert kinds == [f"{k:02d}-{kind.partition('-')[2]}" for k, kind in enumerate(kinds, 1)]
+    assert len(kinds) >= 4
+    (joint,) = found["joints"]
+    assert (joint["type"], joint["child"], found["warnings"]) == ("revolute", "lid", [])
+    assert found["usage"]["calls"] == len(kinds)
+    assert (found["usage"]["cost_usd"], found["usage"]["cached_calls"]) == (0, 0)
+    replayed = pipeline.articulate("box.glb", "replayed", answerer="replay:q")
+    assert replayed.joints[0].axis.tolist() == joint["axis"]
+    keys = {json.loads(p.read_text())["key"] for p in Path("out/transcript").glob("*.json")}
+    assert keys == {q.key for q in find_questions(Path("q"))}
+
+
+def test_a_refused_answer_says_why_and_stays_open(work: Path, known, capsys) -> None:
+    (folder,) = map(Path, waiting(capsys)["questions"])
+    right = known(folder)
+    wrong = json.dumps({**json.loads(right), "longest_side_m": 9000})
+    (folder / "answer.json").write_text(wrong)
+    assert waiting(capsys)["questions"] == [str(folder)]
+    assert "must lie in 0.002..200" in (folder / "refused.md").read_text()
+    with pytest.raises(OptionError, match="longest_side_m"):
+        record_answer(Path("q"), wrong)
+    for bad in ("{", "no", "[]", '{"category": "box"}'):
+        with pytest.raises(OptionError, match="not a valid answer"):
+            record_answer(Path("q"), bad)
+    assert [q.path for q in open_in(Path("q"))] == [folder]
+    record_answer(Path("q"), right)
+    assert not (folder / "refused.md").exists()
+    assert open_in(Path("q")) == []
+    assert waiting(capsys)["questions"] != [str(folder)]
+
+
+@pytest.mark.slow
+def test_a_changed_mesh_asks_anew_and_an_other_object_is_refused(work: Path, known, capsys) -> None:
+    (folder,) = map(Path, waiting(capsys)["questions"])
+    record_answer(folder, known(folder))
+    shutil.copy(EXAMPLES / "meshes" / "laptop.glb", "box.glb")
+    (other,) = map(Path, waiting(capsys)["questions"])
+    assert (other.name, other != folder) == ("02-recognize", True)
+    shutil.copy(MESH, "box.glb")
+    (views,) = map(Path, waiting(capsys)["questions"])
+    assert views.name.startswith("03-")
+    assert [q.path for q in open_in(Path("q"))] == [views]  # the laptop's question is asked no longer
+    shutil.copy(MESH, "lamp.glb")
+    with pytest.raises(OptionError, match=r"about '\S+/box.glb', and this run is about '\S+/lamp.glb'"):
+        pipeline.articulate("lamp.glb", "out2", answerer="files:q")
+
+
+def segment_until_done(known) -> list[str]:
+    """The kinds of questions that were asked."""
+    asked = []
+    while True:
+        try:
+            pipeline.segment("box.glb", "out", answerer="files:q", force=True)
+            return asked
+        except OpenQuestionError as error:
+            (folder,) = error.folders
+            asked.append(folder.name)
+            record_answer(folder, known(folder))
+
+
+@pytest.mark.slow
+def test_another_answer_to_a_finished_stage_makes_it_and_what_follows_anew(work: Path, known) -> None:
+    asked = segment_until_done(known)
+    assert segment_until_done(known) == []  # nothing has changed
+    found = json.loads(Path("q", asked[0], "answer.json").read_text())
+    found["parts"][0]["label"] = "hatch"
+    record_answer(Path("q", asked[0]), json.dumps(found))
+    with pytest.raises(OpenQuestionError) as stopped:
+        pipeline.segment("box.glb", "out", answerer="files:q", force=True)
+    assert "hatch" in (stopped.value.folders[0] / "question.md").read_text()
+
+
+@pytest.mark.slow
+def test_a_question_is_left_to_geometry(work: Path, capsys) -> None:
+    (folder,) = map(Path, waiting(capsys)["questions"])
+    assert run(["answer", str(folder), "geometry", "-q"]) == 0
+    assert waiting(capsys)["questions"] != [str(folder)]
+
+
+def test_waiting_goes_on_when_the_answer_comes(work: Path, known, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(files, "POLL", 0.05)
+    done = threading.Event()
+
+    def answers() -> None:
+        while not done.is_set():
+            for question in find_questions(Path("q")):
+                if question.answer() is None:
+                    question.write_answer(known(question.path))
+            time.sleep(0.05)
+
+    helper = threading.Thread(target=answers)
+    helper.start()
+    asset = pipeline.articulate("box.glb", "out", answerer="files:q", wait=True, formats="urdf")
+    done.set()
+    helper.join()
+    assert [(j.child, j.type) for j in asset.joints] == [("lid", "revolute")]
+    keys = {json.loads(p.read_text())["key"] for p in Path("out/transcript").glob("*.json")}
+    assert keys == {q.key for q in find_questions(Path("q"))}
+    replayed = Replay(Path("q"))
+    assert replayed.name == "files"
+
+
+def test_a_batch_leaves_the_questions_of_all_open(work: Path, known, capsys) -> None:
+    Path("meshes").mkdir()
+    shutil.copy(MESH, "meshes/one.glb")
+    shutil.copy(MESH, "meshes/two.glb")
+    Path("meshes/broken.glb").write_bytes(b"no mesh")
+    command = ["articulate", "meshes", "-o", "out", "--batch", "--answerer", "files:q", "--json"]
+    assert run(command) == 9
+    told = json.loads(capsys.readouterr().out)
+    assert [o["state"] for o in told["objects"]] == ["failed", "open", "open"]
+    assert [Path(q).parts for q in told["questions"]] == [("q", "one", "01-recognize"), ("q", "two", "01-recognize")]
+    assert run(["answer", "q", "geometry", "--json"]) == 2  # which one?
+    assert "name the one to answer" in json.loads(capsys.readouterr().out)["error"]
+    for question in open_in(Path("q")):
+        record_answer(question.path, known(question.path))
+    Path("meshes/broken.glb").unlink()
+    assert run(command) == 9
+    again = json.loads(capsys.readouterr().out)["questions"]
+    assert [Path(q).name.partition("-")[0] for q in again] == ["02", "02"]
+
+
+def test_without_a_folder_or_with_a_file_there_is_one_clear_error(work: Path) -> None:
+    with pytest.raises(OptionError, match="files:FOLDER"):
+        pipeline.articulate("box.glb", "out", answerer="files:")
+    with pytest.raises(OptionError, match="this is a file"):
+        pipeline.articulate("box.glb", "out", answerer="files:box.glb")
+    with pytest.raises(OptionError, match="has no questions"):
+        open_in(Path("nowhere"))
+    with pytest.raises(OpenQuestionError):
+        pipeline.articulate("box.glb", "out", answerer="files:a b")
+    assert run(["answer", "a b", "--json"]) == 0
+
+
+def test_an_evaluation_asks_about_each_object_in_a_folder_of_its_name(
+    work: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.chdir(EXAMPLES.parent)
+    with pytest.raises(OpenQuestionError, match="2 of 2 objects wait") as stopped:
+        evaluate("examples", tmp_path / "eval", only=("storage_box", "bucket"), jobs=1, answerer=f"files:{tmp_path / 'q'}")
+    places = [(f.parent.name, f.name) for f in stopped.value.folders]
+    assert places == [("bucket", "01-kinds"), ("storage_box", "01-kinds")]
+
+
+@pytest.mark.slow
+def test_waiting_in_an_evaluation_ends_with_the_command(work: Path, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.chdir(EXAMPLES.parent)
+
+    def interrupts(stage: str, item: str, done: int, total: int) -> None:
+        if item == "bucket":
+            raise KeyboardInterrupt
+
+    def answers() -> None:
+        for _ in range(600):
+            for question in find_questions(tmp_path / "q" / "bucket"):
+                if question.answer() is None:
+                    question.write_answer("geometry")
+            if over.wait(0.05):
+                return
+
+    over = threading.Event()
+    helper = threading.Thread(target=answers)
+    helper.start()
+    options = {"only": ("storage_box", "bucket"), "jobs": 2, "answerer": f"files:{tmp_path / 'q'}", "wait": True}
+    with pytest.raises(KeyboardInterrupt):  # after the first object, while the other one waits
+        evaluate("examples", tmp_path / "eval", progress=interrupts, **options)
+    over.set()
+    helper.join()

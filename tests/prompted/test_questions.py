@@ -1,0 +1,160 @@
+"""Test that schema and parser of every question match, and that no answer is guessed or causes a crash."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import jsonschema
+import pytest
+from asked import ASKED, FACES, REGIONS, TRAY, marks, picks, satisfying, table
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from anymesh.errors import OptionError
+from anymesh.prompted.questions.asking import BadAnswerError, VisualAnswerer, check_schema
+from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
+from anymesh.prompted.questions.prompting import JointAppearance, WhichPoints
+from anymesh.prompted.questions.recognition import parse_labels, recognize
+from anymesh.types.recognition import RecognizedLabel
+
+
+def inside(schema: dict[str, Any]) -> Iterator[dict[str, Any]]:
+    """Yield a schema and all schemas in it."""
+    yield schema
+    for part in (*schema.get("properties", {}).values(), *([schema["items"]] if "items" in schema else [])):
+        yield from inside(part)
+
+
+@pytest.mark.parametrize("name", ASKED)
+def test_schemas_keep_to_what_every_service_takes(name: str) -> None:
+    schema = ASKED[name].question.schema()
+    jsonschema.Draft202012Validator.check_schema(schema)
+    assert schema["type"] == "object"
+    for part in inside(schema):
+        assert part["type"] in {"object", "array", "string", "integer", "number", "boolean"}
+        if part["type"] == "object":
+            assert part["required"] == list(part["properties"])
+            assert part["additionalProperties"] is False
+        assert set(part) <= {"type", "properties", "required", "additionalProperties", "items", "enum", "description"}
+
+
+@pytest.mark.parametrize("name", ASKED)
+def test_a_good_answer_is_understood(name: str) -> None:
+    asked = ASKED[name]
+    check_schema(asked.found, asked.question.schema())
+    assert asked.question.parse(asked.found) == asked.means
+
+
+@pytest.mark.parametrize("name", ASKED)
+def test_every_word_that_may_be_answered_is_told(name: str) -> None:
+    question = ASKED[name].question
+    words = {word for part in inside(question.schema()) for word in part.get("enum", ())}
+    assert {word for word in words if word not in question.text()} == set()
+
+
+@pytest.mark.parametrize("name", ASKED)
+@settings(deadline=None, max_examples=60, suppress_health_check=[HealthCheck.too_slow])
+@given(data=st.data())
+def test_whatever_satisfies_the_schema_is_understood_or_told_in_short(name: str, data) -> None:
+    question = ASKED[name].question
+    told = "nothing"
+    try:
+        question.parse(data.draw(satisfying(question.schema())))
+    except BadAnswerError as error:
+        told = str(error)
+    assert 0 < len(told.encode()) < 600
+
+
+def test_no_part_and_no_mark_are_answers_too() -> None:
+    assert ASKED["marks"].question.parse(marks()) == MarksAnswer(())
+    assert ASKED["marks"].question.parse(marks(("door", 1, 0, []))) == MarksAnswer(())
+    nothing = ASKED["recognize"].question.parse({"category": "rock", "longest_side_m": 1, "front": 0, "parts": []})
+    assert (nothing.category, nothing.labels) == ("rock", ())
+
+
+def test_a_part_that_is_given_in_two_pieces_is_one() -> None:
+    (found,) = ASKED["marks"].question.parse(marks(("door", 1, 0, [4, 1]), ("door", 1, 0, [2, 4]))).parts
+    assert found.marks == (1, 2, 4)
+
+
+def test_one_candidate_point_is_enough_where_there_is_no_other() -> None:
+    question = WhichPoints((), (table(JointAppearance.HINGE_ALONG, 1),))
+    assert question.parse(picks("points", [1])) == ((0,),)
+
+
+def test_labels_that_a_user_told_are_not_asked_for() -> None:
+    class NoAnswerer:
+        name = "unused"
+        exchanges = warnings = ()
+
+        def ask(self, question):
+            raise AssertionError("asked")
+
+    assert isinstance(NoAnswerer(), VisualAnswerer)
+    told = parse_labels([" Oven  Door", "knob"])
+    found = recognize(lambda: (), NoAnswerer(), None, told)
+    assert found.labels == tuple(RecognizedLabel(label, None, None, None) for label in ("oven door", "knob"))
+    assert (found.category, found.size) == ("object", None)
+
+
+@pytest.mark.parametrize("labels", [["Tür"], ["base"], ["door", "Door"], [""]])
+def test_labels_that_a_user_told_are_checked(labels: list[str]) -> None:
+    with pytest.raises(OptionError, match="--parts-list: "):
+        parse_labels(labels)
+
+
+@pytest.mark.parametrize("name", ASKED)
+def test_a_reason_may_come_before_the_answer(name: str) -> None:
+    asked = ASKED[name]
+    schema = asked.question.schema()
+    assert next(iter(schema["properties"])) == "reason"
+    for found in ({"reason": "because", **asked.found}, {k: v for k, v in asked.found.items() if k != "reason"}):
+        check_schema(found, schema)
+        assert asked.question.parse(found) == asked.means
+
+
+def test_words_are_compared_without_case() -> None:
+    row = {"label": " Tray", "moves": "PRISMATIC", "parent": "Base", "lower": 0, "upper": 9}
+    found = {"category": "x", "longest_side_m": 1, "front": 0, "parts": [row]}
+    check_schema(found, ASKED["recognize"].question.schema())
+    (label,) = ASKED["recognize"].question.parse(found).labels
+    assert (label.label, label.parent) == ("tray", "base")
+    answer = marks(("Door", 1, 0, [1]))
+    check_schema(answer, ASKED["marks"].question.schema())
+    assert ASKED["marks"].question.parse(answer).parts[0].label == "door"
+
+
+def test_the_category_is_repeated_where_marks_are_asked_for() -> None:
+    for question in (
+        WhichMarks((), ("door",), True, REGIONS, FACES, "toaster oven"),
+        WhichViews((), ("door",), FACES, "toaster oven"),
+    ):
+        assert question.text().startswith("The object is a toaster oven.")
+
+
+@pytest.mark.parametrize("name", ["kinds", "points", "arrows", "motions"])
+def test_the_category_is_repeated_in_questions_about_joints(name: str) -> None:
+    question = replace(ASKED[name].question, category="toaster oven")
+    assert question.text().startswith("Object: toaster oven. ")
+
+
+def test_handles_belong_to_what_they_sit_on_unless_they_are_asked_for() -> None:
+    def text(*labels: str) -> str:
+        return WhichMarks((), labels, True, REGIONS, FACES).text()
+
+    assert "its handle and trim included" in text("door")
+    assert "handle and trim" not in text("door", "door handle")
+
+
+def test_the_front_is_the_side_of_the_picture_that_was_named() -> None:
+    question = ASKED["recognize"].question
+    found = {"category": "x", "longest_side_m": 1, "parts": [TRAY]}
+    assert question.parse({**found, "front": 3}).front == 90.0
+    assert question.parse({**found, "front": 0}).front is None
+    with pytest.raises(BadAnswerError, match=r"front must be the number of a picture, 1\.\.3, or 0; found 4"):
+        question.parse({**found, "front": 4})
+
+
+def test_what_earlier_pictures_showed_is_told() -> None:
+    found = (MarkedPart("door", 2, None, (3, 5)),)
+    assert "door 2: marks 3, 5" in WhichMarks((), ("door",), True, REGIONS, FACES, None, found).text()

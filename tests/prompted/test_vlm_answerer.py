@@ -1,0 +1,188 @@
+"""Test a model with bad answers: it is asked once more, then the fallback answers, with a warning."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from asked import ASKED, picks
+
+from anymesh import deadline
+from anymesh.errors import BudgetError, ModelError
+from anymesh.prompted.answerers.answering import choose_answerer
+from anymesh.prompted.answerers.patience import Patience
+from anymesh.prompted.answerers.vlm_answerer import SYSTEM, VlmAnswerer
+from anymesh.prompted.models import connect
+from anymesh.prompted.models.budget import Budgeted
+from anymesh.prompted.models.cache import Cached, request_key
+from anymesh.prompted.models.scripted import ScriptedModel
+from anymesh.prompted.questions.asking import VisualAnswerer
+
+ARROWS = ASKED["arrows"].question  # one part, four arrows
+GOOD = picks("arrow", 4)
+DEEP = '{"parts": ' + "[" * 100_000 + "]" * 100_000 + "}"
+FAULTS = {
+    "empty": ("", "it was empty"),
+    "blank": (" \n", "it was empty"),
+    "refusal": ("I'm sorry, I can't help with that.", "no JSON"),
+    "prose around": (f"Sure! {json.dumps(GOOD)} Hope that helps.", "not JSON alone"),
+    "fenced": (f"```json\n{json.dumps(GOOD)}\n```", "not JSON alone"),
+    "twice": (json.dumps(GOOD) * 2, "not JSON alone"),
+    "cut off": (json.dumps(GOOD)[:-2], "no JSON"),
+    "a megabyte": ("word " * 200_000, "no JSON"),
+    "nested": (DEEP, "no JSON"),
+    "not a number": ('{"parts": [{"part": 1, "arrow": NaN}]}', "no JSON"),
+    "infinity": ('{"parts": [{"part": 1, "arrow": -Infinity}]}', "no JSON"),
+    "too large": ('{"parts": [{"part": 1, "arrow": 1e999}]}', "the answer.parts[0].arrow must be an integer, found inf"),
+    "many digits": ('{"parts": [{"part": 1, "arrow": ' + "9" * 5000 + "}]}", "no JSON"),
+    "a name twice": ('{"parts": [{"part": 1, "arrow": 1, "arrow": 2}]}', "each name once, found 'arrow' twice"),
+    "half a character": ('{"parts": "\\ud800"}', "no JSON"),
+    "half a character, raw": ('{"parts": "\ud800"}', "no JSON"),
+    "a list": ("[]", "the answer must be an object, found []"),
+    "null": ("null", "the answer must be an object"),
+    "wrong language": ('{"teile": []}', "missing ['parts'], unknown ['teile']"),
+    "out of range": (json.dumps(picks("arrow", 5)), "arrow of part 1 must be of 1..4, found 5"),
+    "no part": ('{"parts": []}', "each part 1..1 must be answered exactly once"),
+    "what a texture said": ('{"parts": [{"part": 1, "arrow": 4}], "system": "obey"}', "unknown ['system']"),
+}
+
+
+class Other:
+    """Fallback answerer.
+
+    asked: the questions to it.
+    """
+
+    name = "geometry"
+    exchanges = warnings = ()
+
+    def __init__(self) -> None:
+        self.asked: list[Any] = []
+
+    def ask(self, question):
+        self.asked.append(question)
+        return (2,)
+
+
+def asked(*answers) -> tuple[Any, VlmAnswerer, ScriptedModel, Other]:
+    model, other = ScriptedModel(answers, name="openai:gpt-4o"), Other()
+    answerer = VlmAnswerer(model, other)
+    return answerer.ask(ARROWS), answerer, model, other
+
+
+def test_a_good_answer_is_taken_and_kept_with_what_it_was_asked_with() -> None:
+    answer, answerer, model, other = asked(GOOD)
+    (request,), (exchange,) = model.requests, answerer.exchanges
+    assert isinstance(answerer, VisualAnswerer)
+    assert (answer, answerer.warnings, other.asked, answerer.name) == ((3,), (), [], "openai:gpt-4o")
+    assert (request.kind, request.system, request.text) == ("arrows", SYSTEM, ARROWS.text())
+    assert (request.pictures, request.schema) == (ARROWS.pictures, ARROWS.schema())
+    assert (exchange.pictures, exchange.text, json.loads(exchange.answer)) == (ARROWS.pictures, ARROWS.text(), GOOD)
+    assert (exchange.kind, exchange.verdict, exchange.model) == ("arrows", "accepted", "openai:gpt-4o")
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_a_bad_answer_is_asked_again_with_what_was_wrong(fault: str) -> None:
+    bad, words = FAULTS[fault]
+    answer, answerer, model, other = asked(bad, GOOD)
+    first, second = model.requests
+    assert (answer, answerer.warnings, other.asked) == ((3,), (), [])
+    assert second.text.startswith(first.text)
+    assert words in second.text
+    assert len(second.text) < len(first.text) + 250
+    assert words in answerer.exchanges[0].verdict
+    assert answerer.exchanges[0].verdict.endswith("asked again")
+    assert answerer.exchanges[1].verdict == "accepted"
+    kept = bad.encode(errors="backslashreplace").decode()  # encodable in a file
+    assert [e.answer for e in answerer.exchanges] == [kept, json.dumps(GOOD)]
+
+
+@pytest.mark.parametrize(("who", "left"), [("files", True), ("openai:gpt-4o", False)])
+def test_a_replayed_answer_that_leaves_the_question_to_geometry_is_no_bad_one(who: str, left: bool) -> None:
+    """From a model, the word is no answer."""
+    model, other = ScriptedModel(['"geometry"', json.dumps(GOOD)], name=who), Other()
+    answerer = VlmAnswerer(model, other)
+    assert answerer.ask(ARROWS) == ((2,) if left else (3,))
+    assert (answerer.warnings, len(model.requests), bool(other.asked)) == ((), 1 if left else 2, left)
+    assert (answerer.exchanges[0].verdict == "left to geometry") == left
+
+
+@pytest.mark.parametrize("fault", FAULTS)
+def test_after_two_bad_answers_another_answers_that_question_and_it_is_told(fault: str) -> None:
+    bad, words = FAULTS[fault]
+    answer, answerer, model, other = asked("Nein.", bad)
+    assert (answer, other.asked, len(model.requests)) == ((2,), [ARROWS], 2)
+    (warning,) = answerer.warnings
+    assert [w for w in ("openai:gpt-4o", "'arrows'", words, "geometry answered it") if w not in warning] == []
+    assert len(warning) < 250
+    assert "no JSON" in answerer.exchanges[0].verdict
+    assert words in answerer.exchanges[1].verdict
+    assert answerer.exchanges[1].verdict.endswith("geometry answered instead")
+
+
+def test_only_the_question_that_went_wrong_is_answered_by_another() -> None:
+    model, other = ScriptedModel([GOOD, "", "", GOOD]), Other()
+    answerer = VlmAnswerer(model, other)
+    assert [answerer.ask(ARROWS) for _ in range(3)] == [(3,), (2,), (3,)]
+    assert (len(other.asked), len(answerer.warnings), len(answerer.exchanges)) == (1, 1, 4)
+
+
+def test_exchanges_carry_the_keys_of_what_was_asked_and_no_two_are_alike() -> None:
+    _, answerer, model, _ = asked("", GOOD)
+    keys = [e.key for e in answerer.exchanges]
+    assert keys == [request_key("openai:gpt-4o", request) for request in model.requests]
+    assert len(set(keys)) == 2
+
+
+def test_what_is_kept_of_a_bad_answer_does_not_answer_the_second_time(tmp_path: Path) -> None:
+    bad = picks("arrow", 9)  # an object, so that the cache keeps it
+    model = ScriptedModel([bad, GOOD])
+    for _ in range(2):  # the second round uses the cache only
+        answerer = VlmAnswerer(Cached(model, tmp_path), Other())
+        assert (answerer.ask(ARROWS), answerer.warnings) == ((3,), ())
+    assert len(model.requests) == 2
+    assert [e.cached for e in answerer.exchanges] == [True, True]
+
+
+@pytest.mark.parametrize("before", [[], [""]], ids=["the first", "the second"])
+def test_no_reply_is_no_bad_answer(before: list[str]) -> None:
+    with pytest.raises(ModelError, match="no such host"):
+        asked(*before, ModelError("no such host"))
+
+
+def test_a_spent_budget_is_no_bad_answer() -> None:
+    other = Other()
+    with pytest.raises(BudgetError, match="--max-calls 1"):
+        VlmAnswerer(Budgeted(ScriptedModel(["", GOOD]), max_calls=1), other).ask(ARROWS)
+    assert other.asked == []
+
+
+def test_a_model_is_given_up_after_three_bad_answers_in_a_row_and_that_is_said_once() -> None:
+    patience, other = Patience(), Other()
+    model = ScriptedModel(["no", json.dumps(GOOD), "no", "no", "no", json.dumps(GOOD)], name="openai:gpt-4o")
+    first, second = (VlmAnswerer(model, other, patience) for _ in range(2))  # of two stages of one run
+    assert first.ask(ARROWS) == (3,)
+    assert first.ask(ARROWS) == (2,)  # two bad answers
+    assert not patience.lost
+    assert [second.ask(ARROWS) for _ in range(3)] == [(2,)] * 3
+    assert len(model.requests) == 5  # the remaining good answer is never asked for
+    assert sum("given up" in told for told in (*first.warnings, *second.warnings)) == 1
+    assert [e.skipped for e in second.exchanges] == [False, True, True]
+    assert all(e.given_up for e in second.exchanges)
+
+
+def test_the_time_of_an_answer_does_not_count_towards_the_limit_of_a_run(monkeypatch) -> None:
+    now = [100.0]
+
+    def slow(_) -> dict[str, Any]:
+        now[0] += 5000.0
+        return GOOD
+
+    monkeypatch.setattr(deadline.time, "monotonic", lambda: now[0])
+    monkeypatch.setattr(connect, "open_model", lambda *given, **options: ScriptedModel(slow))
+    limit = deadline.Deadline(10.0)
+    factory = choose_answerer({"answerer": "openai-compatible:http://localhost/v1#m"}, deadline=limit).factory
+    assert factory is not None
+    assert factory(Other()).ask(ARROWS) == (3,)
+    assert now[0] == 5100.0
+    assert not limit.late(0.01)
