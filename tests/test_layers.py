@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[1]
 SOURCE = ROOT / "src" / "anymesh"
 CORE = [
-    {"errors", "files", "config", "cores", "deadline", "isolation", "progress", "names", "mujoco_", "deferred"},
+    {"errors", "config", "runtime", "isolation", "names", "mujoco_", "deferred"},
     {"types", "vocabulary"},
     {"geometry", "loading", "scoring"},
     {"rendering", "motion"},

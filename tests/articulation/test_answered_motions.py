@@ -15,7 +15,6 @@ from scenes import door, prism
 from anymesh.articulation.estimate import motion_questions
 from anymesh.articulation.freedom import stays_free
 from anymesh.config import Config, PromptConfig
-from anymesh.deadline import Deadline
 from anymesh.prompted.motions.answer_evidence import answered_confidence
 from anymesh.prompted.motions.candidate_points import axis_points, cluster_points, followed, with_more
 from anymesh.prompted.motions.cases import PartCase, make_cases
@@ -27,6 +26,7 @@ from anymesh.prompted.motions.relabel import labels_by_name, relabelled, unlabel
 from anymesh.prompted.motions.unverified import as_answered, normal_outwards
 from anymesh.prompted.motions.verify import Choice
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
+from anymesh.runtime import Deadline
 from anymesh.types import JointType, Part, Segmentation
 from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
 

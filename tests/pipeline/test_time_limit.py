@@ -10,11 +10,11 @@ import pytest
 from PIL import Image
 
 import anymesh
-from anymesh import deadline as module
+from anymesh import runtime as module
 from anymesh.cli import run
-from anymesh.deadline import Deadline
 from anymesh.errors import OptionError
 from anymesh.pipeline import stages
+from anymesh.runtime import Deadline
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 CABINET = EXAMPLES / "meshes" / "cabinet.glb"

@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 from asked import ASKED, picks
 
-from anymesh import deadline
+from anymesh import runtime as deadline
 from anymesh.errors import BudgetError, ModelError
 from anymesh.prompted.answerers.answering import choose_answerer
 from anymesh.prompted.answerers.patience import Patience

@@ -8,8 +8,8 @@ from geometry.rigid import shape_of
 from scipy.spatial.distance import cdist
 
 from anymesh.config import SegmentationConfig
-from anymesh.deadline import Deadline
 from anymesh.geometry.contact import connecting_area
+from anymesh.runtime import Deadline
 from anymesh.segmentation.contacts import Contacts, dominated_by, find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.patch_gaps import PROBES, area_in_contact, gap_within

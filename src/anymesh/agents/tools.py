@@ -15,14 +15,12 @@ from anymesh.agents.places import Places
 from anymesh.checking import check_asset
 from anymesh.correcting import CorrectionError, open_asset, ranked_motions, save_asset
 from anymesh.correcting.log import pack_entry, unpack_log
-from anymesh.deadline import DEFAULT_SECONDS
 from anymesh.errors import OpenQuestionError, OptionError, OutputError
 from anymesh.export.formats import DEFAULT
-from anymesh.files import read_json
-from anymesh.progress import Progress, silent
 from anymesh.prompted.answerers.answering import FILES
 from anymesh.prompted.answerers.answers import open_in, record_answer
 from anymesh.prompted.answerers.question_files import QuestionFolder, find_questions
+from anymesh.runtime import DEFAULT_SECONDS, Progress, read_json, silent
 
 AUTHOR = "agent"  # in the log of corrections
 QUESTIONS = ".questions"  # suffix of the folder with an output's questions, beside the output

@@ -21,10 +21,10 @@ from anymesh.articulation.rank_motions import described, rank_motions
 from anymesh.articulation.repeated_parts import in_a_row, same_size, share_opening_directions
 from anymesh.articulation.tree import parents
 from anymesh.config import SAME_AXIS_COSINE, ArticulationConfig, Config
-from anymesh.deadline import JOINTS, Deadline
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
+from anymesh.runtime import JOINTS, Deadline
 from anymesh.types import Joint, JointType, Motion, Segmentation
 
 MIN_RIM_THICKNESS_RATIO = 0.01  # of the tolerance length: minimum thickness of a rim

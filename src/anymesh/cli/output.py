@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
-from anymesh.progress import Progress, silent
+from anymesh.runtime import Progress, silent
 
 if TYPE_CHECKING:
     from anymesh.types import Asset, Joint

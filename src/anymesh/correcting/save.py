@@ -10,7 +10,6 @@ from anymesh.correcting.log import pack_log, unpack_log
 from anymesh.errors import OutputError
 from anymesh.export import write_asset
 from anymesh.export.options import ExportOptions
-from anymesh.files import read_json, write_json
 from anymesh.pipeline.results import CorrectionResult
 from anymesh.pipeline.storage.atomic_folder import locked
 from anymesh.pipeline.storage.outputs import CORRECTIONS
@@ -20,6 +19,7 @@ from anymesh.pipeline.storage.saved import Saved
 from anymesh.pipeline.storage.stage_files import stage_key
 from anymesh.prompted.models.cache import cache_folder
 from anymesh.rendering.preview import write_preview
+from anymesh.runtime import read_json, write_json
 
 
 class StaleError(OutputError):

@@ -16,7 +16,6 @@ from zlib import crc32
 import numpy as np
 
 from anymesh import __version__
-from anymesh.cores import usable_cores
 from anymesh.errors import OpenQuestionError, OptionError
 from anymesh.evaluation.changes import CHANGES
 from anymesh.evaluation.datasets.dataset import Dataset
@@ -34,9 +33,9 @@ from anymesh.isolation.workers import worker_processes
 from anymesh.names import legal_name, listed
 from anymesh.pipeline.options import GEOMETRY, Answering
 from anymesh.pipeline.solving import solve
-from anymesh.progress import Progress, silent
 from anymesh.prompted.answerers.answering import FILES, choose_answerer
 from anymesh.prompted.questions.asking import AnswererFactory
+from anymesh.runtime import Progress, silent, usable_cores
 
 ORACLE = "oracle"
 Examined = list[Record] | OpenQuestionError  # the records of an object, or the question that it waits for

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from anymesh.errors import OutputError
 from anymesh.evaluation.record import Record, record_of, record_text
-from anymesh.files import read_json, write_json
+from anymesh.runtime import read_json, write_json
 
 SETTINGS = "eval.json"
 OBJECTS = "objects"  # folder with one file per object and one line per record

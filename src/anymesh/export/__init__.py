@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from anymesh.deadline import Deadline
 from anymesh.export.asset_json import TIMING_FILE, asset_record, json_text
 from anymesh.export.build import build_model
 from anymesh.export.formats import DEFAULT, Format, load_libraries, parse_formats, write_formats
@@ -13,6 +12,7 @@ from anymesh.export.meshes import write_meshes
 from anymesh.export.model import Base, Driven, Model
 from anymesh.export.settings import ExportConfig
 from anymesh.prompted.answerers.transcript import write_transcript
+from anymesh.runtime import Deadline
 from anymesh.types import Asset
 
 TRANSCRIPT = "transcript"  # folder of the questions and answers, browsable and replayable

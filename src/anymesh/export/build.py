@@ -8,7 +8,6 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.deadline import Deadline
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.model import Base, Driven, Exclusion, ExportLink, Model
 from anymesh.export.settings import ExportConfig
@@ -16,6 +15,7 @@ from anymesh.geometry.surface import plain_triangles
 from anymesh.physics.collision import Collision, collision_shapes
 from anymesh.physics.densities import Substance, substance_of
 from anymesh.physics.inertia import link_inertia
+from anymesh.runtime import Deadline
 from anymesh.types import Asset, Mesh
 
 OVERLAP = "their surfaces overlap at rest"

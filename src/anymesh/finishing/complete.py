@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from anymesh.deadline import Deadline
 from anymesh.finishing.accept import accept, accepted
 from anymesh.finishing.protocol import Completer, Finished
 from anymesh.finishing.settings import ShapeConfig
 from anymesh.finishing.shape import complete_shapes
+from anymesh.runtime import Deadline
 from anymesh.types import Asset
 
 

@@ -9,7 +9,6 @@ from pathlib import Path
 
 import numpy as np
 
-from anymesh.deadline import Deadline
 from anymesh.errors import ModelError
 from anymesh.finishing.complete import complete
 from anymesh.finishing.outside import open_completer, open_retexturer
@@ -20,7 +19,7 @@ from anymesh.pipeline.results import CompletionResult
 from anymesh.pipeline.storage.packing import COMPLETION
 from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.pipeline.storage.stage_files import stage_key
-from anymesh.progress import Progress
+from anymesh.runtime import Deadline, Progress
 from anymesh.types import Asset
 
 

@@ -7,8 +7,8 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 
 from anymesh.errors import OutputError
-from anymesh.files import write_whole
 from anymesh.finishing.meshy_api import TASK_ID
+from anymesh.runtime import write_whole
 
 
 @dataclass(frozen=True)

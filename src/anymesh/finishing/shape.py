@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from anymesh.deadline import COMPLETION, Deadline
 from anymesh.finishing.added import with_new_faces
 from anymesh.finishing.cavity import add_walls
 from anymesh.finishing.drawers import add_box
@@ -18,6 +17,7 @@ from anymesh.finishing.scenes import Growing, Scenes
 from anymesh.finishing.settings import ShapeConfig
 from anymesh.finishing.solids import close_part
 from anymesh.finishing.visible import visible_faces
+from anymesh.runtime import COMPLETION, Deadline
 from anymesh.types import Asset
 
 THINNER = (0.5,)  # shares of the wall thickness tried for a part that would collide with the full one

@@ -18,11 +18,11 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float, Float32, Int
 
-from anymesh.cores import usable_cores
 from anymesh.geometry.boxes import within
 from anymesh.geometry.passage import Passage
 from anymesh.geometry.sampling import SurfacePoints, spread_points
 from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.runtime import usable_cores
 from anymesh.types import JointType, Motion, Sweep
 from anymesh.types.triangles import boxes_meet, normals_and_areas, pieces_within
 

@@ -17,8 +17,8 @@ from enum import StrEnum
 from functools import cache
 from typing import Any
 
-from anymesh.cores import usable_cores
 from anymesh.isolation.child import LENGTH, PATIENCE, write_message
+from anymesh.runtime import usable_cores
 
 START_AFTER = 0.3  # [s] total waiting time of calls before another child is started, which takes about as long
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # sums would depend on the number of threads

@@ -7,22 +7,20 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Unpack
 
-from anymesh.deadline import DEFAULT_SECONDS, Deadline
 from anymesh.errors import OptionError, OutputError
 from anymesh.export import Base, Driven, Format
 from anymesh.export.archive import check_zip, write_zip
 from anymesh.export.formats import DEFAULT
 from anymesh.export.options import ExportOptions
 from anymesh.export.package import write_package
-from anymesh.files import read_json
 from anymesh.isolation import AHEAD, shared_pool
 from anymesh.pipeline.options import Answering, PlacementOptions
 from anymesh.pipeline.stages import Keyed, Run, estimate_joints, load, recognize, segment_parts, write_files
 from anymesh.pipeline.stopped_run import kept_transcript
 from anymesh.pipeline.storage.packing import MESH, SEGMENTATION
 from anymesh.pipeline.storage.run_folder import LAST, RunFolder
-from anymesh.progress import Progress, silent
 from anymesh.prompted.answerers.answering import choose_answerer, object_name
+from anymesh.runtime import DEFAULT_SECONDS, Deadline, Progress, read_json, silent
 from anymesh.types import Asset, Joint, Segmentation
 
 

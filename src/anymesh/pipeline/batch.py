@@ -10,13 +10,12 @@ from typing import Any
 
 from anymesh import pipeline
 from anymesh.errors import AnymeshError, BudgetError, InputError, MissingExtraError, OpenQuestionError, OptionError, OutputError
-from anymesh.files import read_json
 from anymesh.loading.checks import FORMATS
 from anymesh.pipeline.options import GEOMETRY
-from anymesh.progress import Progress, silent
 from anymesh.prompted.answerers.answering import FILES, resolve_auto
 from anymesh.prompted.answerers.question_files import NAME
 from anymesh.prompted.models.budget import Spent
+from anymesh.runtime import Progress, read_json, silent
 
 ENDING = (BudgetError, MissingExtraError, OptionError)  # errors that would recur for every other object
 

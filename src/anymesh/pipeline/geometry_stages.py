@@ -12,13 +12,12 @@ from jaxtyping import Bool
 from anymesh.articulation.estimate import PartMotions, choose_motion, estimate_joints, motion_questions, with_labels_of
 from anymesh.articulation.part_labels import label_of
 from anymesh.config import Config
-from anymesh.deadline import Deadline
 from anymesh.geometry.ground import ground_faces
 from anymesh.geometry.patches import DividedSurface, ObjectShape
 from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
-from anymesh.progress import Progress, silent
 from anymesh.prompted.answerers.reference import Reference, reference_of
+from anymesh.runtime import Deadline, Progress, silent
 from anymesh.segmentation.divide import divide_surface, object_shape
 from anymesh.segmentation.segment import segment_parts
 from anymesh.types import JointType, Mesh, Segmentation

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypedDict
 
 from anymesh.config import DEFAULT_VIEWS
-from anymesh.deadline import CALL_SECONDS, DEFAULT_SECONDS
+from anymesh.runtime import CALL_SECONDS, DEFAULT_SECONDS
 
 if TYPE_CHECKING:
     from anymesh.prompted.models.budget import Account

@@ -9,14 +9,13 @@ from typing import Protocol
 import numpy as np
 
 from anymesh.config import Config
-from anymesh.deadline import Deadline
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.yaw import straight_mesh, turned_back
 from anymesh.pipeline.geometry_stages import GeometryStages
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, segmentation_result
-from anymesh.progress import Progress, silent
 from anymesh.prompted.questions.asking import AnswererFactory
 from anymesh.prompted.stages import PromptedStages
+from anymesh.runtime import Deadline, Progress, silent
 from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
 from anymesh.types import Joint, Mesh, Segmentation
 from anymesh.types.recognition import Recognition

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Generic, TypeVar
 
-from anymesh.deadline import PREVIEW, Deadline
 from anymesh.export import load_libraries, write_asset
 from anymesh.export.options import ExportOptions
 from anymesh.loading import load_mesh, place_mesh
@@ -18,10 +17,10 @@ from anymesh.pipeline.solving import Solver
 from anymesh.pipeline.storage.packing import JOINTS, MESH, RECOGNITION, SEGMENTATION, Stage
 from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.pipeline.storage.stage_files import stage_key
-from anymesh.progress import Progress
 from anymesh.prompted.answerers.answering import AnswererSetup
 from anymesh.prompted.models.cache import cache_folder
 from anymesh.rendering.preview import write_legend, write_preview
+from anymesh.runtime import PREVIEW, Deadline, Progress
 from anymesh.segmentation.given import GIVEN
 from anymesh.types import Asset, Mesh, Source
 

@@ -8,7 +8,6 @@ from functools import cached_property, partial
 from anymesh.articulation.freedom import stays_free
 from anymesh.pipeline.geometry_stages import GeometryStages
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
-from anymesh.progress import Progress, silent
 from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
 from anymesh.prompted.grounding.ask_marks import MarkQuestioner
 from anymesh.prompted.grounding.cloud import seen_points
@@ -23,6 +22,7 @@ from anymesh.prompted.motions.prompted import Questions, Reground, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.asking import AnswererFactory
 from anymesh.prompted.questions.recognition import answered_scale, recognize
+from anymesh.runtime import Progress, silent
 from anymesh.types import Picture, Segmentation
 from anymesh.types.recognition import Recognition
 

@@ -10,11 +10,11 @@ import numpy as np
 from jaxtyping import Float, Float32, Int
 
 from anymesh.config import SegmentationConfig
-from anymesh.deadline import CONTACTS, Deadline
 from anymesh.geometry.boxes import box_pairs
 from anymesh.geometry.connected import label_connected
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.runtime import CONTACTS, Deadline
 from anymesh.segmentation.dominators import NONE, immediate_dominators
 from anymesh.segmentation.patch_gaps import area_in_contact, crosses, gap_within
 

@@ -14,10 +14,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.config import Config
-from anymesh.cores import usable_cores
-from anymesh.deadline import SEGMENT, Deadline
 from anymesh.geometry.patches import ObjectShape
-from anymesh.progress import Progress, silent
+from anymesh.runtime import SEGMENT, Deadline, Progress, silent, usable_cores
 from anymesh.segmentation.candidate_names import NAME_SCORE, name_class, shared_name
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.naming import named_parts

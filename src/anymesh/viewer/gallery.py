@@ -13,9 +13,9 @@ from pathlib import Path
 from typing import Any
 
 from anymesh.errors import OutputError
-from anymesh.files import read_json
 from anymesh.pipeline.storage.atomic_folder import locked
 from anymesh.pipeline.storage.outputs import written_files
+from anymesh.runtime import read_json
 
 REVIEW = "review.json"
 DEEP = 3  # maximum depth of folders that are searched for outputs

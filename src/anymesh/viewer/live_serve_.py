@@ -13,7 +13,7 @@ from pathlib import Path
 from anymesh import pipeline
 from anymesh.errors import OptionError
 from anymesh.pipeline.storage.outputs import CORRECTIONS, written_files
-from anymesh.progress import Progress, silent
+from anymesh.runtime import Progress, silent
 from anymesh.viewer.bench_ import WorkbenchFolders
 from anymesh.viewer.live import Clock
 from anymesh.viewer.live_ import LivePage, start_server

@@ -11,7 +11,7 @@ from jaxtyping import UInt8
 from PIL import Image
 
 from anymesh.errors import InputError, OptionError, OutputError
-from anymesh.progress import Progress, silent
+from anymesh.runtime import Progress, silent
 from anymesh.types import Asset
 from anymesh.viewer.contact_sheet import FILM_CELL, contact_sheet, sheet_film
 from anymesh.viewer.pictures import Turntable, film, gif_bytes

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from anymesh.errors import InputError, OutputError
-from anymesh.progress import Progress, silent
+from anymesh.runtime import Progress, silent
 from anymesh.viewer.report_asset import find_assets
 from anymesh.viewer.report_display import FACES
 from anymesh.viewer.report_entry import ReportEntry, folder_entry, within

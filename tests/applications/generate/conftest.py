@@ -12,7 +12,7 @@ from meshy_wire import MeshyServer, serving
 from anymesh import pipeline
 from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.pipeline.storage.saved import Saved
-from anymesh.progress import Progress
+from anymesh.runtime import Progress
 from anymesh.types import Asset
 
 BOX = Path(__file__).parents[3] / "examples" / "meshes" / "storage_box.glb"

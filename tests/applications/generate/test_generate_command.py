@@ -14,7 +14,7 @@ from anymesh.applications.generate.program import log_tail
 from anymesh.applications.generate.protocol import MeshRequest
 from anymesh.errors import ModelError, OptionError
 from anymesh.loading import load_mesh
-from anymesh.progress import silent
+from anymesh.runtime import silent
 
 
 def opened(name: str, time_limit: float = 60.0) -> CommandGenerator:

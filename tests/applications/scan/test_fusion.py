@@ -12,7 +12,7 @@ from anymesh.applications.scan.smoothing import border_vertices, neighbours, smo
 from anymesh.applications.scan.surface_ import extract
 from anymesh.errors import InputError, OptionError
 from anymesh.geometry.topology import components
-from anymesh.progress import silent
+from anymesh.runtime import silent
 
 CAMERA = Pinhole(100.0, 100.0, 40.0, 30.0, 80, 60)
 BOUNDS = np.array([[-0.2, -0.2, 0.8], [0.2, 0.2, 1.2]])

@@ -7,7 +7,7 @@ from anymesh.applications.scan.frames import Frames, Observation, Pinhole, RgbdF
 from anymesh.applications.scan.reading import read_frames
 from anymesh.applications.scan.splatting_ import gaze, with_depth
 from anymesh.errors import MissingExtraError
-from anymesh.progress import silent
+from anymesh.runtime import silent
 from anymesh.types.camera import Camera
 
 

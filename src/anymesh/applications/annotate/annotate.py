@@ -23,14 +23,13 @@ from anymesh.applications.annotate.salvage import open_ledger
 from anymesh.applications.annotate.states import AttemptOutcome
 from anymesh.applications.annotate.tally import Tally, tally
 from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits, Workers
-from anymesh.cores import usable_cores
-from anymesh.deadline import DEFAULT_SECONDS, Deadline
 from anymesh.errors import OptionError
 from anymesh.export.formats import DEFAULT
 from anymesh.export.options import ExportOptions
 from anymesh.pipeline.options import GEOMETRY, Answering
 from anymesh.prompted.answerers.answering import FILES, choose_answerer
 from anymesh.prompted.models.rates import Rate
+from anymesh.runtime import DEFAULT_SECONDS, Deadline, usable_cores
 
 PARQUET = "ledger.parquet"
 UNPINNED = ("max_calls", "max_cost", "cache", "timeout")  # options that may differ between runs on one output

@@ -17,9 +17,9 @@ from anymesh.applications.annotate.states import AttemptOutcome, Claim, Result
 from anymesh.applications.annotate.tally import duration
 from anymesh.applications.annotate.work import Job
 from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits
-from anymesh.cores import usable_cores
 from anymesh.errors import OptionError
 from anymesh.pipeline.options import GEOMETRY
+from anymesh.runtime import usable_cores
 
 REHEARSAL = ("anymesh.applications.annotate.rehearsal", "rehearse_object")
 QUANTILE = 1.96  # of the normal distribution, for 95 %

@@ -12,7 +12,7 @@ from anymesh.applications.annotate.ledger import Ledger
 from anymesh.applications.annotate.states import State
 from anymesh.applications.annotate.tally import duration, tally
 from anymesh.errors import OutputError
-from anymesh.files import write_whole
+from anymesh.runtime import write_whole
 from anymesh.viewer.report_display import jpeg
 from anymesh.viewer.report_words import html_text, sure
 

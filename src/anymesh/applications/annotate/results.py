@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
-from anymesh.files import read_json
+from anymesh.runtime import read_json
 
 
 def asset_columns(folder: Path) -> dict[str, Any] | None:

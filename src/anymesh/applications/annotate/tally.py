@@ -9,7 +9,7 @@ from anymesh.applications.annotate.accounts import spent
 from anymesh.applications.annotate.ledger import Ledger
 from anymesh.applications.annotate.states import State
 from anymesh.errors import OutputError
-from anymesh.files import write_whole
+from anymesh.runtime import write_whole
 
 METRICS = "metrics.prom"
 

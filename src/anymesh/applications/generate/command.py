@@ -17,8 +17,8 @@ from anymesh.defects import redacted
 from anymesh.errors import InputError, ModelError, OptionError
 from anymesh.finishing.meshy_api import KEY
 from anymesh.loading import load_mesh
-from anymesh.progress import Progress
 from anymesh.prompted.models.address import KEYS
+from anymesh.runtime import Progress
 
 PLACEHOLDERS = ("prompt", "image", "out", "seed")
 VALID = "command:PROGRAM with {out}, and {prompt} or {image}, such as 'command:python run.py --image {image} --out {out}'"

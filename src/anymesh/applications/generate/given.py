@@ -10,7 +10,7 @@ from pathlib import Path
 from anymesh.applications.generate.protocol import GeneratedMesh, MeshRequest, Step, Unit
 from anymesh.loading import load_mesh
 from anymesh.loading.load import LoadedMesh
-from anymesh.progress import Progress
+from anymesh.runtime import Progress
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,6 @@ from anymesh.applications.generate.choose import open_generator
 from anymesh.applications.generate.given import GivenMesh
 from anymesh.applications.generate.protocol import Generator3D, MeshRequest
 from anymesh.applications.generate.size import Size, choose_size
-from anymesh.deadline import Deadline
 from anymesh.errors import OptionError, OutputError
 from anymesh.export.options import ExportOptions
 from anymesh.finishing.outside import open_completer, open_retexturer
@@ -34,6 +33,7 @@ from anymesh.pipeline.options import (
 from anymesh.pipeline.storage.atomic_folder import FOLDER_PREFIX
 from anymesh.pipeline.storage.outputs import check_replaceable
 from anymesh.prompted.answerers.answering import FILES, choose_answerer
+from anymesh.runtime import Deadline
 from anymesh.types import Mesh, Node
 
 FREE = ("max_calls", "max_cost", "cache", "timeout", "wait", "suggest", "spent", "limiter")  # options that affect no result

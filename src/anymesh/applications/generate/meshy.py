@@ -9,10 +9,9 @@ from pathlib import Path
 from anymesh.applications.generate.meshy_generate import FACES, Generated, Meshy3D, check_prompt, data_uri
 from anymesh.applications.generate.protocol import GeneratedMesh, MeshRequest, PaidTask, Step, Unit
 from anymesh.errors import InputError, ModelError, OptionError
-from anymesh.files import write_whole
 from anymesh.finishing.meshy_api import PRICED, Task, TaskKind, read_key
 from anymesh.loading import load_mesh
-from anymesh.progress import Progress
+from anymesh.runtime import Progress, write_whole
 
 STATE = "meshy.json"
 MODEL = "latest"

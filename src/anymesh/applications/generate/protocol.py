@@ -11,7 +11,7 @@ from typing import Protocol, runtime_checkable
 
 from anymesh.errors import InputError, OptionError
 from anymesh.names import legal_name
-from anymesh.progress import Progress
+from anymesh.runtime import Progress
 
 WORDS = 6  # number of words of a prompt used to name the asset
 ARTICLES = ("a", "an", "the")

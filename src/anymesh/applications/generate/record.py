@@ -14,13 +14,13 @@ from anymesh.applications.generate.job import FREE, GenerationJob
 from anymesh.applications.generate.protocol import GeneratedMesh, PaidTask, file_digest
 from anymesh.defects import redacted
 from anymesh.errors import InputError
-from anymesh.files import read_json, write_json
 from anymesh.finishing.meshy_api import RETEXTURE
 from anymesh.finishing.meshy_task import Bought
 from anymesh.geometry.topology import components
 from anymesh.loading import load_mesh
 from anymesh.pipeline.storage.outputs import GENERATED, GENERATION
 from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.runtime import read_json, write_json
 
 SCHEMA_VERSION = 1
 WORDS = ("category", "texture")  # options that are free text of the user

@@ -19,8 +19,8 @@ from anymesh.applications.generate.work import WorkFolder
 from anymesh.errors import ModelError, OutputError, note_stage
 from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.pipeline.storage.saved import Saved
-from anymesh.progress import Progress, silent
 from anymesh.prompted.models.budget import Account, Spent
+from anymesh.runtime import Progress, silent
 from anymesh.types import Asset, JointType
 
 

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from anymesh.applications.generate.protocol import GeneratedMesh, PaidTask, file_digest
 from anymesh.errors import InputError, OutputError
-from anymesh.files import read_json, write_whole
 from anymesh.pipeline.storage.atomic_folder import locked
+from anymesh.runtime import read_json, write_whole
 
 MADE = "made.json"
 ANEW = "anew"  # marker file that exists while another mesh than that of the output is made

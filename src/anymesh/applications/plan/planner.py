@@ -20,7 +20,7 @@ from anymesh.applications.plan.search import Arm, Search, Settings
 from anymesh.applications.plan.targets import PartSurfaces, sample_targets, velocity
 from anymesh.applications.plan.trajectory import build_trajectory
 from anymesh.errors import OptionError
-from anymesh.progress import Progress, silent
+from anymesh.runtime import Progress, silent
 
 TARGETS = 60  # targets tried per base
 SHORT = 0.03  # [m] travel of the part below which pushing is tried before grasping

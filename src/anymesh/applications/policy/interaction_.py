@@ -20,9 +20,8 @@ from anymesh.checking.engines.mujoco_ import sweep_joints
 from anymesh.checking.find import find_description
 from anymesh.errors import AnymeshError, OptionError
 from anymesh.evaluation.results import OBJECTS, ResultsFolder
-from anymesh.files import write_whole
 from anymesh.names import legal_name, legal_names, listed
-from anymesh.progress import Progress, silent
+from anymesh.runtime import Progress, silent, write_whole
 
 PROTOCOL = "interaction"
 REPORT, PICTURES, SHEET = "report.md", "pictures", "failures.png"

@@ -16,7 +16,7 @@ from anymesh.applications.policy.randomization import DEXART, Randomization
 from anymesh.applications.policy.settings import TrainingSettings
 from anymesh.applications.policy.tasks import PolicyTask
 from anymesh.errors import MissingExtraError, OptionError, OutputError
-from anymesh.files import write_whole
+from anymesh.runtime import write_whole
 
 MODEL, CHECKPOINT, CURVE, CONFIG = "policy.zip", "checkpoint.zip", "curve.jsonl", "training.json"
 Progress = Callable[[str, str, int, int], None]

@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float, Int, UInt8
 
 from anymesh.applications.scan.frames import Frames
-from anymesh.progress import Progress
+from anymesh.runtime import Progress
 from anymesh.types.triangles import face_cross
 
 SEEN = 0.012  # share of the depth; largest difference between a visible vertex and the depth map

@@ -10,7 +10,7 @@ from scipy import ndimage
 
 from anymesh.applications.scan.frames import Frames, Pinhole
 from anymesh.errors import InputError, OptionError
-from anymesh.progress import Progress
+from anymesh.runtime import Progress
 
 SIDE = 8  # voxels along the edge of a block
 CHUNK = 1024  # blocks projected at a time

@@ -21,7 +21,7 @@ from anymesh.applications.scan.scene import Scene, find_scene
 from anymesh.applications.scan.smoothing import smooth
 from anymesh.applications.scan.surface_ import extract
 from anymesh.errors import InputError
-from anymesh.progress import Progress, silent
+from anymesh.runtime import Progress, silent
 
 FINE = 400  # voxels along the object's diagonal, unless limited by `PIXELS`
 PIXELS = 0.75  # [px] smallest voxel, projected on the object

@@ -14,7 +14,7 @@ from jaxtyping import Float
 
 from anymesh.applications.scan.frames import Frames, Observation, Pinhole, RgbdFrame
 from anymesh.errors import MissingExtraError
-from anymesh.progress import Progress
+from anymesh.runtime import Progress
 
 SIDE = 800  # [px] largest side of the pictures used for fitting
 STEPS = 6000

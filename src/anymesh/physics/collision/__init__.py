@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.deadline import COLLISION, Deadline
 from anymesh.geometry.kinematics import carried_links, joint_transform, link_transforms
 from anymesh.geometry.simplify_ import simplify
 from anymesh.isolation import ChildPool, shared_pool
@@ -21,6 +20,7 @@ from anymesh.physics.collision.decompose import Component, Resolution, smallest_
 from anymesh.physics.collision.decomposer import Decomposer, Fallback
 from anymesh.physics.collision.primitives import engine_shape
 from anymesh.physics.collision.settings import CollisionConfig
+from anymesh.runtime import COLLISION, Deadline
 from anymesh.types import Asset, Joint, JointType, Shape
 
 __all__ = ["Collision", "CollisionConfig", "collision_shapes", "joint_poses", "sampled_poses"]

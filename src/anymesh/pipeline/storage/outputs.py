@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from anymesh.errors import OutputError
-from anymesh.files import read_json, write_json
 from anymesh.pipeline.storage.atomic_folder import list_files, recover
+from anymesh.runtime import read_json, write_json
 
 GENERATOR = "articulate-anymesh"
 MANIFEST = "stages/files.json"  # list of files written by this program; nothing else is ever removed

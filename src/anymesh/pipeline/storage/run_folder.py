@@ -17,7 +17,6 @@ from types import TracebackType
 from typing import Any, TypeVar
 
 from anymesh.errors import AnymeshError, BudgetError, OpenQuestionError, OutputError, note_stage
-from anymesh.files import write_json
 from anymesh.pipeline.storage.atomic_folder import (
     FOLDER_PREFIX,
     LockedFolder,
@@ -53,6 +52,7 @@ from anymesh.pipeline.storage.packing import (
 )
 from anymesh.pipeline.storage.saved import TIMING, Saved, outdated_files
 from anymesh.pipeline.storage.stage_files import read_stage, saved_key, stage_files, write_stage
+from anymesh.runtime import write_json
 
 Result = TypeVar("Result")
 LAST = "asset.json"  # file that marks a finished output

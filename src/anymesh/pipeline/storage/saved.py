@@ -6,7 +6,6 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from anymesh.errors import OutputError
-from anymesh.files import read_json
 from anymesh.pipeline.results import CorrectionResult, RecognitionResult, Record
 from anymesh.pipeline.storage.assemble import assemble
 from anymesh.pipeline.storage.outputs import CORRECTIONS, MANIFEST, is_origin, written_files
@@ -22,6 +21,7 @@ from anymesh.pipeline.storage.packing import (
     Stage,
 )
 from anymesh.pipeline.storage.stage_files import read_stage, saved_key, stage_files
+from anymesh.runtime import read_json
 from anymesh.types import Asset
 
 Result = TypeVar("Result")

@@ -13,8 +13,8 @@ from typing import Any, TypeVar
 import numpy as np
 
 import anymesh
-from anymesh.files import read_json, write_json
 from anymesh.pipeline.storage.packing import Stage
+from anymesh.runtime import read_json, write_json
 
 log = logging.getLogger("anymesh")
 Result = TypeVar("Result")

@@ -12,7 +12,6 @@ from pathlib import Path
 from threading import Event
 
 from anymesh.config import Config, SegmentationConfig
-from anymesh.deadline import Deadline
 from anymesh.errors import OptionError
 from anymesh.pipeline.options import GEOMETRY, AnswererOptions, Answering
 from anymesh.prompted.answerers.patience import Patience
@@ -20,6 +19,7 @@ from anymesh.prompted.models.cache import cache_folder
 from anymesh.prompted.models.servers import SERVERS, first_vision_model, probe_servers
 from anymesh.prompted.questions.asking import AnswererFactory, VisualAnswerer
 from anymesh.prompted.questions.recognition import parse_labels
+from anymesh.runtime import Deadline
 from anymesh.types import Exchange
 
 FILES, AUTO = "files:", "auto"

@@ -16,7 +16,7 @@ from threading import Event
 from typing import Any
 
 from anymesh.errors import OutputError
-from anymesh.files import write_whole
+from anymesh.runtime import write_whole
 from anymesh.types.exchange import Picture
 
 NAME = "files"  # model name in keys and transcripts, the same for every folder

@@ -11,7 +11,6 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from anymesh.errors import OptionError
-from anymesh.files import write_whole
 from anymesh.prompted.answerers.question_files import (
     FORMAT,
     NAME,
@@ -25,6 +24,7 @@ from anymesh.prompted.answerers.question_files import (
 )
 from anymesh.prompted.models.cache import request_key
 from anymesh.prompted.models.vision import Request
+from anymesh.runtime import write_whole
 
 
 class QuestionStore:

@@ -10,7 +10,7 @@ from html import escape
 from pathlib import Path
 from typing import Any
 
-from anymesh.files import write_whole
+from anymesh.runtime import write_whole
 from anymesh.types.exchange import Exchange, Picture
 
 OWN = re.compile(r"\d{3,}_[a-z0-9-]+\.json|[0-9a-f]{64}\.png|index\.html")

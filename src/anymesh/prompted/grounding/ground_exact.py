@@ -6,7 +6,6 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from anymesh.progress import Progress
 from anymesh.prompted.grounding.ask_marks import MarkAnswers, MarkQuestioner, ask_exact
 from anymesh.prompted.grounding.cloud import seen_points
 from anymesh.prompted.grounding.faces import mark_parts
@@ -14,6 +13,7 @@ from anymesh.prompted.grounding.grounded_parts import SURE, UNSURE, GroundedPart
 from anymesh.prompted.grounding.hidden import unseen_patches
 from anymesh.prompted.grounding.regions import face_regions, number_regions, split_marks
 from anymesh.prompted.grounding.unseen import StaysFree
+from anymesh.runtime import Progress
 
 
 def ground_exactly(

@@ -8,7 +8,6 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.config import Config
-from anymesh.progress import Progress
 from anymesh.prompted.grounding.ask_marks import MarkQuestioner, ask_masks
 from anymesh.prompted.grounding.cloud import seen_points
 from anymesh.prompted.grounding.faces import face_parts, point_parts
@@ -22,6 +21,7 @@ from anymesh.prompted.masks.propose import Proposal, propose_masks
 from anymesh.prompted.masks.sam import PromptedSegmenter, automatic_masks
 from anymesh.rendering.render import View
 from anymesh.rendering.viewpoints import normal_picture
+from anymesh.runtime import Progress
 
 
 def ground_by_masks(

@@ -10,13 +10,13 @@ from jaxtyping import Bool, Int
 
 from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
-from anymesh.progress import Progress
 from anymesh.prompted.grounding.ask_marks import MarkQuestioner
 from anymesh.prompted.grounding.close_ups import close_ups
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud, seen_points
 from anymesh.prompted.grounding.hidden import inner_faces, unseen_patches
 from anymesh.prompted.grounding.unseen import StaysFree
 from anymesh.rendering.render import View
+from anymesh.runtime import Progress
 from anymesh.types import Mesh
 
 SURE, UNSURE = 0.9, 0.6  # confidence of a part from certain marks, and from uncertain ones

@@ -9,12 +9,12 @@ from pathlib import Path
 from typing import Any
 
 from anymesh.errors import BudgetError, OptionError, OutputError
-from anymesh.files import read_json, write_whole
 from anymesh.prompted.answerers.answers import open_in
 from anymesh.prompted.answerers.file_answerer import open_questions
 from anymesh.prompted.answerers.question_files import QuestionFolder, find_questions, read_question
 from anymesh.prompted.models.prices import cost_of, max_input_tokens
 from anymesh.prompted.models.vision import Request
+from anymesh.runtime import read_json, write_whole
 
 NOTE = "batch.json"  # in the folder of questions: the job that was sent
 SHARE = 0.5  # of the price of single calls

@@ -10,8 +10,8 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from anymesh.files import write_whole
 from anymesh.prompted.models.vision import Reply, Request, VisionModel
+from anymesh.runtime import write_whole
 
 log = logging.getLogger("anymesh")
 FORMAT = "anymesh-answer-1"  # part of the key; change it when the contents of requests change, to invalidate old answers

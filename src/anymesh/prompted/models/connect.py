@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from anymesh.deadline import CALL_SECONDS
 from anymesh.errors import OptionError
 from anymesh.prompted.models.budget import Account, Budgeted
 from anymesh.prompted.models.cache import Cached
@@ -13,6 +12,7 @@ from anymesh.prompted.models.rates import Limiter, RateLimited
 from anymesh.prompted.models.replay import Replay
 from anymesh.prompted.models.retry import Retrying
 from anymesh.prompted.models.vision import VisionModel
+from anymesh.runtime import CALL_SECONDS
 
 
 def open_model(

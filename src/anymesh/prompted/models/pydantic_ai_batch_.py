@@ -6,13 +6,13 @@ from collections.abc import Callable, Coroutine, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from anymesh.deadline import CALL_SECONDS
 from anymesh.errors import ModelError
 from anymesh.prompted.models.address import Address
 from anymesh.prompted.models.limits import fit
 from anymesh.prompted.models.pydantic_ai_ import Client, in_thread, without_keys
 from anymesh.prompted.models.pydantic_ai_wire_ import the_message, the_model, the_parameters, the_settings, the_text
 from anymesh.prompted.models.vision import Request
+from anymesh.runtime import CALL_SECONDS
 
 if TYPE_CHECKING:
     from pydantic_ai.models import Model

@@ -15,7 +15,6 @@ from anymesh.articulation.estimate import joint_of
 from anymesh.articulation.limits import answered_range, opening_as_answered
 from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
-from anymesh.progress import Progress, silent
 from anymesh.prompted.motions.candidate_points import axis_points, cluster_points, followed, superpoint_centres, with_more
 from anymesh.prompted.motions.cases import PartCase, ask_each, make_cases
 from anymesh.prompted.motions.contradictions import contradictions
@@ -28,6 +27,7 @@ from anymesh.prompted.pictures.visual_prompts import Shot, VisualPrompts
 from anymesh.prompted.questions.asking import VisualAnswerer
 from anymesh.prompted.questions.motion_choice import PartFit
 from anymesh.prompted.questions.prompting import ArrowTable, JointAppearance, PointTable, WhichArrows, WhichKinds, WhichPoints
+from anymesh.runtime import Progress, silent
 from anymesh.types import Joint, JointType, Motion, Segmentation
 from anymesh.types.recognition import Recognition
 

@@ -1,13 +1,61 @@
-"""Time limit of a run, divided among its stages."""
+"""What every run shares: its processor cores, its time limit, its progress, and small files that are written atomically."""
 
 from __future__ import annotations
 
+import json
 import math
+import os
+import tempfile
 import time
-from collections.abc import Generator
+from collections.abc import Generator, Mapping
 from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, Protocol, runtime_checkable
 
 from anymesh.errors import OptionError
+
+
+def usable_cores() -> int:
+    """Return the number of cores that this process may use, which can be fewer than the machine has."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+@runtime_checkable
+class Progress(Protocol):
+    """Receives the stage, its current item (such as a part's name), and the counts of items."""
+
+    def __call__(self, stage: str, item: str, done: int, total: int) -> None: ...
+
+
+def silent(stage: str, item: str, done: int, total: int) -> None:
+    """Report nothing; the default."""
+
+
+def write_json(path: Path, value: Mapping[str, Any]) -> None:
+    """Write indented ASCII JSON."""
+    path.write_text(json.dumps(value, indent=1, allow_nan=False) + "\n", encoding="ascii", newline="\n")
+
+
+def read_json(path: Path) -> dict[str, Any] | None:
+    """Read the JSON object in a file, None if there is none."""
+    try:
+        record = json.loads(path.read_bytes())
+    except (OSError, ValueError):
+        return None
+    return record if isinstance(record, dict) else None
+
+
+def write_whole(path: Path, content: bytes) -> None:
+    """Write a file atomically."""
+    handle, temporary = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem[:20]}-", suffix=".part")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(content)
+        Path(temporary).replace(path)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
 
 CALL_SECONDS = 120.0  # [s] default of `--timeout`, for one call of a model
 DEFAULT_SECONDS = 600.0  # [s] default of `--time-limit`

@@ -8,7 +8,7 @@ from multiprocessing import get_context
 
 import pytest
 
-from anymesh.cores import usable_cores
+from anymesh.runtime import usable_cores
 
 
 @pytest.mark.skipif(not hasattr(os, "sched_setaffinity"), reason="the system cannot keep a process to a core")
