@@ -1,4 +1,4 @@
-"""Report of benchmarks/policy.py: success rates with intervals and a paired test, curves, failures, errors of the joints."""
+"""Report of `python -m training.policy`: success rates with a paired test, curves, failures, errors of the joints."""
 
 from __future__ import annotations
 

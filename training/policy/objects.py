@@ -1,7 +1,7 @@
 """Laptops and buckets for the policy experiment, with exact joints: plain ones, and designs that vary more.
 
 The plain laptops are those of `training/kinds`. The designs stand for meshes of artists: they are written as one mesh without
-names, which `anymesh annotate` turns into assets. `python -m benchmarks.policy_objects FOLDER` writes all of them.
+names, which `anymesh annotate` turns into assets. `python -m training.policy.objects FOLDER` writes all of them.
 """
 
 from __future__ import annotations

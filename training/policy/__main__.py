@@ -1,9 +1,9 @@
 """The paper's table 2: policies fine-tuned on plain objects, or on these and objects that went through the pipeline.
 
-    python -m benchmarks.policy WORK [--size cpu|gpu|smoke] [--seeds 5] [--things laptop,bucket] [--until HH:MM]
+    python -m training.policy WORK [--size cpu|gpu|smoke] [--seeds 5] [--things laptop,bucket] [--until HH:MM]
                                 [--true-joints] [--report-only]
 
-Plain objects have exact joints and stand for PartNet-Mobility. The others are designs (policy_objects.py) written as one mesh
+Plain objects have exact joints and stand for PartNet-Mobility. The others are designs (objects.py) written as one mesh
 without names, which `anymesh annotate` turns into assets. One policy per thing is trained on plain objects; from it, with equal
 steps, `baseline` goes on with plain objects, `augmented` with both. Every policy is evaluated without exploration on held-out
 plain objects and held-out assets, each from 100 random poses. Everything finished is kept: the same command resumes.
@@ -30,8 +30,8 @@ from anymesh.errors import AnymeshError
 from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.evaluation.protocols import prepared
 from anymesh.export import write_asset
-from benchmarks.policy_objects import write_object
-from benchmarks.policy_report import TEST_SEED, write_report
+from training.policy.objects import write_object
+from training.policy.report import TEST_SEED, write_report
 
 TASKS = {"laptop": PolicyTask.OPEN, "bucket": PolicyTask.LIFT}
 ARMS = ("baseline", "augmented")

@@ -1,6 +1,7 @@
-"""Draw what the geometry answerer does with one object, step by step, for docs/method.md.
+"""Draw the pictures of two pages for one of the examples.
 
-python -m benchmarks.method FOLDER [NAME] [--part PART]      writes patches, candidates, parts, motions and joints as PNG
+python docs/pictures.py method FOLDER [NAME] [--part PART]     method.md: patches, candidates, motions and joints
+python docs/pictures.py questions FOLDER [NAME] [--all]        vlm.md: a picture per question, and questions.txt
 """
 
 from __future__ import annotations
@@ -16,6 +17,10 @@ from anymesh.articulation.estimate import motion_questions
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.rank_motions import motion_scores
 from anymesh.config import Config
+from anymesh.evaluation.ground_truth import example_truths
+from anymesh.evaluation.oracle import oracle
+from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.simulated_vlm import SimulatedVlm
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline import articulate
 from anymesh.pipeline.solving import Solver
@@ -32,7 +37,7 @@ from anymesh.segmentation.part_classifier import score_parts, shipped_classifier
 from anymesh.segmentation.segment import examine_candidates
 from anymesh.types import JointType, Mesh, Picture
 
-EXAMPLES = Path(__file__).parents[1] / "examples" / "meshes"
+EXAMPLES = Path(__file__).parents[1] / "examples"
 MOST = 9  # candidates that are drawn
 MOTIONS = 7  # motions that are drawn
 
@@ -69,38 +74,62 @@ def motions(
     return studio.strip(moving, title, [c.opening_motion for _, c in shown], amounts)
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description="Draw what the geometry answerer does with one object.")
-    parser.add_argument("folder", type=Path, help="where the pictures go")
-    parser.add_argument("name", nargs="?", default="cabinet", help="an example")
-    parser.add_argument("--part", type=int, default=1, help="whose motions are drawn")
-    options = parser.parse_args()
-    options.folder.mkdir(parents=True, exist_ok=True)
-    config, path = Config(), EXAMPLES / f"{options.name}.glb"
-    mesh = place_mesh(load_mesh(path)).mesh
-    solver = Solver(mesh, config)
+def draw_method(folder: Path, name: str, part: int) -> None:
+    """Draw what the geometry answerer does with an example, step by step. part: whose motions are drawn."""
+    config, path = Config(), EXAMPLES / "meshes" / f"{name}.glb"
+    solver = Solver(place_mesh(load_mesh(path)).mesh, config)
     mesh = solver.geometry.mesh  # straight
     studio = VisualPrompts(mesh, config)
     contacts = find_contacts(solver.whole, config.segmentation)
     tree = part_candidates(mesh, solver.whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
     tree, place, rows = examine_candidates(mesh, tree, config)
     score, _ = score_parts(tree, place, rows)
+    chosen = assign_parts(tree.overlap, shipped_classifier().probability(score))
     found = solver.parts().segmentation
-    _, _, context, question = sorted(motion_questions(solver.whole, found, config), key=lambda m: m[0])[options.part - 1]
+    _, _, context, question = sorted(motion_questions(solver.whole, found, config), key=lambda m: m[0])[part - 1]
     scores = motion_scores(question)
     ranked = [(float(scores[k]), question.candidates[k]) for k in np.argsort(-scores, kind="stable")]
     drawn = {
         "patches": patches(studio, mesh, tree),
-        "candidates": candidates(studio, tree, score, assign_parts(tree.overlap, shipped_classifier().probability(score))),
-        "motions": motions(
-            studio, found.face_part == options.part, ranked, context.tolerance_length, context.part.box.diagonal
-        ),
+        "candidates": candidates(studio, tree, score, chosen),
+        "motions": motions(studio, found.face_part == part, ranked, context.tolerance_length, context.part.box.diagonal),
     }
-    for name, picture in drawn.items():
-        (options.folder / f"{name}.png").write_bytes(picture.png)
-    with tempfile.TemporaryDirectory() as place:
-        articulate(path, Path(place) / "asset")
-        shutil.copyfile(Path(place) / "asset" / "preview.png", options.folder / "joints.png")
+    for what, picture in drawn.items():
+        (folder / f"{what}.png").write_bytes(picture.png)
+    with tempfile.TemporaryDirectory() as out:
+        articulate(path, Path(out) / "asset")
+        shutil.copyfile(Path(out) / "asset" / "preview.png", folder / "joints.png")
+
+
+def draw_questions(folder: Path, name: str, every: bool) -> None:
+    """Draw what a model is shown for an example. every: all pictures of each question, not the first."""
+    truth = next(t for t in example_truths(EXAMPLES) if t.name == name)
+    mesh = place_mesh(load_mesh(truth.mesh)).mesh
+    solver = Solver(mesh, answerer_factory=lambda fallback: SimulatedVlm(oracle(prepared(truth)), fallback))
+    recognized = solver.recognize()
+    segmented = solver.parts("auto", recognized.recognition)
+    jointed = solver.joints(segmented.segmentation, recognized.recognition)
+    questions = []
+    for exchange in (*recognized.exchanges, *segmented.exchanges, *jointed.exchanges):
+        questions.append(f"{exchange.kind} ({len(exchange.pictures)} pictures)\n{exchange.text}\n-> {exchange.answer}\n")
+        for k, picture in enumerate(exchange.pictures if every else exchange.pictures[:1], start=1):
+            (folder / f"{name}_{exchange.kind}{f'_{k}' if every else ''}.png").write_bytes(picture.png)
+    (folder / "questions.txt").write_text("\n".join(questions), encoding="utf-8")
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description="Draw the pictures of two pages for one of the examples.")
+    parser.add_argument("what", choices=("method", "questions"))
+    parser.add_argument("folder", type=Path, help="where the pictures go")
+    parser.add_argument("name", nargs="?", help="an example; by default cabinet for method, microwave for questions")
+    parser.add_argument("--part", type=int, default=1, help="for method: whose motions are drawn")
+    parser.add_argument("--all", action="store_true", help="for questions: all pictures of each, not the first")
+    options = parser.parse_args()
+    options.folder.mkdir(parents=True, exist_ok=True)
+    if options.what == "method":
+        draw_method(options.folder, options.name or "cabinet", options.part)
+    else:
+        draw_questions(options.folder, options.name or "microwave", options.all)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """How often joints are right, and how sure, if answers are wrong on purpose (`prompted/motions/answer_evidence.py`).
 
-python -m benchmarks.confidence DATASET... [--step 1] [--rounds 2] [--markdown FILE]      data sets as `anymesh eval` names them
+python -m training.confidence DATASET... [--step 1] [--rounds 2] [--markdown FILE]      data sets as `anymesh eval` names them
 
 Parts are given. Every question is answered from the truth, each item wrong with a probability from 0 to .5, or all at random.
 """
