@@ -5,8 +5,11 @@ from __future__ import annotations
 import os
 import signal
 import time
+from collections.abc import Callable
 
 import numpy as np
+
+from anymesh.errors import OptionError
 
 
 def add(a: int, b: int) -> int:
@@ -31,6 +34,16 @@ def fail() -> None:
 
 def give_up() -> None:
     raise TimeoutError("more than 9 faces")
+
+
+def refuse() -> None:
+    raise OptionError("--up: found 'w'")
+
+
+def count(to: int, report: Callable[..., None]) -> int:
+    for k in range(to):
+        report("step", k)
+    return to
 
 
 def chatter() -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import subprocess
@@ -47,6 +48,7 @@ def test_results_come_back_from_a_warm_child(pool):
         ("crash", {}, Failure.CRASH, f"signal {int(signal.SIGSEGV)}"),
         ("eat", {"size": 8 << 30}, Failure.MEMORY, "allocate"),
         ("fail", {}, Failure.ERROR, "error: ValueError: three legs"),
+        ("refuse", {}, Failure.INVALID, "invalid: --up: found 'w'"),
         ("give_up", {}, Failure.TIME, "time limit: more than 9 faces"),
     ],
 )
@@ -55,6 +57,14 @@ def test_a_failure_is_told_and_the_next_call_works(pool, function, arguments, fa
         pool.run(FAULTY, function, arguments)
     assert caught.value.failure is failure
     assert pool.run(FAULTY, "add", {"a": 1, "b": 1}) == 2
+
+
+def test_messages_come_back_in_order_before_the_result(monkeypatch):
+    monkeypatch.syspath_prepend(HERE)
+    seen = []
+    with ChildPool(1, ChildLimits(seconds=math.inf, memory=0)) as pool:
+        assert pool.run(FAULTY, "count", {"to": 3}, on_message=lambda *fields: seen.append(fields)) == 3
+    assert seen == [("step", 0), ("step", 1), ("step", 2)]
 
 
 def test_a_call_that_hangs_is_ended_at_its_time_limit(pool):
@@ -158,3 +168,38 @@ def test_elapsed_time_has_a_limit_of_its_own(monkeypatch):
     monkeypatch.syspath_prepend(HERE)
     with ChildPool(1, ChildLimits(seconds=30.0, wall=0.5)) as pool, pytest.raises(ChildError, match=r"time limit: 0\.5 s"):
         pool.run(FAULTY, "hang", {})
+
+
+SCRIPT = """
+import os, time
+from anymesh.isolation.pool import worker_processes
+
+if __name__ == "__main__":
+    with worker_processes(1) as pool:
+        print(pool.submit(os.getpid).result(), flush=True)
+        pool.submit(time.sleep, 120).result()
+"""
+
+
+def is_running(process: int) -> bool:
+    try:
+        os.kill(process, 0)
+    except ProcessLookupError:
+        return False
+    return "\nState:\tZ" not in Path(f"/proc/{process}/status").read_text()
+
+
+def test_a_worker_ends_when_its_parent_is_killed(tmp_path: Path) -> None:
+    script = tmp_path / "parent.py"
+    script.write_text(SCRIPT)
+    parent = subprocess.Popen([sys.executable, str(script)], stdout=subprocess.PIPE, text=True)
+    assert parent.stdout is not None
+    worker = int(parent.stdout.readline())
+    assert is_running(worker)
+    parent.send_signal(signal.SIGKILL)
+    parent.wait()
+    parent.stdout.close()
+    end = time.monotonic() + 30
+    while is_running(worker) and time.monotonic() < end:
+        time.sleep(0.05)
+    assert not is_running(worker)

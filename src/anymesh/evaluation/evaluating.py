@@ -29,7 +29,7 @@ from anymesh.evaluation.report import write_report
 from anymesh.evaluation.results import ResultsFolder
 from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.training import trained_note
-from anymesh.isolation.workers import worker_processes
+from anymesh.isolation.pool import worker_processes
 from anymesh.names import legal_name, listed
 from anymesh.pipeline.options import GEOMETRY, Answering
 from anymesh.pipeline.solving import solve

@@ -1,4 +1,4 @@
-"""Main loop of a child process: read a call from standard input, run it, write its result.
+"""Main loop of a child process: read a call from standard input, run it, write its progress and its result.
 
 A message is an 8-byte little-endian length and a pickle. Only the parent writes here, so the pickles are trusted.
 """
@@ -11,10 +11,12 @@ import math
 import os
 import pickle
 import sys
+import threading
 from importlib import import_module
 from typing import IO, Any
 
 from anymesh.deferred import deferred
+from anymesh.errors import AnymeshError
 
 LENGTH = 8  # [bytes] of the length before each message
 PATIENCE = 6.0  # maximum wall time per processor time; a slower call hangs, even on a busy machine
@@ -28,8 +30,32 @@ def write_message(stream: IO[bytes], value: Any) -> None:
     stream.flush()
 
 
+def read_message(stream: IO[bytes]) -> Any:
+    """Read one value. Raise EOFError if the stream ends before or within it."""
+    head = stream.read(LENGTH)
+    size = int.from_bytes(head, "little")
+    data = stream.read(size)
+    if len(head) < LENGTH or len(data) < size:
+        raise EOFError
+    return pickle.loads(data)
+
+
+class Reporter:
+    """Sends messages of the running call to the parent; may be called from any thread."""
+
+    def __init__(self, replies: IO[bytes]) -> None:
+        self._replies, self._lock = replies, threading.Lock()
+
+    def __call__(self, *fields: Any) -> None:
+        """Send picklable values, which the parent passes to the call's `on_message`."""
+        with self._lock:
+            write_message(self._replies, ("message", fields))
+
+
 def limit_memory(size: int) -> None:
-    """Limit the address space of this process to `size` bytes, if the system can (not on Windows)."""
+    """Limit the address space of this process to `size` bytes (0: no limit), if the system can (not on Windows)."""
+    if size == 0:
+        return
     try:
         import resource
 
@@ -43,6 +69,8 @@ def limit_time(seconds: float | None) -> None:
 
     None lifts the limit.
     """
+    if seconds == math.inf:
+        return
     try:
         import resource
 
@@ -74,13 +102,18 @@ def end_with_parent(lifeline: int) -> None:
 
 
 def call(module: str, function: str, arguments: dict[str, Any]) -> tuple[str, Any]:
-    """Run one call; return ("done", its result), ("memory", why), ("time", why) or ("error", why)."""
+    """Run one call.
+
+    Return ("done", its result), ("memory", why), ("time", why), ("invalid", the message of an AnymeshError) or ("error", why).
+    """
     try:
         return "done", getattr(import_module(module), function)(**arguments)
     except MemoryError as error:
         return "memory", str(error)
     except TimeoutError as error:  # a limit of the called function
         return "time", str(error)
+    except AnymeshError as error:
+        return "invalid", str(error)
     except Exception as error:
         return "error", f"{type(error).__name__}: {error}"
 
@@ -100,11 +133,23 @@ def main() -> None:
         for module in sys.argv[2].split():
             with contextlib.suppress(ImportError):  # the call that needs it reports the error
                 import_module(module)
-    while head := requests.read(LENGTH):
-        module, function, arguments, seconds, wall = pickle.loads(requests.read(int.from_bytes(head, "little")))
+    with contextlib.suppress(EOFError):
+        while True:
+            serve(read_message(requests), replies)
+
+
+def serve(request: tuple[Any, ...], replies: IO[bytes]) -> None:
+    """Run one call within its limits and write its result.
+
+    request: module, function, arguments, limits of processor time and elapsed time [s], and whether it gets a `report`.
+    """
+    module, function, arguments, seconds, wall, reports = request
+    if reports:
+        arguments = {**arguments, "report": Reporter(replies)}
+    if wall < math.inf:
         faulthandler.dump_traceback_later(wall + GRACE, exit=True)
-        limit_time(seconds)
-        answer = call(module, function, arguments)
-        faulthandler.cancel_dump_traceback_later()
-        limit_time(None)
-        write_message(replies, answer)
+    limit_time(seconds)
+    answer = call(module, function, arguments)
+    faulthandler.cancel_dump_traceback_later()
+    limit_time(None)
+    write_message(replies, answer)

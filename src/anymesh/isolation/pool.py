@@ -4,20 +4,21 @@ from __future__ import annotations
 
 import atexit
 import contextlib
+import multiprocessing
 import os
-import pickle
 import signal
 import subprocess
 import sys
 import threading
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
 from typing import Any
 
-from anymesh.isolation.child import LENGTH, PATIENCE, write_message
+from anymesh.isolation.child import PATIENCE, read_message, write_message
 from anymesh.runtime import usable_cores
 
 START_AFTER = 0.3  # [s] total waiting time of calls before another child is started, which takes about as long
@@ -30,26 +31,33 @@ class Failure(StrEnum):
     CRASH = "crash"  # the process ended
     TIME = "time limit"
     MEMORY = "memory limit"
-    ERROR = "error"  # the function raised
+    INVALID = "invalid"  # the function raised an AnymeshError, whose message is the detail
+    ERROR = "error"  # the function raised anything else
 
 
-FAILURES = {"memory": Failure.MEMORY, "time": Failure.TIME, "error": Failure.ERROR}  # by the kind of a child's answer
+FAILURES = {  # by the kind of a child's answer
+    "memory": Failure.MEMORY,
+    "time": Failure.TIME,
+    "invalid": Failure.INVALID,
+    "error": Failure.ERROR,
+}
 
 
 class ChildError(Exception):
-    """A call that gave no result. The message states the reason."""
+    """A call that gave no result. The message states the reason, `detail` without the kind of failure."""
 
     def __init__(self, failure: Failure, detail: str = "") -> None:
         super().__init__(f"{failure.value}: {detail}" if detail else failure.value)
-        self.failure = failure
+        self.failure, self.detail = failure, detail
 
 
 @dataclass(frozen=True)
 class ChildLimits:
     """Limits of one child process.
 
-    seconds: processor time of one call [s]; wall: elapsed time of one call [s], by default PATIENCE times its processor time;
-    memory: address space [bytes]; calls: number of calls after which a child is replaced.
+    seconds: processor time of one call [s], math.inf for no limit; wall: elapsed time of one call [s], by default PATIENCE
+    times its processor time; memory: address space [bytes], 0 for no limit; calls: number of calls after which a child is
+    replaced.
     """
 
     seconds: float = 60.0
@@ -74,19 +82,28 @@ class ChildPool:
         self._live: set[_Child] = set()
         self._closed = False
 
-    def run(self, module: str, function: str, arguments: Mapping[str, Any], *, seconds: float | None = None) -> Any:
+    def run(
+        self,
+        module: str,
+        function: str,
+        arguments: Mapping[str, Any],
+        *,
+        seconds: float | None = None,
+        on_message: Callable[..., None] | None = None,
+    ) -> Any:
         """Call a function of a module in a child and return its result.
 
-        arguments: keyword arguments, which are pickled; seconds: processor time for this call [s], at most the pool's.
+        arguments: keyword arguments, which are pickled; seconds: processor time for this call [s], at most the pool's;
+        on_message: the function gets a further argument `report`; what it passes to it, this is called with, in this thread.
 
-        Raise ChildError on failure, after which the next call gets a new child.
+        Raise ChildError on failure, after which the next call gets a new child if the process ended.
         """
         limit = min(self.limits.seconds, seconds) if seconds is not None else self.limits.seconds
         child, kept = self._free_child(), None
         try:
             child = child or self._started((module,))
             wall = PATIENCE * limit if self.limits.wall is None else self.limits.wall
-            kind, result = child.call((module, function, dict(arguments), limit, wall), wall)
+            kind, result = child.call((module, function, dict(arguments), limit, wall, on_message is not None), on_message)
             kept = child if self.limits.calls is None or child.calls < self.limits.calls else None
         finally:
             if kept is None and child is not None:
@@ -176,36 +193,34 @@ class _Child:
         finally:
             _close(theirs)
 
-    def call(self, request: tuple[Any, ...], wall: float) -> tuple[str, Any]:
-        """Send a request and wait for the answer at most `wall` [s].
+    def call(self, request: tuple[Any, ...], on_message: Callable[..., None] | None) -> tuple[str, Any]:
+        """Send a request (see `child.serve`) and wait for the answer.
 
         Raise ChildError if the process ends or the time is over.
         """
         self.calls += 1
+        *_, seconds, wall, _ = request
         late = threading.Event()
-        timer = threading.Timer(wall, lambda: (late.set(), self._process.kill()))
+        timer = threading.Timer(min(wall, threading.TIMEOUT_MAX), lambda: (late.set(), self._process.kill()))
         timer.daemon = True
         timer.start()
         try:
             assert self._process.stdin is not None
+            assert self._process.stdout is not None
             write_message(self._process.stdin, request)
-            return self._answer()
+            while True:
+                kind, content = read_message(self._process.stdout)
+                if kind != "message":
+                    return kind, content
+                if on_message is not None:
+                    on_message(*content)
         except (OSError, EOFError):
             code = self._process.wait()
             if late.is_set() or -code == getattr(signal, "SIGXCPU", None):
-                raise ChildError(Failure.TIME, f"{wall if late.is_set() else request[3]:g} s") from None
+                raise ChildError(Failure.TIME, f"{wall if late.is_set() else seconds:g} s") from None
             raise ChildError(Failure.CRASH, f"signal {-code}" if code < 0 else f"exit code {code}") from None
         finally:
             timer.cancel()
-
-    def _answer(self) -> tuple[str, Any]:
-        assert self._process.stdout is not None
-        head = self._process.stdout.read(LENGTH)
-        size = int.from_bytes(head, "little")
-        data = self._process.stdout.read(size)
-        if len(head) < LENGTH or len(data) < size:
-            raise EOFError
-        return pickle.loads(data)
 
     def kill(self) -> None:
         self._process.kill()
@@ -238,3 +253,18 @@ def shared_pool() -> ChildPool:
 
 if hasattr(os, "register_at_fork"):  # a forked process must not share the pipes
     os.register_at_fork(after_in_child=shared_pool.cache_clear)
+
+
+def worker_processes(count: int) -> ProcessPoolExecutor:
+    """Return an executor of new processes.
+
+    Workers of a killed process otherwise finish what they do and then wait without end for more, since each of them keeps the
+    queue open.
+    """
+    return ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=_end_with_parent)
+
+
+def _end_with_parent() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()
