@@ -139,11 +139,3 @@ def test_an_unsure_joint_says_what_would_help(mesh, capfd, monkeypatch) -> None:
     monkeypatch.setattr(results, "LOW_CONFIDENCE", 0.0)
     code, out, _ = called(capfd, "articulate", mesh, "-o", "sure", "--formats", "urdf", *PARTS, "--json")
     assert (code, json.loads(out)["hint"], json.loads(out)["answerer"]) == (0, "", "geometry")
-
-
-def test_auto_says_what_it_takes(mesh, capfd, monkeypatch) -> None:
-    for variable in ("OLLAMA_BASE_URL", "LM_STUDIO_BASE_URL", "VLLM_BASE_URL"):
-        monkeypatch.setenv(variable, "127.0.0.1:9")
-    code, out, _ = called(capfd, "segment", mesh, "-o", "out", "--answerer", "auto", *PARTS)
-    assert code == 0
-    assert "auto uses geometry: no local model" in out

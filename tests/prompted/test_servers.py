@@ -1,4 +1,4 @@
-"""Servers on one's own machine: their names, what they say, and what `auto` takes."""
+"""Servers on one's own machine: their names, addresses and models."""
 
 import http.server
 import json
@@ -13,10 +13,9 @@ from wire import SECRET, Service, a_request
 
 from anymesh.cli import run
 from anymesh.errors import OptionError
-from anymesh.prompted.answerers.answering import choose_answerer, resolve_auto
 from anymesh.prompted.models.address import parse_address
 from anymesh.prompted.models.connect import open_model
-from anymesh.prompted.models.servers import SERVERS, LocalModel, first_vision_model, probe_servers
+from anymesh.prompted.models.servers import SERVERS, probe_servers
 
 VARIABLES = [v for server in SERVERS.values() for v in (*server.variables, *server.keys)]
 
@@ -32,20 +31,16 @@ def bare(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @contextmanager
 def listening(says: dict[str, object]) -> Iterator[str]:
-    """Answers each path with JSON, raw bytes, or what a function makes of the request's body."""
+    """Answer each path with JSON or raw bytes."""
 
     class Handler(http.server.BaseHTTPRequestHandler):
         def do_GET(self) -> None:
-            body = json.loads(self.rfile.read(int(self.headers.get("content-length") or 0)) or b"null")
             found = says.get(self.path)
-            found = found(body) if callable(found) else found
             content = found if isinstance(found, bytes) else json.dumps(found).encode()
             self.send_response(404 if found is None else 200)
             self.send_header("content-length", str(len(content)))
             self.end_headers()
             self.wfile.write(content)
-
-        do_POST = do_GET  # noqa: N815
 
         def log_message(self, *args: object) -> None: ...
 
@@ -94,27 +89,14 @@ def test_a_bad_place_is_an_error_that_does_not_repeat_it(told: str, monkeypatch:
     assert probe_servers(0.2)[0].models is None
 
 
-def test_servers_tell_what_they_have_and_what_sees(monkeypatch: pytest.MonkeyPatch) -> None:
-    def shown(body: dict[str, str]) -> dict[str, object]:
-        return {"capabilities": ["completion", "vision"] if body["model"] == "llava" else ["completion"]}
-
-    studio = {"data": [{"id": "words", "type": "llm"}, {"id": "eyes", "type": "vlm"}]}
+def test_servers_list_their_models(monkeypatch: pytest.MonkeyPatch) -> None:
     with (
-        listening({"/v1/models": listed("llama", "llava"), "/api/show": shown}) as ollama,
-        listening({"/v1/models": listed("words", "eyes"), "/api/v0/models": studio}) as lmstudio,
+        listening({"/v1/models": listed("llama", "llava")}) as ollama,
         listening({"/v1/models": listed("some/model")}) as vllm,
     ):
-        for server, place in zip(SERVERS.values(), (ollama, lmstudio, vllm), strict=True):
-            monkeypatch.setenv(server.variables[0], place)
-        found = probe_servers()
-        assert [f.models for f in found] == [
-            (LocalModel("ollama:llama", False), LocalModel("ollama:llava", True)),
-            (LocalModel("lmstudio:words", False), LocalModel("lmstudio:eyes", True)),
-            (LocalModel("vllm:some/model", None),),
-        ]
-        assert resolve_auto("auto")[0] == "ollama:llava"
-        monkeypatch.setenv("OLLAMA_BASE_URL", "127.0.0.1:9")
-        assert choose_answerer({"answerer": "auto", "max_cost": 0.1}).name == "lmstudio:eyes"
+        monkeypatch.setenv("OLLAMA_BASE_URL", ollama)
+        monkeypatch.setenv("VLLM_BASE_URL", vllm)
+        assert [f.models for f in probe_servers()] == [("ollama:llama", "ollama:llava"), None, ("vllm:some/model",)]
 
 
 @pytest.mark.parametrize("says", [b"<html>", {"data": 3}, {"models": []}, [], {"data": [{}]}])
@@ -124,15 +106,6 @@ def test_something_else_on_the_port_is_no_server(says: object, monkeypatch: pyte
         found = probe_servers()[2]
     assert found.models is None
     assert "lists no models" in found.note
-
-
-def test_auto_takes_nothing_that_costs(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("OPENAI_API_KEY", SECRET)
-    name, told = resolve_auto("auto")
-    assert name == "geometry"
-    assert "no local model" in told
-    far = [f for f in probe_servers() if f.models is None]
-    assert first_vision_model(far) is None
 
 
 def test_models_shows_which_keys_are_set_and_never_what_they_are(monkeypatch: pytest.MonkeyPatch, capsys) -> None:
@@ -148,7 +121,6 @@ def test_models_shows_which_keys_are_set_and_never_what_they_are(monkeypatch: py
     told = {k["variable"]: k["set"] for k in found["keys"]}
     assert (told["OPENAI_API_KEY"], told["ANTHROPIC_API_KEY"]) == (True, False)
     assert not any(s["answers"] for s in found["servers"])
-    assert found["auto"] == "geometry"
 
 
 def test_a_local_model_is_asked_with_its_own_key(service: Service, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:

@@ -82,8 +82,8 @@ def _making(work: ToolRunner) -> tuple[Callable[..., Any], ...]:
         mesh: MeshPath,
         out: OutPath,
         answerer: Annotated[
-            Literal["files", "geometry", "auto"],
-            Field(description="files: you answer from pictures; geometry: no questions; auto: a local model, else geometry."),
+            Literal["files", "geometry"],
+            Field(description="files: you answer from pictures; geometry: no questions."),
         ] = "files",
         parts: Annotated[str, Field(description="auto, nodes (the scene's), or a file of face labels.")] = "auto",
         category: Annotated[str | None, Field(description="What the object is, where that is known.")] = None,

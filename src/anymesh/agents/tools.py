@@ -24,7 +24,7 @@ from anymesh.runtime import DEFAULT_SECONDS, Progress, read_json, silent
 
 AUTHOR = "agent"  # in the log of corrections
 QUESTIONS = ".questions"  # suffix of the folder with an output's questions, beside the output
-ANSWERERS = ("files", "geometry", "auto")  # only answerers that cost nothing
+ANSWERERS = ("files", "geometry")  # only answerers that cost nothing
 SHEET_FROM = 5  # number of pictures from which they are shown as one sheet by default
 
 

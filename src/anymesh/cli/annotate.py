@@ -12,7 +12,7 @@ import typer
 
 from anymesh.cli.from_options import OptionsOf, with_options
 from anymesh.cli.options import Formats, Json, Parts, Quiet, Time
-from anymesh.cli.output import chosen_answerer, ended_by_signal, plain
+from anymesh.cli.output import ended_by_signal, plain
 from anymesh.errors import InputError, OpenQuestionError, OptionError
 from anymesh.pipeline.options import AnswererOptions, PlacementOptions
 
@@ -92,7 +92,6 @@ def annotate(
         raise OptionError("found no INPUT or no --out; valid is `anymesh annotate INPUT -o OUT`, or `--status OUT`")
     from anymesh.applications.annotate.annotate import Speed
 
-    answering["answerer"] = chosen_answerer(answering["answerer"], quiet or json_)
     options: dict[str, Any] = {"parts": parts, **placement, **writing, **time, **answering}
     speed = Speed(workers, memory, kill_after, attempts, requests_per_minute, tokens_per_minute, patience, ray)
     if dry_run:

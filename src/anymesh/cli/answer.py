@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from anymesh.cli.options import Json, MaxCost, Quiet
+from anymesh.cli.options import Json, Quiet
 from anymesh.cli.output import plain
-from anymesh.errors import OptionError
 
 if TYPE_CHECKING:
     from anymesh.prompted.answerers.question_files import QuestionFolder
@@ -27,30 +26,10 @@ Value = Annotated[
 ]
 
 
-BatchApi = Annotated[
-    str | None,
-    typer.Option(
-        "--batch-api", metavar="MODEL", help="Send all open questions to MODEL's batch API as one job, or collect it."
-    ),
-]
-
-
-def answer(
-    folder: QuestionsPath,
-    value: Value = None,
-    batch_api: BatchApi = None,
-    max_cost: MaxCost = None,
-    json_: Json = False,
-    quiet: Quiet = False,
-) -> None:
+def answer(folder: QuestionsPath, value: Value = None, json_: Json = False, quiet: Quiet = False) -> None:
     """Show the open question in FOLDER, or answer it with VALUE, which is checked immediately."""
     from anymesh.prompted.answerers.answers import open_in, record_answer
 
-    if batch_api is not None:
-        if value is not None:
-            raise OptionError("--batch-api answers all open questions; leave VALUE out")
-        _answer_by_batch(folder, batch_api, max_cost, json_, quiet)
-        return
     if value is not None:
         saved = record_answer(folder, _read(value))
         if json_:
@@ -65,18 +44,6 @@ def answer(
         typer.echo(_shown(questions))
     else:
         typer.echo("no question is open; run the command that asks them again to resume")
-
-
-def _answer_by_batch(folder: Path, model: str, max_cost: float | None, json_: bool, quiet: bool) -> None:
-    from dataclasses import asdict
-
-    from anymesh.prompted.models.batch_api import answer_by_batch
-
-    state = answer_by_batch(folder, model, max_cost=max_cost)
-    if json_:
-        typer.echo(json.dumps(asdict(state), indent=2))
-    elif not quiet:
-        typer.echo(plain(state.words().replace("\n", "; ")))
 
 
 def question_record(question: QuestionFolder) -> dict[str, Any]:

@@ -9,7 +9,7 @@ import typer
 
 from anymesh.cli.from_options import with_options
 from anymesh.cli.options import Answering, Formats, Json, Out, Parts, Placement, Quiet, Running
-from anymesh.cli.output import Shown, chosen_answerer, plain, print_asset, print_result
+from anymesh.cli.output import Shown, plain, print_asset, print_result
 from anymesh.errors import AnymeshError, OpenQuestionError, OptionError
 from anymesh.isolation import AHEAD, shared_pool
 
@@ -39,7 +39,6 @@ def articulate(
     shared_pool().warm(*AHEAD)  # the child processes import while this process does
     from anymesh import pipeline
 
-    answering["answerer"] = chosen_answerer(answering["answerer"], quiet or json_)
     options: dict[str, Any] = {"parts": parts, **placement, **writing, **running, **answering}
     if batch:
         _articulate_many(mesh, out, options, json_, quiet)

@@ -11,7 +11,7 @@ import typer
 
 from anymesh.cli.from_options import OptionsOf, with_options
 from anymesh.cli.options import Completion, Formats, Json, Out, Placement, Quiet, Running
-from anymesh.cli.output import Shown, chosen_answerer, ended_by_signal, plain, print_asset
+from anymesh.cli.output import Shown, ended_by_signal, plain, print_asset
 from anymesh.pipeline.options import AnswererOptions
 
 if TYPE_CHECKING:
@@ -70,7 +70,7 @@ def generate(
     if dry_run:
         _print_explanation(explain_generation(prompt, out, answerer=answerer, **options), json_)
         return
-    options["answerer"] = chosen_answerer(answerer, quiet or json_)
+    options["answerer"] = answerer
     with ended_by_signal(), Shown(quiet or json_) as progress:
         asset = run(prompt, out, progress=progress, **options)
     print_asset(asset, out, json_, quiet)

@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from anymesh.cli.from_options import OptionsOf, with_options
 from anymesh.cli.options import Folder, Json, Quiet, Time
-from anymesh.cli.output import JOINT_COLUMNS, Shown, chosen_answerer, joint_row, print_result
+from anymesh.cli.output import JOINT_COLUMNS, Shown, joint_row, print_result
 from anymesh.pipeline.options import AnswererOptions
 
 
@@ -22,7 +22,6 @@ def joints(
     """Run only Stage B: find the joints of the parts in DIR. Continue with `anymesh export DIR`."""
     from anymesh import pipeline
 
-    answering["answerer"] = chosen_answerer(answering["answerer"], quiet or json_)
     with Shown(quiet or json_) as progress:
         estimated_joints = pipeline.joints(folder, progress=progress, **time, **answering)
     rows = [joint_row(j) for j in estimated_joints]

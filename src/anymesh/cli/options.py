@@ -25,7 +25,6 @@ Running = Annotated[dict[str, Any], OptionsOf(RunOptions)]
 Time = Annotated[dict[str, Any], OptionsOf(RunOptions, without=("force",))]
 Force = Annotated[bool, option_of(RunOptions, "force")]
 MaxCalls = Annotated[int | None, option_of(AnswererOptions, "max_calls")]
-MaxCost = Annotated[float | None, option_of(AnswererOptions, "max_cost")]
 Root = Annotated[Path | None, option_of(PlacementOptions, "root")]
 Seed = Annotated[int, option_of(AnswererOptions, "seed")]
 Package = Annotated[

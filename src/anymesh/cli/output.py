@@ -82,20 +82,8 @@ def unsure_hint(asset: Asset) -> str:
     joints = "1 joint is" if count == 1 else f"{count} joints are"
     return (
         f"{joints} unsure; better answers: --answerer files:FOLDER (you, or an agent, answer from pictures), "
-        "--answerer auto (a local model; `anymesh models`), or correct it in `anymesh view`"
+        "--answerer ollama:MODEL (a local model; `anymesh models`), or correct it in `anymesh view`"
     )
-
-
-def chosen_answerer(name: str, hidden: bool) -> str:
-    """Return the answerer's name; for `auto`, the chosen one, which is also printed."""
-    if name != "auto":
-        return name
-    from anymesh.prompted.answerers.answering import resolve_auto
-
-    name, reason = resolve_auto(name)
-    if not hidden:
-        typer.echo(plain(reason))
-    return name
 
 
 def _spent(usage: dict[str, Any], out: Path) -> str:

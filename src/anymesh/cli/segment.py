@@ -6,7 +6,7 @@ from typing import Annotated, Any
 
 from anymesh.cli.from_options import OptionsOf, with_options
 from anymesh.cli.options import Json, MeshPath, Out, Parts, Placement, Quiet, Running
-from anymesh.cli.output import Shown, chosen_answerer, print_result
+from anymesh.cli.output import Shown, print_result
 from anymesh.pipeline.options import AnswererOptions
 
 
@@ -25,7 +25,6 @@ def segment(
     """Run only Stage A: find the parts. Continue with `anymesh joints DIR`."""
     from anymesh import pipeline
 
-    answering["answerer"] = chosen_answerer(answering["answerer"], quiet or json_)
     with Shown(quiet or json_) as progress:
         segmentation = pipeline.segment(mesh, out, parts=parts, progress=progress, **placement, **running, **answering)
     rows = [

@@ -12,7 +12,7 @@ from anymesh import pipeline
 from anymesh.errors import AnymeshError, BudgetError, InputError, MissingExtraError, OpenQuestionError, OptionError, OutputError
 from anymesh.loading.checks import FORMATS
 from anymesh.pipeline.options import GEOMETRY
-from anymesh.prompted.answerers.answering import FILES, resolve_auto
+from anymesh.prompted.answerers.answering import FILES
 from anymesh.prompted.answerers.question_files import NAME
 from anymesh.prompted.models.budget import Spent
 from anymesh.runtime import Progress, read_json, silent
@@ -46,7 +46,7 @@ def articulate_many(
     Raise OptionError for meshes with the same name, BudgetError if the common budget is exceeded.
     """
     files = mesh_files(meshes)
-    answerer, spent = resolve_auto(str(options.pop("answerer", GEOMETRY)))[0], Spent()
+    answerer, spent = str(options.pop("answerer", GEOMETRY)), Spent()
     outcomes = []
     for number, (name, path) in enumerate(files.items()):
         progress("batch", name, number, len(files))

@@ -49,8 +49,8 @@ class AnswererOptions:
     answerer: str = _option(
         GEOMETRY,
         "geometry, openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL, "
-        "vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER (answers in files), replay:FOLDER, "
-        "or auto (a local model, else geometry).",
+        "vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER (answers in files), "
+        "or replay:FOLDER.",
     )
     parts_list: Sequence[str] | str = _option(
         (), "Labels of the moving parts, such as door,drawer, instead of asking a model.", metavar="LABELS"

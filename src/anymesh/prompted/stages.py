@@ -17,7 +17,7 @@ from anymesh.prompted.grounding.grounded import ground_parts
 from anymesh.prompted.grounding.grounded_parts import EXACT, Ground, SampledObject, sample_object
 from anymesh.prompted.grounding.hidden import MIN_RECOGNITION_PATCH_RATIO, inner_faces
 from anymesh.prompted.grounding.regrounding import ground_again
-from anymesh.prompted.masks.sam_load import load_sam
+from anymesh.prompted.masks.sam_onnx_ import load_sam
 from anymesh.prompted.motions.prompted import Questions, Reground, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.asking import AnswererFactory

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field, replace
 from functools import cache
 from hashlib import sha256
 from importlib.resources import files
-from importlib.util import find_spec
 from pathlib import Path
 from threading import Event
 
@@ -16,13 +15,13 @@ from anymesh.errors import OptionError
 from anymesh.pipeline.options import GEOMETRY, AnswererOptions, Answering
 from anymesh.prompted.answerers.patience import Patience
 from anymesh.prompted.models.cache import cache_folder
-from anymesh.prompted.models.servers import SERVERS, first_vision_model, probe_servers
+from anymesh.prompted.models.servers import SERVERS
 from anymesh.prompted.questions.asking import AnswererFactory, VisualAnswerer
 from anymesh.prompted.questions.recognition import parse_labels
 from anymesh.runtime import Deadline
 from anymesh.types import Exchange
 
-FILES, AUTO = "files:", "auto"
+FILES = "files:"
 CLASSIFIERS = (
     "segmentation/part_classifier.npz", "articulation/unswept_classifier.npz", "articulation/motion_classifier.npz"
 )  # fmt: skip
@@ -85,7 +84,7 @@ def choose_answerer(
     if unknown:
         raise OptionError(f"found the options {unknown}; valid are {', '.join(Answering.__annotations__)}")
     chosen = AnswererOptions(**options)
-    name, _ = resolve_auto(chosen.answerer)
+    name = chosen.answerer
     config, limit = _config(chosen), deadline or Deadline()
     if name == GEOMETRY:
         if config.parts_list:
@@ -139,22 +138,6 @@ def object_name(mesh: str | Path) -> str:
     """
     path = Path(mesh).absolute()
     return f"{path.parent.name}/{path.name}"
-
-
-def resolve_auto(name: str) -> tuple[str, str]:
-    """Resolve `auto` to the name of an answerer, with the reason; return other names unchanged.
-
-    `auto` never chooses an answerer that costs money.
-    """
-    if name != AUTO:
-        return name, ""
-    model = first_vision_model(probe_servers())
-    if model is None:
-        return GEOMETRY, "auto uses geometry: no local model that accepts pictures responds (`anymesh models`)"
-    if find_spec("pydantic_ai") is None:
-        reason = f"auto uses geometry: {model.name} responds, but its client is missing: pip install 'articulate-anymesh[vlm]'"
-        return GEOMETRY, reason
-    return model.name, f"auto uses {model.name}, which runs on this machine"
 
 
 def _from_files(

@@ -1,7 +1,7 @@
 """Mask proposals for a picture by a SAM model, prompted with a grid of points.
 
-This is the procedure of SamAutomaticMaskGenerator (segment-anything 1.0), in numpy, for any model behind `PromptedSegmenter`.
-Masks are filtered, and duplicates are suppressed.
+This is the procedure of SamAutomaticMaskGenerator (segment-anything 1.0) without its optional crops, in numpy, for any model
+behind `PromptedSegmenter`.
 """
 
 from __future__ import annotations
@@ -11,19 +11,86 @@ from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
-from jaxtyping import Bool, Float, UInt8
+from jaxtyping import Bool, Float, Int, UInt8
+from PIL import Image
+from scipy.sparse import csr_array
 
-from anymesh.errors import OptionError
-from anymesh.prompted.masks.sam_frame import Frame
-from anymesh.prompted.masks.sam_masks import (
-    box_nms,
-    crop_boxes,
-    cut_by_crop,
-    mask_box,
-    point_grid,
-    stability,
-    without_small_regions,
-)
+POINTS_PER_BATCH = 64
+STABILITY_OFFSET = 1.0  # [logit] distance of both thresholds from 0
+MEAN = np.array([123.675, 116.28, 103.53], np.float32)  # of ImageNet's RGB, 0..255; every SAM and SAM 2 uses these
+STD = np.array([58.395, 57.12, 57.375], np.float32)
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Square input of a model, with its side [px].
+
+    padded: the longer side fills the square, the rest on the right and below is padding (SAM, MobileSAM). Otherwise the
+    picture is stretched to the square (SAM 2). Sources: ResizeLongestSide and postprocess_masks of segment-anything,
+    SAM2Transforms of sam2.
+    """
+
+    side: int
+    padded: bool
+
+    def inner(self, height: int, width: int) -> tuple[int, int]:
+        """Return the rows and columns of the square that the picture fills [px]."""
+        if not self.padded:
+            return self.side, self.side
+        scale = self.side / max(height, width)
+        return max(1, int(height * scale + 0.5)), max(1, int(width * scale + 0.5))
+
+    def resize(self, image: UInt8[np.ndarray, "H W 3"]) -> UInt8[np.ndarray, "h w 3"]:
+        """Resize the picture to its size in the square, without the padding."""
+        rows, columns = self.inner(*image.shape[:2])
+        return np.asarray(Image.fromarray(image).resize((columns, rows), Image.Resampling.BILINEAR))
+
+    def normalized(self, image: UInt8[np.ndarray, "H W 3"]) -> Float[np.ndarray, "1 3 side side"]:
+        """Return the whole square as the network's input: mean 0 and standard deviation 1 over ImageNet, padding 0."""
+        small = self.resize(image)
+        square = np.zeros((1, 3, self.side, self.side), np.float32)
+        square[0, :, : small.shape[0], : small.shape[1]] = ((small - MEAN) / STD).transpose(2, 0, 1)
+        return square
+
+    def points(self, points: Float[np.ndarray, "n 2"], height: int, width: int) -> Float[np.ndarray, "n 2"]:
+        """Map (x, y) in the picture [px] to (x, y) in the square [px]."""
+        rows, columns = self.inner(height, width)
+        return points * np.array([columns / width, rows / height])
+
+    def upscaler(self, low: tuple[int, int], height: int, width: int) -> Upscaler:
+        """Return the upscaler of logits of shape `low`, which cover the whole square, to the picture's pixels."""
+        rows, columns = self.inner(height, width)
+        return Upscaler(self._along(low[0], rows, height), self._along(low[1], columns, width))
+
+    def _along(self, low: int, inner: int, full: int) -> csr_array:
+        if not self.padded:
+            return bilinear(low, full)
+        # The reference resizes to the square, crops the padding, and resizes again; both are linear, hence one matrix.
+        return bilinear(inner, full) @ bilinear(low, self.side)[:inner]
+
+
+@dataclass(frozen=True, eq=False)
+class Upscaler:
+    """Resizing as two sparse matrices: vertical (H, h), horizontal (W, w)."""
+
+    vertical: csr_array
+    horizontal: csr_array
+
+    def __call__(self, logits: Float[np.ndarray, "h w"]) -> Float[np.ndarray, "H W"]:
+        rows = self.vertical @ logits.astype(np.float32, copy=False)
+        return (self.horizontal @ rows.T).T
+
+
+def bilinear(source: int, target: int) -> csr_array:
+    """Return the (target, source) matrix of bilinear resizing of one side.
+
+    Pixel centres are at halves, without smoothing (torch: align_corners=False).
+    """
+    at = np.clip((np.arange(target) + 0.5) * source / target - 0.5, 0, source - 1)
+    low = np.floor(at).astype(int)
+    columns = np.r_[low, np.minimum(low + 1, source - 1)]
+    weights = np.r_[1 - (at - low), at - low].astype(np.float32)
+    return csr_array((weights, (np.tile(np.arange(target), 2), columns)), (target, source))
 
 
 @runtime_checkable
@@ -53,116 +120,90 @@ class AutomaticMasks:
     """Settings of `automatic_masks`; the defaults are those of the reference, chosen for ViT-H."""
 
     points_per_side: int = 32
-    points_per_batch: int = 64
     min_score: float = 0.88  # predicted IoU; 0 disables this filter
     min_stability: float = 0.95  # IoU of the masks at both thresholds; 0 disables this filter
-    stability_offset: float = 1.0  # [logit]
     nms_iou: float = 0.7  # IoU of two boxes above which they count as the same mask
-    crop_layers: int = 0  # layer i repeats the prediction on 2**i x 2**i crops
-    crop_overlap: float = 512 / 1500  # share of the shorter side
-    crop_points_divisor: int = 1  # divides points_per_side, for each layer
-    smallest_region: int = 0  # [px] smaller islands are removed and smaller holes filled; 0 disables this
-
-    def __post_init__(self) -> None:
-        whole = {"points_per_side": 1, "points_per_batch": 1, "crop_layers": 0, "crop_points_divisor": 1, "smallest_region": 0}
-        for name, least in whole.items():
-            if getattr(self, name) < least:
-                raise OptionError(f"{name}: found {getattr(self, name)}; valid are integers from {least} up")
-        if not 0 <= self.nms_iou <= 1 or not 0 <= self.crop_overlap < 1 or self.stability_offset < 0:
-            raise OptionError(
-                f"nms_iou, crop_overlap, stability_offset: found {self.nms_iou}, {self.crop_overlap}, "
-                f"{self.stability_offset}; valid are 0..1, 0 up to but not 1, and 0 up"
-            )
 
 
 @dataclass(frozen=True, eq=False)
 class ProposedMask:
-    """mask: (H, W); score: IoU predicted by the model; box: (x0, y0, x1, y1) of its outermost pixels [px]."""
+    """bits: packed mask, since about a thousand are held until the suppression; score: IoU predicted by the model.
 
-    mask: Bool[np.ndarray, "H W"]
+    box: (x0, y0, x1, y1) of the outermost pixels [px].
+    """
+
+    bits: UInt8[np.ndarray, " k"]
+    shape: tuple[int, int]
     score: float
     stability: float
     box: tuple[int, int, int, int]
 
-
-@dataclass(frozen=True, eq=False)
-class _Candidate:
-    # packed mask within its crop, since about a thousand candidates are held until the suppression
-    bits: UInt8[np.ndarray, " k"]
-    crop: tuple[int, int, int, int]
-    box: tuple[int, int, int, int]  # [px of the picture]
-    score: float
-    stability: float
-
     @property
-    def crop_area(self) -> int:
-        return (self.crop[2] - self.crop[0]) * (self.crop[3] - self.crop[1])
-
-    def proposed(self, height: int, width: int) -> ProposedMask:
-        x0, y0, x1, y1 = self.crop
-        mask = np.zeros((height, width), bool)
-        mask[y0:y1, x0:x1] = np.unpackbits(self.bits, count=self.crop_area).reshape(y1 - y0, x1 - x0)
-        return ProposedMask(mask, self.score, self.stability, self.box)
+    def mask(self) -> Bool[np.ndarray, "H W"]:
+        """Return the mask."""
+        height, width = self.shape
+        return np.unpackbits(self.bits, count=height * width).reshape(height, width).astype(bool)
 
 
 def automatic_masks(
     model: PromptedSegmenter, image: UInt8[np.ndarray, "H W 3"], *, settings: AutomaticMasks | None = None
 ) -> list[ProposedMask]:
-    """Compute all masks of a picture (sRGB colours or normals as colours), best first.
-
-    Raise OptionError for invalid settings.
-    """
+    """Compute all masks of a picture (sRGB colours or normals as colours), best first."""
     settings = settings or AutomaticMasks()
+    proposals = list(_stable_masks(model, image, settings))
+    boxes = np.array([p.box for p in proposals], float).reshape(-1, 4)
+    return [proposals[k] for k in box_nms(boxes, np.array([p.score for p in proposals], float), settings.nms_iou)]
+
+
+def _stable_masks(model: PromptedSegmenter, image: np.ndarray, settings: AutomaticMasks) -> Iterator[ProposedMask]:
+    """Predict masks at a grid of points; yield those that pass the filters."""
     height, width = image.shape[:2]
-    candidates: list[_Candidate] = []
-    crops = crop_boxes(height, width, settings.crop_layers, settings.crop_overlap)
-    for layer, crop in crops:
-        points = point_grid(max(1, settings.points_per_side // settings.crop_points_divisor**layer))
-        here = list(_of_crop(model, image, crop, points, settings))
-        candidates += _suppressed(here, [c.score for c in here], settings.nms_iou)
-    if len(crops) > 1:  # prefer masks of smaller crops, which have more detail
-        candidates = _suppressed(candidates, [1 / c.crop_area for c in candidates], settings.nms_iou)
-    proposals = [c.proposed(height, width) for c in candidates]
-    return _cleaned(proposals, settings) if settings.smallest_region else proposals
-
-
-def _of_crop(
-    model: PromptedSegmenter,
-    image: UInt8[np.ndarray, "H W 3"],
-    crop: tuple[int, int, int, int],
-    grid: Float[np.ndarray, "n 2"],
-    settings: AutomaticMasks,
-) -> Iterator[_Candidate]:
-    x0, y0, x1, y1 = crop
-    size = (y1 - y0, x1 - x0)
-    embedding = model.embed(np.ascontiguousarray(image[y0:y1, x0:x1]))
-    points = grid * size[::-1]
-    for start in range(0, len(points), settings.points_per_batch):
-        logits, scores = model.predict(embedding, points[start : start + settings.points_per_batch])
-        upscale = model.frame.upscaler(logits.shape[-2:], *size)
+    embedding = model.embed(image)
+    points = point_grid(settings.points_per_side) * (width, height)
+    for start in range(0, len(points), POINTS_PER_BATCH):
+        logits, scores = model.predict(embedding, points[start : start + POINTS_PER_BATCH])
+        upscale = model.frame.upscaler(logits.shape[-2:], height, width)
         for k, m in np.argwhere((scores > settings.min_score) | (settings.min_score <= 0)):
             full = upscale(logits[k, m])  # only masks that pass the score filter are upscaled, one at a time
-            stable = stability(full, settings.stability_offset)
-            if stable < settings.min_stability:
-                continue
-            mask = full > 0
-            a, b, c, d = mask_box(mask)
-            box = (a + x0, b + y0, c + x0, d + y0)
-            if not cut_by_crop(box, crop, *image.shape[:2]):
-                yield _Candidate(np.packbits(mask), crop, box, float(scores[k, m]), stable)
+            stable = stability(full, STABILITY_OFFSET)
+            if stable >= settings.min_stability:
+                mask = full > 0
+                yield ProposedMask(np.packbits(mask), mask.shape, float(scores[k, m]), stable, mask_box(mask))
 
 
-def _suppressed(candidates: list[_Candidate], priority: list[float], iou: float) -> list[_Candidate]:
-    boxes = np.array([c.box for c in candidates], float).reshape(-1, 4)
-    return [candidates[k] for k in box_nms(boxes, np.array(priority, float), iou)]
+def point_grid(per_side: int) -> Float[np.ndarray, "n 2"]:
+    """Return per_side**2 points (x, y) at the cell centres of the unit square, row by row."""
+    middles = (np.arange(per_side) + 0.5) / per_side
+    x, y = np.meshgrid(middles, middles)
+    return np.stack([x, y], -1).reshape(-1, 2)
 
 
-def _cleaned(proposals: list[ProposedMask], settings: AutomaticMasks) -> list[ProposedMask]:
-    """Remove small islands and holes, and the duplicates that result; unchanged masks take precedence."""
-    cleaned = []
-    for proposal in proposals:
-        mask, changed = without_small_regions(proposal.mask, settings.smallest_region)
-        cleaned.append((ProposedMask(mask, proposal.score, proposal.stability, mask_box(mask)), 0.0 if changed else 1.0))
-    boxes = np.array([p.box for p, _ in cleaned], float).reshape(-1, 4)
-    keep = box_nms(boxes, np.array([unchanged for _, unchanged in cleaned]), settings.nms_iou)
-    return [cleaned[k][0] for k in keep]
+def stability(logits: Float[np.ndarray, "H W"], offset: float) -> float:
+    """Compute the IoU of the masks at thresholds +offset and -offset; 0 if both are empty."""
+    union = np.count_nonzero(logits > -offset)
+    return float(np.count_nonzero(logits > offset) / union) if union else 0.0
+
+
+def mask_box(mask: Bool[np.ndarray, "H W"]) -> tuple[int, int, int, int]:
+    """Return (x0, y0, x1, y1) of the outermost pixels, all inclusive; zeros for an empty mask."""
+    rows, columns = np.flatnonzero(mask.any(1)), np.flatnonzero(mask.any(0))
+    return (int(columns[0]), int(rows[0]), int(columns[-1]), int(rows[-1])) if len(rows) else (0, 0, 0, 0)
+
+
+def box_nms(boxes: Float[np.ndarray, "n 4"], scores: Float[np.ndarray, " n"], iou: float) -> Int[np.ndarray, " k"]:
+    """Return the indices of the remaining boxes, best first; each suppresses later boxes that overlap it by more than `iou`.
+
+    Ties keep their order. A box's area is (x1 - x0) * (y1 - y0), as in the reference, although its ends are inclusive.
+    """
+    order = np.argsort(-scores, kind="stable")
+    low, high = boxes[order, :2].astype(float), boxes[order, 2:].astype(float)
+    area = (high - low).prod(1)
+    alive = np.ones(len(order), bool)
+    for k in range(len(order)):
+        if alive[k]:
+            rest = slice(k + 1, None)
+            sides = np.minimum(high[k], high[rest]) - np.maximum(low[k], low[rest])
+            shared = np.clip(sides, 0, None).prod(1)
+            union = area[k] + area[rest] - shared
+            alive[rest] &= np.divide(shared, union, out=np.zeros_like(union), where=union > 0) <= iou
+    return order[alive]

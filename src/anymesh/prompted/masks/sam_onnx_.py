@@ -18,7 +18,8 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from anymesh.errors import MissingExtraError, ModelError
-from anymesh.prompted.masks.sam_frame import MEAN, Frame
+from anymesh.prompted.masks.sam import MEAN, Frame, PromptedSegmenter
+from anymesh.prompted.masks.sam_weights_ import Hub, resolve
 
 log = logging.getLogger("anymesh")
 TYPES = {
@@ -78,6 +79,12 @@ EXPORTS = (
 class _Embedding:
     features: dict[str, np.ndarray]
     size: tuple[int, int]  # rows and columns of the picture
+
+
+def load_sam(spec: str, *, hub: Hub | None = None) -> PromptedSegmenter:
+    """Load `sam:NAME`, `sam:FOLDER` or `sam:HUB_ID@COMMIT`; see `sam_weights_.resolve` for valid names and for errors."""
+    weights = resolve(spec, hub=hub)
+    return OnnxSam(weights.encoder, weights.decoder, name=weights.name)
 
 
 class OnnxSam:

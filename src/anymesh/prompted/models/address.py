@@ -12,7 +12,7 @@ from anymesh.prompted.models.servers import SERVERS
 
 VALID = (
     "openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL, vllm:MODEL, "
-    "openai-compatible:BASE_URL#MODEL, files:FOLDER, auto or replay:FOLDER"
+    "openai-compatible:BASE_URL#MODEL, files:FOLDER or replay:FOLDER"
 )
 KEYS = {  # environment variables that may hold the key; the first one that is set is used
     "openai": ("OPENAI_API_KEY",),

@@ -1,20 +1,103 @@
-"""The steps of automatic masks: facts that hold for any masks."""
+"""Automatic masks of a fake model that returns the discs of its picture, and facts about single steps."""
+
+from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from anymesh.prompted.masks.sam_frame import Frame, bilinear
-from anymesh.prompted.masks.sam_masks import (
+from anymesh.prompted.masks import sam
+from anymesh.prompted.masks.sam import (
+    AutomaticMasks,
+    Frame,
+    PromptedSegmenter,
+    automatic_masks,
+    bilinear,
     box_nms,
-    crop_boxes,
-    cut_by_crop,
     mask_box,
     point_grid,
     stability,
-    without_small_regions,
 )
+
+DISCS = np.array([[40.0, 50, 18], [110, 30, 14], [100, 95, 25], [30, 110, 10]])  # x, y, radius [px]
+HEIGHT, WIDTH = 130, 150
+
+
+def disc_picture() -> np.ndarray:
+    """Each disc has its own red; the rest is black."""
+    x, y = np.meshgrid(np.arange(WIDTH) + 0.5, np.arange(HEIGHT) + 0.5)
+    image = np.zeros((HEIGHT, WIDTH, 3), np.uint8)
+    for k, (cx, cy, r) in enumerate(DISCS):
+        image[np.hypot(x - cx, y - cy) < r] = (10 * (k + 1), 0, 0)
+    return image
+
+
+@dataclass
+class Discs:
+    """Answers with the pixels of the colour under the point: sharp, softly, and badly; scores differ a little by point."""
+
+    frame: Frame = field(default_factory=lambda: Frame(256, padded=True))
+    name: str = "discs"
+    embedded: int = 0
+
+    def embed(self, image):
+        """(reds over the square, zero in its padding; the picture)."""
+        self.embedded += 1
+        height, width = image.shape[:2]
+        rows, columns = self.frame.inner(height, width)
+        middle = np.arange(self.frame.side // 2) * 2 + 1.0  # the logits are half as fine as the square
+        y, x = (middle * height / rows).astype(int), (middle * width / columns).astype(int)
+        red = np.pad(image[..., 0].astype(int), ((0, self.frame.side), (0, self.frame.side)))
+        return red[np.minimum(y, height)][:, np.minimum(x, width)], image
+
+    def predict(self, embedding, points):
+        square, image = embedding
+        red = image[points[:, 1].astype(int), points[:, 0].astype(int), 0].astype(int)
+        sharp = np.where((square == red[:, None, None]) & (red > 0)[:, None, None], 20.0, -20.0)
+        best = np.where(red > 0, 0.99 - 1e-5 * (points @ [1, WIDTH]) / 2, 0.2)
+        scores = np.stack([best, np.full(len(red), 0.999), np.full(len(red), 0.5)], 1)
+        return np.stack([sharp, sharp * 0.01, sharp], 1), scores
+
+
+@pytest.mark.parametrize("frame", [Frame(256, True), Frame(256, False)])
+def test_every_disc_is_found_once(frame):
+    model = Discs(frame)
+    assert isinstance(model, PromptedSegmenter)
+    image = disc_picture()
+    found = automatic_masks(model, image, settings=AutomaticMasks(points_per_side=16))
+    assert len(found) == len(DISCS)
+    assert [p.score for p in found] == sorted((p.score for p in found), reverse=True)
+    for k in range(len(DISCS)):
+        truth = image[..., 0] == 10 * (k + 1)
+        overlap = max((p.mask & truth).sum() / (p.mask | truth).sum() for p in found)
+        assert overlap > 0.93
+    for p in found:
+        y, x = np.nonzero(p.mask)
+        assert p.box == (x.min(), y.min(), x.max(), y.max())
+        assert p.stability >= 0.95
+
+
+def test_batches_and_the_order_of_points_change_nothing(monkeypatch):
+    image = disc_picture()
+    first = automatic_masks(Discs(), image, settings=AutomaticMasks(points_per_side=12))
+    grid = sam.point_grid
+    monkeypatch.setattr(sam, "POINTS_PER_BATCH", 5)
+    monkeypatch.setattr(sam, "point_grid", lambda n: np.random.default_rng(3).permutation(grid(n)))
+    again = automatic_masks(Discs(), image, settings=AutomaticMasks(points_per_side=12))
+    assert [(p.box, p.score, p.stability) for p in first] == [(p.box, p.score, p.stability) for p in again]
+    for a, b in zip(first, again, strict=True):
+        np.testing.assert_array_equal(a.mask, b.mask)
+
+
+def test_thresholds_of_zero_keep_all():
+    image = disc_picture()
+    everything = AutomaticMasks(points_per_side=4, min_score=0.0, min_stability=0.0, nms_iou=1.0)
+    assert len(automatic_masks(Discs(), image, settings=everything)) == 4 * 4 * 3
+
+
+def test_nothing_found_is_no_error():
+    assert automatic_masks(Discs(), np.zeros((20, 30, 3), np.uint8)) == []
 
 
 def random_boxes(seed: int, count: int) -> tuple[np.ndarray, np.ndarray]:
@@ -112,41 +195,6 @@ def test_the_grid_is_centred_and_even(per_side):
     assert grid.shape == (per_side**2, 2)
     np.testing.assert_allclose(grid + grid[::-1], 1)
     np.testing.assert_allclose(np.diff(grid[:per_side, 0]), 1 / per_side)
-
-
-def test_crops_cover_the_picture_and_overlap():
-    crops = crop_boxes(300, 500, 2, 0.3)
-    assert [layer for layer, _ in crops] == [0] + [1] * 4 + [2] * 16
-    for layer in (0, 1, 2):
-        covered = np.zeros((300, 500), int)
-        for _, (x0, y0, x1, y1) in [c for c in crops if c[0] == layer]:
-            assert 0 <= x0 < x1 <= 500
-            assert 0 <= y0 < y1 <= 300
-            covered[y0:y1, x0:x1] += 1
-        assert covered.min() >= 1
-        assert covered.max() == (1 if layer == 0 else 4)
-
-
-def test_a_box_that_its_crop_cut_off_is_told_from_one_at_the_pictures_edge():
-    assert cut_by_crop((100, 30, 249, 90), (0, 0, 250, 150), 300, 500)
-    assert not cut_by_crop((0, 0, 200, 90), (0, 0, 250, 150), 300, 500)
-    assert not cut_by_crop((0, 0, 499, 299), (0, 0, 500, 300), 300, 500)
-
-
-def test_small_islands_go_small_holes_fill_and_the_largest_island_stays():
-    mask = np.zeros((40, 40), bool)
-    mask[5:25, 5:25] = True
-    mask[10:12, 10:12] = False
-    mask[30:32, 30:32] = True
-    cleaned, changed = without_small_regions(mask, 10)
-    assert changed
-    expected = np.zeros((40, 40), bool)
-    expected[5:25, 5:25] = True
-    np.testing.assert_array_equal(cleaned, expected)
-    again, changed = without_small_regions(cleaned, 10)
-    assert not changed
-    np.testing.assert_array_equal(again, cleaned)
-    np.testing.assert_array_equal(without_small_regions(mask, 1000)[0][5:25, 5:25], True)
 
 
 SIZES = [(90, 160), (160, 90), (128, 128), (1, 200), (33, 47), (700, 500)]
