@@ -30,7 +30,7 @@ from anymesh.prompted.motions.prompted import Questions, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import MOVING
-from anymesh.types.recognition import Recognition, RecognizedLabel
+from anymesh.types.motion import Recognition, RecognizedLabel
 
 WRONG = (0.0, 0.1, 0.25, 0.5, 1.0)  # probabilities of a wrong item; the last: all answers at random
 BINS = (0.0, 0.2, 0.4, 0.6, 0.8, 1.0)

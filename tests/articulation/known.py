@@ -22,7 +22,7 @@ from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.asking import VisualAnswerer
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Exchange, Joint, JointType, KnownJoint, Mesh, Segmentation
-from anymesh.types.recognition import Recognition
+from anymesh.types.motion import Recognition
 
 X, Y, Z = np.eye(3)
 # half the resolution

@@ -22,7 +22,7 @@ from anymesh.prompted.motions.cases import PartCase
 from anymesh.prompted.motions.offers import MotionOffers
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import JointType
-from anymesh.types.recognition import RecognizedLabel
+from anymesh.types.motion import RecognizedLabel
 
 ALONG, OUT, FIXED = JointAppearance.HINGE_ALONG, JointAppearance.SLIDE_OUT, JointAppearance.FIXED
 MOTIONS = (EDGE, FAR_EDGE, PULL, ROUND)

@@ -28,7 +28,7 @@ from anymesh.prompted.motions.verify import Choice
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.runtime import Deadline
 from anymesh.types import JointType, Part, Segmentation
-from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
+from anymesh.types.motion import BASE, Recognition, RecognizedLabel
 
 ALONG, OUT, FIXED = JointAppearance.HINGE_ALONG, JointAppearance.SLIDE_OUT, JointAppearance.FIXED
 

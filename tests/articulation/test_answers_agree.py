@@ -16,7 +16,7 @@ from anymesh.prompted.motions.unverified import normal_outwards, opening_slide
 from anymesh.prompted.questions.motion_choice import MotionPick, PartFit
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import JointType, Part, Segmentation
-from anymesh.types.recognition import Recognition, RecognizedLabel
+from anymesh.types.motion import Recognition, RecognizedLabel
 
 pytestmark = pytest.mark.usefixtures("computed_once")
 LEFT = KNOWN["left"]

@@ -21,7 +21,7 @@ from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.motion_choice import MotionPick, PartFit, WhichMotions
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import Exchange, Joint, JointType
-from anymesh.types.recognition import RecognizedLabel
+from anymesh.types.motion import RecognizedLabel
 
 ALONG, OUT, FIXED = JointAppearance.HINGE_ALONG, JointAppearance.SLIDE_OUT, JointAppearance.FIXED
 CUBE = mesh_of([box((0, 0, 0), (1, 1, 1))])[0]

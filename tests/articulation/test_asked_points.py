@@ -19,7 +19,7 @@ from anymesh.prompted.motions.prompted import PromptedJoints, Questions, prompt_
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, PointTable
 from anymesh.types import JointType
-from anymesh.types.recognition import Recognition, RecognizedLabel
+from anymesh.types.motion import Recognition, RecognizedLabel
 
 INTO, HIDDEN, ALONG = JointAppearance.HINGE_INTO, JointAppearance.HINGE_HIDDEN, JointAppearance.HINGE_ALONG
 CLOSE = replace(QUICK.prompts, label_apart=2.0)  # numbers may be beside each other

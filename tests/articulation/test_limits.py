@@ -15,7 +15,7 @@ from anymesh.articulation.limits import answered_range, limits, opening_as_answe
 from anymesh.articulation.motion_question import Candidate
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
-from anymesh.types.recognition import RecognizedLabel
+from anymesh.types.motion import RecognizedLabel
 
 ALONG = np.array([-1.0, -0.9, 0.0, 0.9, 1.0])
 X, Y, Z = np.eye(3)

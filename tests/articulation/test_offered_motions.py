@@ -21,7 +21,7 @@ from anymesh.prompted.motions.moved_points import MovedPoints
 from anymesh.prompted.motions.offers import MotionOffers, make_offers, scored_motions
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import JointType
-from anymesh.types.recognition import RecognizedLabel
+from anymesh.types.motion import RecognizedLabel
 
 ALONG, OUT = JointAppearance.HINGE_ALONG, JointAppearance.SLIDE_OUT
 

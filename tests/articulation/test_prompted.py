@@ -15,7 +15,7 @@ from anymesh.prompted.motions.prompted import Questions, prompt_joints
 from anymesh.prompted.questions.motion_choice import MotionPick, WhichMotions
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import Joint, JointType, KnownJoint, Motion, Part
-from anymesh.types.recognition import Recognition, RecognizedLabel
+from anymesh.types.motion import Recognition, RecognizedLabel
 
 pytestmark = pytest.mark.usefixtures("computed_once")
 X, Y, Z = np.eye(3)

@@ -16,7 +16,7 @@ from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.part_labels import label_of
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
-from anymesh.types.recognition import RecognizedLabel
+from anymesh.types.motion import RecognizedLabel
 
 DEG = float(np.pi / 180)
 BLOCK = [box((-0.3, 0, 0), (0.3, 0.4, 0.6))]

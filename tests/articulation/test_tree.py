@@ -12,7 +12,7 @@ from anymesh.articulation.tree import descendants, parents
 from anymesh.prompted.motions.cases import make_cases
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType
-from anymesh.types.recognition import Recognition, RecognizedLabel
+from anymesh.types.motion import Recognition, RecognizedLabel
 
 
 def test_the_parent_of_a_handle_is_its_door_and_that_of_the_door_the_case() -> None:

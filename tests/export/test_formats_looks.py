@@ -13,7 +13,7 @@ from PIL import Image
 from pxr import Usd, UsdGeom, UsdShade
 
 from anymesh.export.formats import Format, write_formats
-from anymesh.types.color import to_srgb
+from anymesh.types.mesh import to_srgb
 
 
 @dataclass

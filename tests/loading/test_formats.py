@@ -28,7 +28,7 @@ from mesh_files import (
 from PIL import Image
 
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.types.color import to_linear
+from anymesh.types.mesh import to_linear
 
 FILES = all_files()
 MIRROR = (-1, 1, 1)

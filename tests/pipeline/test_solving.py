@@ -6,7 +6,7 @@ from assets import box, mesh_of
 
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline.solving import Solver
-from anymesh.types.recognition import Recognition
+from anymesh.types.motion import Recognition
 
 MESH, _ = mesh_of([box((0, 0, 0), (1, 1, 0.5))])
 

@@ -24,7 +24,7 @@ from anymesh.prompted.questions.prompting import (
 )
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import JointType, Motion, Picture
-from anymesh.types.recognition import Recognition, RecognizedLabel
+from anymesh.types.motion import Recognition, RecognizedLabel
 
 X, Y, Z = np.eye(3)
 PICTURE = Picture(checker(), "view 1, from the front")

@@ -5,7 +5,7 @@ from asked import PICTURE
 from anymesh.prompted.answerers.vlm_answerer import request_of
 from anymesh.prompted.questions.pictures import DrawnPictures
 from anymesh.prompted.questions.recognition import recognize
-from anymesh.types.recognition import Recognition
+from anymesh.types.motion import Recognition
 
 
 def test_pictures_are_drawn_once_when_they_are_first_read() -> None:

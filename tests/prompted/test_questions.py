@@ -15,7 +15,7 @@ from anymesh.prompted.questions.asking import BadAnswerError, VisualAnswerer, ch
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.prompted.questions.prompting import JointAppearance, WhichPoints
 from anymesh.prompted.questions.recognition import parse_labels, recognize
-from anymesh.types.recognition import RecognizedLabel
+from anymesh.types.motion import RecognizedLabel
 
 
 def inside(schema: dict[str, Any]) -> Iterator[dict[str, Any]]:

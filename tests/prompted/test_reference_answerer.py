@@ -27,7 +27,7 @@ from anymesh.prompted.questions.prompting import (
 )
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import JointType, KnownJoint, Motion
-from anymesh.types.recognition import RecognizedLabel
+from anymesh.types.motion import RecognizedLabel
 
 HINGE = KnownJoint(JointType.REVOLUTE, np.zeros(3), Z, (0.0, 1.5))
 SLIDE = KnownJoint(JointType.PRISMATIC, np.zeros(3), -2 * Y, (0.0, 0.3))

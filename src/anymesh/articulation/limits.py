@@ -10,7 +10,7 @@ from anymesh.config import ALONG_COSINE
 from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
-from anymesh.types.recognition import RecognizedLabel
+from anymesh.types.motion import RecognizedLabel
 
 MIN_DRAWER_DEPTH_RATIO = 0.35  # of the parent's depth: a slide that is less deep is only a panel
 MIN_STROKE_RATIO = 0.1  # of its height: a button with less free space behind it fills its hole

@@ -13,7 +13,7 @@ from anymesh.prompted.questions.motion_choice import WhichMotions
 from anymesh.prompted.questions.prompting import WhichArrows, WhichKinds, WhichPoints
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import Exchange
-from anymesh.types.recognition import BASE
+from anymesh.types.motion import BASE
 
 WORDS = ("door", "lid", "drawer", "knob", "wheel", "handle", "arm", "button")
 MAX_KINDS, MAX_PARTS = 4, 6  # maximum number of labels, and of parts in an answer about marks

@@ -14,7 +14,7 @@ from anymesh.export.links import Link, Primitive
 from anymesh.export.settings import ExportConfig
 from anymesh.names import legal_names
 from anymesh.types import Asset, Joint, Material, Texture
-from anymesh.types.color import to_linear
+from anymesh.types.mesh import to_linear
 
 Y_UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # rotates +Z to +Y
 DEFAULT_SAMPLER = {"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}

@@ -10,8 +10,7 @@ import numpy as np
 from anymesh.export.links import Link, Primitive
 from anymesh.names import legal_names
 from anymesh.types import Mesh
-from anymesh.types.color import to_srgb
-from anymesh.types.mesh import TEXTURE_SLOTS
+from anymesh.types.mesh import TEXTURE_SLOTS, to_srgb
 from anymesh.types.triangles import face_cross
 
 GREY = (0.7, 0.7, 0.7, 1.0)

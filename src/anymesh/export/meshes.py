@@ -15,7 +15,7 @@ from anymesh.export.model import FOLDER, ExportLink, Model
 from anymesh.export.settings import ExportConfig
 from anymesh.names import legal_names
 from anymesh.types import Hull, Material
-from anymesh.types.color import to_srgb
+from anymesh.types.mesh import to_srgb
 from anymesh.types.triangles import face_cross
 
 MIN_AREA = 1e-12  # [m^2] minimum area of a visible primitive; MuJoCo refuses smaller meshes

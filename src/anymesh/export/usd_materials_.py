@@ -13,7 +13,7 @@ from anymesh.export.meshes import material_names, visible
 from anymesh.export.model import FOLDER
 from anymesh.export.settings import ExportConfig
 from anymesh.types import Material, Mesh
-from anymesh.types.color import to_linear
+from anymesh.types.mesh import to_linear
 
 
 class UsdMaterials:

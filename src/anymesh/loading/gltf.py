@@ -14,7 +14,7 @@ from anymesh.loading.gltf_data import Buffers, item, parse_json, split_glb
 from anymesh.loading.gltf_materials import GltfMaterial, read_materials
 from anymesh.loading.join import join, rgba, simple_mesh, unique_names, unit
 from anymesh.types import Mesh, Node
-from anymesh.types.color import to_srgb
+from anymesh.types.mesh import to_srgb
 
 TRIANGLES, STRIP, FAN = 4, 5, 6
 READ = ("KHR_texture_transform", "KHR_mesh_quantization", "EXT_texture_webp")

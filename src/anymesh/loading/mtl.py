@@ -7,7 +7,7 @@ import math
 from anymesh.loading.folder import Folder
 from anymesh.loading.pictures import picture_file
 from anymesh.types import Material, Texture
-from anymesh.types.color import to_linear
+from anymesh.types.mesh import to_linear
 
 SLOTS = {"map_kd": "base_color", "norm": "normal", "map_ke": "emissive"}
 VALUES = {"-mm": 2, "-o": 3, "-s": 3, "-t": 3}  # options of a picture with more than one value

@@ -16,7 +16,7 @@ from anymesh.loading.folder import Folder
 from anymesh.loading.join import join, rgba, simple_mesh, unit
 from anymesh.loading.pictures import picture_file, quiet_decoder
 from anymesh.types import Material, Mesh, Texture
-from anymesh.types.color import to_linear
+from anymesh.types.mesh import to_linear
 
 INTEGER, WITH_COMMA = rb"[+-]?\d+", rb"[+-]?\d+,\d+(?:[eE][+-]?\d+)?"
 NUMBERS_WITH_COMMAS = re.compile(

@@ -21,7 +21,7 @@ from anymesh.runtime import Deadline, Progress, silent
 from anymesh.segmentation.divide import divide_surface, object_shape
 from anymesh.segmentation.segment import segment_parts
 from anymesh.types import JointType, Mesh, Segmentation
-from anymesh.types.recognition import Recognition
+from anymesh.types.motion import Recognition
 
 GROUND_WARNING = "the file contains a ground, which is part of the base"
 

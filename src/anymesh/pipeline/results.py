@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from anymesh.types import Exchange, Joint, Mesh, Segmentation, Source
-from anymesh.types.recognition import Recognition
+from anymesh.types.motion import Recognition
 
 Record = dict[str, Any]  # a JSON object
 LOW_CONFIDENCE = 0.4  # warnings name parts and joints below this confidence

@@ -18,7 +18,7 @@ from anymesh.prompted.stages import PromptedStages
 from anymesh.runtime import Deadline, Progress, silent
 from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
 from anymesh.types import Joint, Mesh, Segmentation
-from anymesh.types.recognition import Recognition
+from anymesh.types.motion import Recognition
 
 
 class StageAnswerer(Protocol):

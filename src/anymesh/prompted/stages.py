@@ -24,7 +24,7 @@ from anymesh.prompted.questions.asking import AnswererFactory
 from anymesh.prompted.questions.recognition import answered_scale, recognize
 from anymesh.runtime import Progress, silent
 from anymesh.types import Picture, Segmentation
-from anymesh.types.recognition import Recognition
+from anymesh.types.motion import Recognition
 
 MAX_INSIDE_VIEWS = 2  # pictures of the inside in the question about the object
 

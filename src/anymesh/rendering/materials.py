@@ -10,7 +10,7 @@ from jaxtyping import Float, Int, UInt8
 
 from anymesh.geometry.raycast_ import SurfaceHits
 from anymesh.types import Material, Mesh
-from anymesh.types.color import to_linear, to_srgb
+from anymesh.types.mesh import to_linear, to_srgb
 
 PLAIN = 0.45  # linear grey of faces without a material
 MEASURED = 2000  # maximum number of pairs of hits used to measure the scale of a texture

@@ -1,12 +1,9 @@
 """Data types of the package: frozen, numpy only, validated when constructed."""
 
-from anymesh.types.asset import Asset, Source
+from anymesh.types.asset import Asset, Part, Segmentation, Source
 from anymesh.types.exchange import Exchange, Picture
-from anymesh.types.joints import Joint, KnownJoint
-from anymesh.types.mesh import Material, Mesh, Node, Texture
-from anymesh.types.motion import MOVING, Handle, JointType, Motion, Sweep
-from anymesh.types.parts import Part, Segmentation
-from anymesh.types.shapes import Box, Cylinder, Hull, Shape
+from anymesh.types.mesh import Box, Cylinder, Hull, Material, Mesh, Node, Shape, Texture
+from anymesh.types.motion import MOVING, Handle, Joint, JointType, KnownJoint, Motion, Sweep
 
 __all__ = [
     "MOVING",

@@ -1,8 +1,11 @@
-"""A triangle mesh with the scene graph, materials and per-corner attributes that must survive to the output."""
+"""A triangle mesh with the scene graph, materials and per-corner attributes that must survive to the output; convex shapes.
+
+Colours for display are sRGB and those for light linear, both 0..1 (IEC 61966-2-1).
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
@@ -176,3 +179,54 @@ class Mesh:
             corner_color=rows(self.corner_color),
             corner_normal=rows(self.corner_normal),
         )
+
+
+def to_linear(srgb: np.ndarray | Sequence[float]) -> Float[np.ndarray, ...]:
+    """Convert sRGB channels to linear ones; values outside 0..1 are clipped."""
+    c = np.clip(np.asarray(srgb, np.float64), 0, 1)
+    return np.where(c <= 0.04045, c / 12.92, ((c + 0.055) / 1.055) ** 2.4)
+
+
+def to_srgb(linear: np.ndarray | Sequence[float]) -> Float[np.ndarray, ...]:
+    """Convert linear channels to sRGB ones; values outside 0..1 are clipped."""
+    c = np.clip(np.asarray(linear, np.float64), 0, 1)
+    return np.where(c <= 0.0031308, 12.92 * c, 1.055 * np.maximum(c, 1e-9) ** (1 / 2.4) - 0.055)
+
+
+@dataclass(frozen=True, eq=False)
+class Box:
+    """A box.
+
+    center [m]; rotation: columns are the box's axes in the link frame, right-handed; size: full side lengths [m].
+    """
+
+    center: Float[np.ndarray, " 3"]
+    rotation: Float[np.ndarray, "3 3"]
+    size: Float[np.ndarray, " 3"]
+
+
+@dataclass(frozen=True, eq=False)
+class Cylinder:
+    """A cylinder.
+
+    center [m]; rotation: columns are its axes in the link frame, the last one along the cylinder; radius, length [m].
+    """
+
+    center: Float[np.ndarray, " 3"]
+    rotation: Float[np.ndarray, "3 3"]
+    radius: float
+    length: float
+
+
+@dataclass(frozen=True, eq=False)
+class Hull:
+    """A convex polyhedron.
+
+    vertices [m]; faces: outward triangles into them.
+    """
+
+    vertices: Float[np.ndarray, "V 3"]
+    faces: Int[np.ndarray, "F 3"]
+
+
+Shape = Box | Cylinder | Hull

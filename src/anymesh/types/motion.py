@@ -1,4 +1,4 @@
-"""Motion hypotheses: candidate rigid motions of a part, and the results of their sweeps."""
+"""Motions of parts: recognized kinds, candidate motions with the results of their sweeps, and joints."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ class JointType(StrEnum):
     FIXED = "fixed"
 
 
+BASE = "base"  # label of the static base
 MOVING = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 
 
@@ -86,3 +87,100 @@ class Handle:
     across: tuple[float, float]
     along: int | None
     size: float
+
+
+@dataclass(frozen=True, eq=False)
+class KnownJoint:
+    """A joint that a data set, an annotation or an answer gives, in its own frame and unit; positive opens.
+
+    axis: of any length but zero; limits: (lower, upper) [rad or length], None if the joint is continuous or its range unknown.
+    If it is unknown, `range_known` is False, and the sign of the axis has no meaning.
+    """
+
+    type: JointType
+    origin: Float[np.ndarray, " 3"]
+    axis: Float[np.ndarray, " 3"]
+    limits: tuple[float, float] | None
+    range_known: bool = True
+
+    @property
+    def opening_motion(self) -> Motion:
+        """Return the motion, signed so that positive covers the larger part of the range."""
+        sign = -1.0 if self.limits is not None and sum(self.limits) < 0 else 1.0
+        kind = JointType.PRISMATIC if self.type is JointType.PRISMATIC else JointType.REVOLUTE
+        return Motion(kind, sign * self.axis / np.linalg.norm(self.axis), self.origin, "known")
+
+    @property
+    def opening_range(self) -> tuple[float, float] | None:
+        """Return the limits of `opening_motion`."""
+        return (-self.limits[1], -self.limits[0]) if self.limits is not None and sum(self.limits) < 0 else self.limits
+
+
+@dataclass(frozen=True, eq=False)
+class Joint:
+    """A joint at rest in the asset frame. Positive motion opens.
+
+    origin: a point on the axis [m]; axis: unit; limits: (lower, upper) [rad or m] containing 0, None if and only if the joint
+    is continuous or fixed; effort [N or N m], velocity [m/s or rad/s], damping [N s/m or N m s/rad], friction [N or N m].
+    """
+
+    name: str
+    type: JointType
+    parent: str
+    child: str
+    origin: Float[np.ndarray, " 3"]
+    axis: Float[np.ndarray, " 3"]
+    limits: tuple[float, float] | None
+    confidence: float
+    reason: str
+    effort: float = 50.0
+    velocity: float = 2.0
+    damping: float = 0.1
+    friction: float = 0.05
+
+    def __post_init__(self) -> None:
+        if not abs(float(np.linalg.norm(self.axis)) - 1) <= 1e-6:  # also rejects NaN
+            raise ValueError(f"joint {self.name!r}: axis must be a unit vector, found {self.axis}")
+        if not np.isfinite(self.origin).all():
+            raise ValueError(f"joint {self.name!r}: origin must be finite, found {self.origin}")
+        if not 0 <= self.confidence <= 1:
+            raise ValueError(f"joint {self.name!r}: confidence must lie in 0..1, found {self.confidence}")
+        if not self.reason:
+            raise ValueError(f"joint {self.name!r}: a reason in words is needed")
+        limited = self.type in (JointType.REVOLUTE, JointType.PRISMATIC)
+        if limited != (self.limits is not None):
+            raise ValueError(f"joint {self.name!r}: limits {self.limits} do not match type {self.type}")
+        if self.limits is None:
+            return
+        lower, upper = self.limits
+        if not (-np.inf < lower <= 0 <= upper < np.inf and lower < upper):
+            raise ValueError(
+                f"joint {self.name!r}: limits must be finite and contain the rest pose 0 and a range, found {self.limits}"
+            )
+
+
+@dataclass(frozen=True)
+class RecognizedLabel:
+    """A kind of movable part.
+
+    moves: as answered before any picture of its joint, never FIXED; limits: (lower, upper) from the pose shown [rad, or m],
+    None if unknown.
+    """
+
+    label: str
+    moves: JointType | None  # None if unknown
+    parent: str | None  # another label, or "base"; None if unknown
+    limits: tuple[float, float] | None
+
+
+@dataclass(frozen=True)
+class Recognition:
+    """The recognized object.
+
+    size: longest side of the real object [m]; front: azimuth of the view that shows the front [deg]. Both are None if unknown.
+    """
+
+    category: str
+    size: float | None
+    labels: tuple[RecognizedLabel, ...]
+    front: float | None = None

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from anymesh.types.recognition import BASE
+from anymesh.types.motion import BASE
 from anymesh.viewer.ask_forms import ArrowsForm, Form, KindsForm, LabelRow, MotionsForm, PartsForm, PointsForm, RecognizeForm
 from anymesh.viewer.ask_marks import MarksForm
 from anymesh.viewer.ask_words import (

@@ -20,7 +20,7 @@ from anymesh.prompted.questions.prompting import (
 )
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import JointType
-from anymesh.types.recognition import BASE
+from anymesh.types.motion import BASE
 from anymesh.viewer.ask_marks import MarksForm
 
 UNNAMED = "part"

@@ -13,7 +13,7 @@ from anymesh.errors import InputError
 from anymesh.evaluation.datasets.dataset_links import Y_UP
 from anymesh.evaluation.datasets.mjcf_sets import MjcfFolder, libero, metaworld
 from anymesh.types import JointType
-from anymesh.types.color import to_linear
+from anymesh.types.mesh import to_linear
 
 HIDDEN = 'contype="0" conaffinity="0" group="1"'
 SCENE = f"""<mujoco model="scene"><compiler angle="radian"/>

@@ -20,7 +20,7 @@ from anymesh.prompted.grounding import ground_masks
 from anymesh.prompted.grounding.grounded_parts import UNSURE
 from anymesh.rendering.viewpoints import part_pixels
 from anymesh.types import Mesh, Segmentation
-from anymesh.types.recognition import Recognition, RecognizedLabel
+from anymesh.types.motion import Recognition, RecognizedLabel
 
 TRUTHS = {t.name: t for t in example_truths(Path(__file__).parents[3] / "examples")}
 FEW, VIEWS = GroundingConfig(points=20_000), ViewsConfig(size=320)

@@ -21,7 +21,7 @@ from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichM
 from anymesh.prompted.questions.motion_choice import PartFit
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Exchange, Mesh, Part, Segmentation
-from anymesh.types.recognition import Recognition, RecognizedLabel
+from anymesh.types.motion import Recognition, RecognizedLabel
 
 QUICK = Config(views=ViewsConfig(around="4@15+30,1@50+30", size=160), grounding=GroundingConfig(points=8_000))
 CASE = [

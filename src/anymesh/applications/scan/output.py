@@ -13,7 +13,7 @@ from jaxtyping import Float, Int, UInt8
 from anymesh.applications.scan.cleaning import Hole
 from anymesh.errors import OutputError
 from anymesh.export.glb_buffer import INDICES, VERTICES, GlbBuffer
-from anymesh.types.color import to_linear
+from anymesh.types.mesh import to_linear
 
 TO_GLTF = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # z up to y up
 

@@ -13,7 +13,7 @@ from anymesh.evaluation.datasets.shapes_ import box, capsule, cylinder, ellipsoi
 from anymesh.loading.join import simple_mesh
 from anymesh.mujoco_ import load_mujoco
 from anymesh.types import Material, Mesh, Texture
-from anymesh.types.color import to_linear
+from anymesh.types.mesh import to_linear
 
 mujoco = load_mujoco()
 

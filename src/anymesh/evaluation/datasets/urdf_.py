@@ -22,7 +22,7 @@ from anymesh.evaluation.datasets.splits import check_split, chosen, listed
 from anymesh.evaluation.datasets.visuals import find_mesh, read_visual
 from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.types import JointType, KnownJoint, Material, Mesh
-from anymesh.types.color import to_linear
+from anymesh.types.mesh import to_linear
 
 MOVING = {"revolute", "continuous", "prismatic"}
 JOINT = re.compile(r"""<joint[^>]*type\s*=\s*["'](revolute|continuous|prismatic)["']""")

@@ -18,7 +18,7 @@ from anymesh.pipeline.results import (
     SegmentationResult,
 )
 from anymesh.types import Exchange, Joint, JointType, Material, Mesh, Node, Part, Picture, Segmentation, Source, Texture
-from anymesh.types.recognition import Recognition, RecognizedLabel
+from anymesh.types.motion import Recognition, RecognizedLabel
 
 Result = TypeVar("Result")
 Arrays = Mapping[str, np.ndarray]

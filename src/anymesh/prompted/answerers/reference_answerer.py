@@ -28,7 +28,7 @@ from anymesh.prompted.questions.prompting import (
 )
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import Exchange, JointType, KnownJoint, Motion
-from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
+from anymesh.types.motion import BASE, Recognition, RecognizedLabel
 
 MIN_VISIBLE_PIXELS = 40  # [px] minimum visible size of a part
 MIN_MARK_OVERLAP = 0.5  # minimum share of a mark's pixels on the part that the mark is given to

@@ -17,7 +17,7 @@ from anymesh.runtime import Progress, silent
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.surface_regions import patch_sizes
 from anymesh.types import JointType, Segmentation
-from anymesh.types.recognition import Recognition
+from anymesh.types.motion import Recognition
 
 MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, JointType | None], bool]  # `articulation.freedom`
 

@@ -19,7 +19,7 @@ from anymesh.prompted.questions.asking import Answer, Question, VisualAnswerer
 from anymesh.prompted.questions.pictures import DrawnPictures
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, PartShown
 from anymesh.types import Motion, Picture, Segmentation
-from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
+from anymesh.types.motion import BASE, Recognition, RecognizedLabel
 
 MAX_PART_PICTURES = 8  # pictures per call
 

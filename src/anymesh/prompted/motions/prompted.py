@@ -29,7 +29,7 @@ from anymesh.prompted.questions.motion_choice import PartFit
 from anymesh.prompted.questions.prompting import ArrowTable, JointAppearance, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.runtime import Progress, silent
 from anymesh.types import Joint, JointType, Motion, Segmentation
-from anymesh.types.recognition import Recognition
+from anymesh.types.motion import Recognition
 
 INTO_POINTS = 8  # candidates for an axis into the surface, half of which stand for axes
 ShapeOf = Callable[[Segmentation], ObjectShape]

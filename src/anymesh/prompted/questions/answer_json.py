@@ -13,7 +13,7 @@ from anymesh.prompted.questions.motion_choice import WhichMotions
 from anymesh.prompted.questions.prompting import OTHER, KindAnswer, WhichArrows, WhichKinds, WhichPoints
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import JointType
-from anymesh.types.recognition import Recognition, RecognizedLabel
+from anymesh.types.motion import Recognition, RecognizedLabel
 
 
 def answer_object(question: Question[Any], answer: Any) -> dict[str, Any]:

@@ -21,7 +21,7 @@ from anymesh.prompted.questions.asking import (
 )
 from anymesh.prompted.questions.pictures import DrawnPictures, Pictures
 from anymesh.types import MOVING, JointType, Picture
-from anymesh.types.recognition import BASE, Recognition, RecognizedLabel
+from anymesh.types.motion import BASE, Recognition, RecognizedLabel
 
 MAX_LABELS = 24  # kinds of part per answer
 SIZES = (0.002, 200.0)  # [m] range of the size of an object
