@@ -16,8 +16,8 @@ from anymesh.finishing.visible import GRAZE, escapes
 from anymesh.geometry.distance_ import distance_to_mesh, winding_number
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.geometry.sampling import sample_surface, spread_directions
 from anymesh.geometry.topology import components, weld
+from anymesh.geometry.triangle_set import sample_surface, spread_directions
 from anymesh.rendering.render import render
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.types import Asset, Mesh

@@ -30,7 +30,7 @@ from anymesh.evaluation.metrics import same_motion
 from anymesh.evaluation.score import score
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.triangle_set import sample_surface
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.types import Asset, JointType, Mesh
 

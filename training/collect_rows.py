@@ -17,7 +17,7 @@ from anymesh.evaluation.changes import changed, moved
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.protocols import prepared
-from anymesh.geometry.yaw import straightening
+from anymesh.geometry.boxes import straightening
 
 WriteRows = Callable[[Path, EvalSample, str, str], None]  # file, object, source, form
 

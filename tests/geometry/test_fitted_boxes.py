@@ -8,9 +8,8 @@ from assets import box
 from rigid import move, shape_of
 from scipy.spatial.transform import Rotation
 
-from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.boxes import box_in_frame, box_pairs, dominant_normals, fit_box
-from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.geometry.triangle_set import TriangleSet, body_obb
 
 X, Y, Z = np.eye(3)
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 
-from anymesh.geometry.ground import ground_faces
+from anymesh.geometry.surface import ground_faces
 
 CABINET = [box((-0.3, -0.2, 0), (0.3, 0.2, 0.8)), box((-0.3, -0.22, 0), (0, -0.2, 0.8))]
 

@@ -7,14 +7,12 @@ import pytest
 from assets import box, mesh_of
 from rigid import apply, move, shape_of
 
-from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.boxes import OrientedBox, box_in_frame, box_pairs, dominant_normals, fit_box, same_box, within
 from anymesh.geometry.circles import fit_circle, outline_about, roundest
-from anymesh.geometry.connected import label_connected
 from anymesh.geometry.raycast_ import RayScene, SurfaceHits
-from anymesh.geometry.sampling import sample_surface, spread_directions
 from anymesh.geometry.surface import mesh_surface
-from anymesh.geometry.topology import components, edge_pairs, weld
+from anymesh.geometry.topology import components, edge_pairs, label_connected, weld
+from anymesh.geometry.triangle_set import body_obb, sample_surface, spread_directions
 
 X, Y, Z = np.eye(3)
 

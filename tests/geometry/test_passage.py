@@ -7,7 +7,7 @@ import pytest
 from assets import box
 from rigid import shape_of
 
-from anymesh.geometry.passage import Passage
+from anymesh.geometry.sweep import Passage
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import JointType, Motion
 from anymesh.types.triangles import normals_and_areas

@@ -7,8 +7,8 @@ import pytest
 import trimesh
 from rigid import apply, move
 
-from anymesh.geometry.revolution import Revolution, fit_revolution, share_in_place
-from anymesh.geometry.sampling import SurfacePoints, sample_surface
+from anymesh.geometry.circles import Revolution, fit_revolution, share_in_place
+from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
 
 Z = np.array([0.0, 0, 1])
 ROUND = {

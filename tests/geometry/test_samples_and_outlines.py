@@ -9,7 +9,7 @@ from rigid import shape_of
 
 from anymesh.geometry.circles import outline_about
 from anymesh.geometry.contact import connecting_area
-from anymesh.geometry.sampling import sample_surface, spread_directions
+from anymesh.geometry.triangle_set import sample_surface, spread_directions
 
 Z = np.array([0.0, 0, 1])
 

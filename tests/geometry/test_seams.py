@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from anymesh.geometry.seams import divide_at_seams
+from anymesh.geometry.creases import divide_at_seams
 
 SPACING = 0.01
 NOTHING = np.zeros((0, 3))

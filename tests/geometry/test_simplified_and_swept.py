@@ -12,10 +12,10 @@ from rigid import shape_of
 
 from anymesh.config import PatchConfig
 from anymesh.geometry.creases import convex_regions
-from anymesh.geometry.sampling import spread_directions
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.superpoints import superpoints
 from anymesh.geometry.sweep import Obstacles, free_amount, free_amounts, sweep
+from anymesh.geometry.triangle_set import spread_directions
 from anymesh.types import JointType, Motion
 
 X, Y, Z = np.eye(3)

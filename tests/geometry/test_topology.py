@@ -9,8 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from rigid import apply, move
 
-from anymesh.geometry.connected import label_connected
-from anymesh.geometry.topology import components, edge_pairs, weld
+from anymesh.geometry.topology import components, edge_pairs, label_connected, weld
 
 CUBE, FACES = box((0, 0, 0), (1, 1, 1))
 REVERSED = FACES[:, ::-1]

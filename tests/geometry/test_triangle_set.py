@@ -1,5 +1,7 @@
 """Test shapes of whole objects: outward normals, cavities, samples and subsets."""
 
+from __future__ import annotations
+
 import numpy as np
 import pytest
 import trimesh
@@ -9,7 +11,7 @@ from rigid import apply, move, shape_of
 from anymesh.config import PatchConfig
 from anymesh.geometry.distance_ import TriangleTree, distance_to_triangles
 from anymesh.geometry.surface import mesh_surface
-from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.geometry.triangle_set import TriangleSet, points_above, principal_spread, shares_above, surface_moments
 from anymesh.segmentation.divide import object_shape
 from anymesh.types.triangles import normals_and_areas
 
@@ -142,3 +144,51 @@ def test_far_triangles_are_left_out_of_the_search(monkeypatch: pytest.MonkeyPatc
     ball = sphere()
     ball.nearest(np.array([[0.0, 0.0, 1.01], [0.02, 0.0, 1.0]]))
     assert 0 < sizes[0] < 0.02 * len(ball.triangles)
+
+
+UPRIGHT = np.array([[[0, 0, 0], [2, 0, 0], [0, 0, 2]]], float)
+
+
+@pytest.mark.parametrize(
+    ("level", "share"), [(-1.0, 1), (0.0, 1), (0.5, 0.5625), (1.0, 0.25), (1.5, 0.0625), (2.0, 0), (3.0, 0)]
+)
+def test_the_share_of_a_triangle_on_its_side_falls_with_the_square(level: float, share: float) -> None:
+    assert shares_above(UPRIGHT[:, :, 2], level) == pytest.approx([share])
+
+
+def test_a_level_face_is_above_all_or_nothing() -> None:
+    heights = np.ones((1, 3))
+    assert [float(shares_above(heights, level)[0]) for level in (0.9, 1.0, 1.1)] == [1, 0, 0]
+
+
+@pytest.mark.parametrize("level", [0.2, 0.5, 0.8])
+def test_shares_are_those_of_many_points(level: float) -> None:
+    rng = np.random.default_rng(3)
+    triangles = rng.random((5, 3, 3))
+    weights = rng.dirichlet((1, 1, 1), 40_000)
+    heights = triangles[:, :, 2]
+    assert shares_above(heights, level) == pytest.approx((weights @ heights.T > level).mean(0), abs=0.01)
+
+
+def test_the_corners_above_a_level() -> None:
+    found = points_above(UPRIGHT, UPRIGHT[:, :, 2], 1.0)
+    assert {tuple(p) for p in found} == {(0, 0, 2), (0, 0, 1), (1, 0, 1)}
+    assert len(points_above(UPRIGHT, UPRIGHT[:, :, 2], 2.0)) == 0
+    assert len(points_above(UPRIGHT, UPRIGHT[:, :, 2], -1.0)) == 3
+
+
+def test_moments_of_a_rectangle() -> None:
+    """A sheet of 2 m by 1 m from the origin: area 2, centroid (1, .5, 0), mean of x^2 is 4/3, of y^2 1/3, of xy 1/2."""
+    a, b, c, d = np.array([[0.0, 0, 0], [2, 0, 0], [2, 1, 0], [0, 1, 0]])
+    moments = surface_moments(np.array([[a, b, c], [a, c, d]]))
+    assert moments == pytest.approx(2 * np.array([[4 / 3, 0.5, 0, 1], [0.5, 1 / 3, 0, 0.5], [0, 0, 0, 0], [1, 0.5, 0, 1]]))
+    assert principal_spread(moments[None])[0] == pytest.approx([0, 1 / 12**0.5, 2 / 12**0.5])
+
+
+def test_moments_add_up_and_the_spread_does_not_depend_on_the_frame() -> None:
+    one, other = (shape_of(box(low, high)).triangles for low, high in (((0, 0, 0), (1, 2, 3)), ((4, 0, 0), (5, 1, 1))))
+    both = surface_moments(np.concatenate([one, other]))
+    assert both == pytest.approx(surface_moments(one) + surface_moments(other))
+    turn = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
+    turned = surface_moments(np.concatenate([one, other]) @ turn.T + [1, -2, 3])
+    assert principal_spread(turned[None]) == pytest.approx(principal_spread(both[None]))

@@ -7,8 +7,7 @@ import pytest
 from assets import CUBE, box, mesh_of
 from rigid import apply, move
 
-from anymesh.geometry.connected import label_connected
-from anymesh.geometry.topology import components, edge_pairs, weld
+from anymesh.geometry.topology import components, edge_pairs, label_connected, weld
 
 CELL = 2.0**-20  # of the largest extent
 

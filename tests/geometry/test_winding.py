@@ -6,8 +6,7 @@ from assets import box, mesh_of
 from rigid import apply, move
 from test_triangle_set import outwardness
 
-from anymesh.geometry.copies import without_copies
-from anymesh.geometry.surface import mesh_surface, plain_triangles
+from anymesh.geometry.surface import mesh_surface, plain_triangles, without_copies
 from anymesh.geometry.topology import MAX_AROUND, components, edge_pairs
 from anymesh.physics.inertia import InertiaConfig, raw_inertia
 from anymesh.types import Mesh

@@ -5,7 +5,7 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.evaluation.changes import rotation
-from anymesh.geometry.yaw import straightening
+from anymesh.geometry.boxes import straightening
 from anymesh.types import Mesh
 
 UP = np.array([0.0, 0, 1])

@@ -10,8 +10,7 @@ from geometry.rigid import apply, move, shape_of
 
 from anymesh.articulation.barrels import find_barrel_candidates
 from anymesh.config import ArticulationConfig
-from anymesh.geometry.body_obb import body_obb
-from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.triangle_set import body_obb, sample_surface
 from anymesh.motion.part_context import CONTACT_REACHES, MAX_SURFACE_POINTS, PartContext
 from anymesh.segmentation.divide import object_shape
 

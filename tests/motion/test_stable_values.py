@@ -10,7 +10,7 @@ from assets import CABINET, box
 from geometry.rigid import shape_of
 
 from anymesh.config import ArticulationConfig
-from anymesh.geometry.body_obb import body_obb
+from anymesh.geometry.triangle_set import body_obb
 from anymesh.motion.opening import MIN_LEAD, best_direction
 from anymesh.motion.part_context import PartContext
 

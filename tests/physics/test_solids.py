@@ -10,7 +10,7 @@ import pytest
 from test_decomposer import bracket
 
 from anymesh.geometry.distance_ import distance_to_mesh, winding_number
-from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.triangle_set import sample_surface
 from anymesh.physics.collision.convex import planes, volume
 from anymesh.physics.collision.solids_ import decompose_solid
 from anymesh.physics.collision.split import solid_mesh

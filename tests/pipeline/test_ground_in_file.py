@@ -5,7 +5,7 @@ import pytest
 import trimesh
 from assets import box, mesh_of
 
-from anymesh.geometry.ground import ground_faces
+from anymesh.geometry.surface import ground_faces
 from anymesh.pipeline.geometry_stages import GROUND_WARNING
 from anymesh.pipeline.solving import Solver, solve
 

@@ -13,7 +13,7 @@ import trimesh
 from jaxtyping import Bool, Float
 from trimesh import Trimesh
 
-from anymesh.geometry.sampling import spread_directions
+from anymesh.geometry.triangle_set import spread_directions
 from training.kinds.solids import Point, together
 
 BASE = "base"

@@ -15,8 +15,7 @@ from jaxtyping import Float
 from anymesh.articulation.contact_metrics import contact_points
 from anymesh.articulation.motion_question import ProposedMotion
 from anymesh.geometry.boxes import OrientedBox
-from anymesh.geometry.circles import outline_about
-from anymesh.geometry.revolution import fit_revolution
+from anymesh.geometry.circles import fit_revolution, outline_about
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 

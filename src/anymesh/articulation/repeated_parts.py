@@ -12,9 +12,8 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.config import SAME_AXIS_COSINE
-from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.boxes import same_box
-from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.geometry.triangle_set import TriangleSet, body_obb
 from anymesh.motion.opening import best_direction
 from anymesh.motion.part_context import PartContext
 

@@ -13,9 +13,9 @@ from anymesh.articulation.rank_motions import joint_type, motion_scores, reason
 from anymesh.config import Config
 from anymesh.correcting.corrections import ChooseMotion, vector
 from anymesh.correcting.finding import joint_of_part, part_number
+from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.simplify_ import simplify
-from anymesh.geometry.yaw import straight_mesh, turned_back
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Asset, Joint, JointType, Mesh
 

@@ -9,9 +9,8 @@ from jaxtyping import Float, Int
 
 from anymesh.correcting.corrections import CorrectionError
 from anymesh.geometry.circles import outline_about
-from anymesh.geometry.connected import label_connected
 from anymesh.geometry.superpoints import superpoints
-from anymesh.geometry.topology import EdgePairs, edge_pairs
+from anymesh.geometry.topology import EdgePairs, edge_pairs, label_connected
 from anymesh.types import Asset
 
 FLAT = np.deg2rad(5)  # [rad] maximum angle between faces of one plane

@@ -9,8 +9,8 @@ from jaxtyping import Bool
 
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.geometry.distance_ import distance_to_mesh
-from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.topology import components
+from anymesh.geometry.triangle_set import sample_surface
 from anymesh.types import Mesh
 from anymesh.types.triangles import bounds_of
 

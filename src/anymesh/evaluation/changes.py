@@ -18,9 +18,9 @@ from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.posing import ajar
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.geometry.sampling import SurfacePoints, sample_surface, spread_directions
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.topology import components, weld
+from anymesh.geometry.triangle_set import SurfacePoints, sample_surface, spread_directions
 from anymesh.prompted.grounding.cloud import point_colors
 from anymesh.types import Mesh, Node
 from anymesh.types.triangles import normals_and_areas

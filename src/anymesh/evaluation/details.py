@@ -10,7 +10,7 @@ from jaxtyping import Float, Int
 
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.geometry.sampling import SurfacePoints, sample_surface
+from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
 
 # lengths relative to the object's diagonal
 COUNTS = (5, 60)  # range of the number of small things, by its logarithm

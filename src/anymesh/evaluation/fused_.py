@@ -10,8 +10,8 @@ from scipy import ndimage
 
 from anymesh.errors import MissingExtraError
 from anymesh.geometry.distance_ import distance_to_mesh
-from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.topology import weld
+from anymesh.geometry.triangle_set import sample_surface
 from anymesh.types.triangles import normals_and_areas
 
 OFFSET = 0.6  # [cells] offset of the wrap; from 0.5 on, sheets have no leaks

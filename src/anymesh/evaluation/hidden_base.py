@@ -6,9 +6,8 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.ndimage import maximum_filter
 
-from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.boxes import OrientedBox, box_in_frame
-from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.geometry.triangle_set import TriangleSet, body_obb
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 

@@ -35,7 +35,7 @@ from scipy.spatial import ConvexHull, KDTree, QhullError
 from anymesh.evaluation.boxes import as_box, box_giou, box_iou
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.geometry.kinematics import joint_motion
-from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.triangle_set import sample_surface
 from anymesh.types import Joint, JointType, Mesh, Segmentation
 
 POINTS = 10_000  # number of surface points for distances

@@ -20,7 +20,7 @@ from anymesh.evaluation.metrics import (
     same_motion,
 )
 from anymesh.evaluation.particulate_metrics import ParticulateMetrics, particulate_metrics
-from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.triangle_set import sample_surface
 from anymesh.types import Joint, JointType, Mesh, Segmentation
 
 MIN_MATCH_IOU = 0.5  # IoU from which a part counts as found

@@ -12,7 +12,7 @@ from anymesh.finishing.protocol import Finished, PartMesh
 from anymesh.finishing.visible import seen_from_outside, visible_faces
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.triangle_set import sample_surface
 from anymesh.types import Asset
 
 AGREES = 0.01  # share of the object's diagonal: maximum distance of a part's visible surface from its completed surface

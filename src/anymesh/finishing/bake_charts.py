@@ -8,9 +8,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.errors import OptionError
-from anymesh.geometry.connected import label_connected
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.geometry.topology import edge_pairs
+from anymesh.geometry.topology import edge_pairs, label_connected
 from anymesh.types import Mesh
 
 ACROSS = np.array([[1, 2], [2, 0], [0, 1]])  # axes of the plane normal to each axis

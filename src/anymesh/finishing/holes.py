@@ -11,7 +11,7 @@ from anymesh.finishing.scenes import SKIP, Scenes, room
 from anymesh.finishing.seen import SheetVisibility
 from anymesh.finishing.settings import ShapeConfig
 from anymesh.finishing.sheets import Sheet
-from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.triangle_set import sample_surface
 
 PROBES = 120  # sample points on a cap
 PARALLEL = 0.99  # minimum cosine between the normals of borders in one plane

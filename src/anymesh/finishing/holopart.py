@@ -15,7 +15,7 @@ from anymesh.finishing.protocol import PartMesh
 from anymesh.finishing.scene_glb import Y_UP, read_scene, scene_glb
 from anymesh.finishing.thicken import Thickened, thicken
 from anymesh.geometry.distance_ import distance_to_triangles
-from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.triangle_set import sample_surface
 from anymesh.types import Asset, Mesh, Node
 
 log = logging.getLogger("anymesh")

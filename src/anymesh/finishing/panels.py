@@ -9,10 +9,9 @@ from jaxtyping import Float
 
 from anymesh.finishing.scenes import Growing, Scenes, scene_of, widest
 from anymesh.finishing.settings import ShapeConfig
-from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.kinematics import joint_transform
-from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.geometry.triangle_set import TriangleSet, body_obb
 from anymesh.types import JointType
 
 FACING = 0.9  # minimum cosine between a face's normal and its panel's

@@ -9,7 +9,7 @@ from jaxtyping import Float, Int
 
 from anymesh.finishing.texture_points import barycentric, inside
 from anymesh.geometry.distance_ import distance_to_mesh, distance_to_triangles
-from anymesh.geometry.sampling import sample_surface
+from anymesh.geometry.triangle_set import sample_surface
 from anymesh.types import Mesh
 
 SAME = 1e-3  # share of the diagonal: tolerance between corners of the same faces

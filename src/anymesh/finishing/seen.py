@@ -13,7 +13,7 @@ from anymesh.finishing.settings import ShapeConfig
 from anymesh.finishing.sheets import Sheet
 from anymesh.finishing.visible import GRAZE, escapes
 from anymesh.geometry.boxes import OrientedBox, fit_box
-from anymesh.geometry.sampling import SurfacePoints, sample_surface
+from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
 
 PROBES = 120  # sample points on a sheet
 

@@ -9,9 +9,8 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.geometry.connected import label_connected
 from anymesh.geometry.surface import open_surface
-from anymesh.geometry.topology import EdgePairs, edge_pairs, weld
+from anymesh.geometry.topology import EdgePairs, edge_pairs, label_connected, weld
 from anymesh.types.triangles import normals_and_areas
 
 

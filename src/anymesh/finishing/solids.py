@@ -15,8 +15,8 @@ from anymesh.finishing.seen import SheetVisibility, is_laid_open, sheet_visibili
 from anymesh.finishing.settings import ShapeConfig
 from anymesh.finishing.sheets import Sheet, open_sheets
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.geometry.sampling import SurfacePoints
 from anymesh.geometry.topology import components
+from anymesh.geometry.triangle_set import SurfacePoints
 
 FACING = 0.7  # minimum cosine between a face's normal and its plate's
 SHARES = (0.93, 0.87, 0.8)  # shares of the thickness, tried until a solid is separated from those that it lies in

@@ -11,9 +11,8 @@ from jaxtyping import Bool, Float, Int
 from anymesh.finishing.protocol import Finished
 from anymesh.finishing.texture_points import Spots, barycentric, spots_on
 from anymesh.finishing.visible import visible_faces
-from anymesh.geometry.connected import label_connected
 from anymesh.geometry.distance_ import distance_to_mesh
-from anymesh.geometry.topology import edge_pairs
+from anymesh.geometry.topology import edge_pairs, label_connected
 from anymesh.types import Asset, Mesh
 
 MIN_SAME_CHART_COSINE = np.cos(np.deg2rad(20.0))  # new faces that meet at a smaller angle form one patch

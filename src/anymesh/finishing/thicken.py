@@ -8,8 +8,8 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.finishing.protocol import PartMesh
-from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.topology import components, weld
+from anymesh.geometry.triangle_set import sample_surface
 
 CORE = (0.05, 0.95)  # quantiles of the surface used to measure thickness, so that a handle does not make a door thick
 SAMPLES = 4000

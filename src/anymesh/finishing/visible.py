@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.geometry.sampling import SurfacePoints, sample_surface, spread_directions
+from anymesh.geometry.triangle_set import SurfacePoints, sample_surface, spread_directions
 from anymesh.types import Mesh
 
 PROBES = 20_000  # points on the surface, besides the centroid of every face

@@ -1,16 +1,23 @@
-"""Oriented boxes."""
+"""Oriented boxes, and the rotation about the vertical that turns the upright faces of a shape along x and y."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
+from anymesh.types import Joint, Mesh
 from anymesh.types.triangles import bounds_of, boxes_meet, cross
 
 MAX_SIDE_DIFFERENCE_RATIO = 0.03  # maximum difference of the sides of copies, over the diagonal
 MIN_COPY_COSINE = 0.99  # minimum cosine between the axes of copies
+BLOCK = 100_000  # points times frames that are transformed at once
+ALIGNED_POWER = 100  # a face lies along an axis by this power of the cosine to its normal: .87 at 3 degrees, .22 at 10
+MIN_BOXY_SHARE = 0.6  # share of the surface along the axes of a frame above which the box is aligned with the surface
+MAX_ALIGNED_LOSS = 0.1  # by how much less of the surface may lie along the axes of the frame that is taken
+MIN_ALIGNED_SHARE = 0.3  # minimum length of the mean direction of upright faces, modulo a quarter turn; 1 if all agree
+MIN_YAW_RAD = float(np.deg2rad(0.5))  # [rad] smaller angles are left, so that files that are nearly straight stay as they are
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,12 +59,6 @@ def _frame(first: np.ndarray, second: np.ndarray) -> np.ndarray | None:
         return None
     second = second / length
     return np.array([first, second, cross(first, second)])
-
-
-BLOCK = 100_000  # points times frames that are transformed at once
-ALIGNED_POWER = 100  # a face lies along an axis by this power of the cosine to its normal: .87 at 3 degrees, .22 at 10
-MIN_BOXY_SHARE = 0.6  # share of the surface along the axes of a frame above which the box is aligned with the surface
-MAX_ALIGNED_LOSS = 0.1  # by how much less of the surface may lie along the axes of the frame that is taken
 
 
 def dominant_normals(
@@ -170,3 +171,28 @@ def _sorted_overlaps(low: Float[np.ndarray, " n"], high: Float[np.ndarray, " n"]
     """Return the intervals in the order of their lower ends, and for each the position in that order where overlaps end."""
     order = np.argsort(low, kind="stable")
     return order, np.searchsorted(low[order], high[order], side="right")
+
+
+def straightening(normals: Float[np.ndarray, "F 3"], areas: Float[np.ndarray, " F"]) -> Float[np.ndarray, "4 4"]:
+    """Return the rotation about z, by 45 degrees at most, after which most upright faces face along x or y.
+
+    The identity if no direction prevails. areas: of the faces [m^2].
+    """
+    upright = areas * np.hypot(normals[:, 0], normals[:, 1]) ** 4  # a level face has no direction, and a sloping one hardly any
+    mean = np.sum(upright * np.exp(4j * np.arctan2(normals[:, 1], normals[:, 0]))) / max(float(upright.sum()), 1e-300)
+    yaw = -float(np.angle(mean)) / 4
+    T = np.eye(4)
+    if abs(mean) >= MIN_ALIGNED_SHARE and abs(yaw) >= MIN_YAW_RAD:
+        T[:2, :2] = [[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]]
+    return T
+
+
+def straight_mesh(mesh: Mesh) -> tuple[Mesh, Float[np.ndarray, "4 4"]]:
+    """Return the mesh turned straight, and the rotation; the mesh itself if it is straight."""
+    T = straightening(mesh.face_normals, mesh.face_areas)
+    return (mesh if (np.eye(4) == T).all() else mesh.transformed(T)), T
+
+
+def turned_back(joint: Joint, T: Float[np.ndarray, "4 4"]) -> Joint:
+    """Return a joint of the turned mesh in the frame from which T turned it."""
+    return joint if (np.eye(4) == T).all() else replace(joint, origin=joint.origin @ T[:3, :3], axis=joint.axis @ T[:3, :3])

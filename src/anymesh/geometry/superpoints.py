@@ -7,7 +7,7 @@ from jaxtyping import Float, Int
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import breadth_first_order, maximum_flow
 
-from anymesh.geometry.connected import label_connected
+from anymesh.geometry.topology import label_connected
 
 ROUNDS = 8  # rounds of the cut; each splits every superpoint in two at most
 ALTERNATIONS = 3  # alternations between values and borders within a split

@@ -1,4 +1,4 @@
-"""Mesh topology: welding, edges, connected components, closed solids."""
+"""Mesh topology: welding, edges, connected components, the winding of their faces, closed solids."""
 
 from __future__ import annotations
 
@@ -7,12 +7,15 @@ from itertools import product
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
-from anymesh.geometry.connected import label_connected
-from anymesh.geometry.winding import back_to_back, outward
-from anymesh.types.triangles import bounds_of
+from anymesh.geometry.triangle_set import SLANTED
+from anymesh.types.triangles import bounds_of, face_cross
 
+MIN_VOLUME_SHARE = 0.1  # of the volumes between the faces and their middle: a surface around less has no outside
+FLAT = 1e-9  # of the area to the power of 1.5: a smaller volume is rounding
 # [rad] faces at an edge with a smaller angle between them count as coplanar, to allow for imprecise exports
 MAX_COPLANAR_ANGLE_RAD = 0.05
 # of the diagonal: open edges with nearer ends are one edge; coordinates of 14 bits leave such cracks
@@ -21,6 +24,93 @@ MAX_CRACK_ENDS = 8  # ends of open edges that are joined with one, the nearest f
 MIN_MIXED_SHARE = 0.05  # of the edges of two faces: if more of these disagree, no winding is trusted
 MAX_AROUND = 1000  # faces around an edge, above which none of them bounds a solid
 MAX_COMPARED = 4_000_000  # pairs of faces around edges that are compared at once, which limits memory
+
+
+@dataclass(frozen=True, eq=False)
+class Winding:
+    """How the faces of each component must be wound.
+
+    label: (F,) component of each face; flip: (F,) faces to reverse; two_sided: (c,) components whose faces can agree; sure:
+    (F,) faces of components that enclose a volume.
+    """
+
+    label: Int[np.ndarray, " F"]
+    flip: Bool[np.ndarray, " F"]
+    two_sided: Bool[np.ndarray, " c"]
+    sure: Bool[np.ndarray, " F"]
+
+
+def agreeing(
+    count: int, pairs: Int[np.ndarray, "m 2"], aligned: Bool[np.ndarray, " m"]
+) -> tuple[Int[np.ndarray, " F"], Bool[np.ndarray, " F"], Bool[np.ndarray, " c"]]:
+    """Return the component of each face, which faces to reverse so that all of a component agree with its first, and whether
+    they can.
+
+    pairs: faces that meet at an edge; aligned: whether they agree. No face of a one-sided component, such as a Moebius strip,
+    is reversed.
+    """
+    label = label_connected(count, pairs)
+    components = int(label.max()) + 1
+    if aligned.all():
+        return label, np.zeros(count, bool), np.ones(components, bool)
+    f, g = pairs.T  # each face is two nodes, as it is and reversed
+    side = label_connected(2 * count, np.concatenate([np.c_[f, g + count * ~aligned], np.c_[f + count, g + count * aligned]]))
+    first = np.unique(label, return_index=True)[1]
+    two_sided = side[first] != side[first + count]
+    return label, two_sided[label] & (side[:count] != side[first][label]), two_sided
+
+
+def outward(triangles: Float[np.ndarray, "F 3 3"], pairs: Int[np.ndarray, "m 2"], aligned: Bool[np.ndarray, " m"]) -> Winding:
+    """Return how to wind the faces so that each component faces outwards.
+
+    pairs, aligned: as in `agreeing`.
+
+    A component that encloses hardly any volume, such as a flat sheet, is wound as most of its surface is, unless most of the
+    other components are inside out.
+    """
+    label, flip, two_sided = agreeing(len(triangles), pairs, aligned)
+    count = len(two_sided)
+    faces = np.bincount(label, minlength=count)
+    middle = np.stack([np.bincount(label, triangles[:, :, k].mean(1), count) for k in range(3)], 1) / faces[:, None]
+    t = triangles - middle[label][:, None]
+    cross = face_cross(t)
+    volume = np.where(flip, -1, 1) * np.einsum("ij,ij->i", t[:, 0], cross)
+    total, enclosed = np.bincount(label, volume, count), np.bincount(label, np.abs(volume), count)
+    areas = np.linalg.norm(cross, axis=1)
+    area, kept = np.bincount(label, areas, count), np.bincount(label, np.where(flip, -areas, areas), count)
+    around = np.abs(total) > np.maximum(MIN_VOLUME_SHARE * enclosed, FLAT * area**1.5)
+    inside_out = (np.sign(total) * kept)[around].sum() < 0
+    reverse = np.where(around, total < 0, (kept < 0) ^ inside_out) & two_sided
+    return Winding(label, flip ^ reverse[label], two_sided, around[label])
+
+
+def back_to_back(
+    triangles: Float[np.ndarray, "F 3 3"], corner: Int[np.ndarray, "F 3"], asked: Bool[np.ndarray, " F"]
+) -> tuple[Bool[np.ndarray, " F"], Bool[np.ndarray, " F"]]:
+    """Return which of some faces lie in pairs on each other, and which of these to reverse so that each pair is back to back.
+
+    corner: numbers of the corners. In one plane, the first faces of all pairs face the same side, so that a side on which two
+    solids lie on each other becomes a side of each.
+    """
+    rows = np.flatnonzero(asked)
+    place, count = np.unique(np.sort(corner[rows], 1), axis=0, return_inverse=True, return_counts=True)[1:]
+    place = place.reshape(-1)
+    rows, place = rows[count[place] == 2], place[count[place] == 2]
+    first, second = rows[np.argsort(place, kind="stable")].reshape(-1, 2).T
+    ahead = face_cross(triangles) @ SLANTED > 0
+    paired, flip = np.zeros(len(asked), bool), np.zeros(len(asked), bool)
+    paired[rows], flip[first], flip[second] = True, ~ahead[first], ahead[second]
+    return paired, flip
+
+
+def label_connected(count: int, pairs: Int[np.ndarray, "m 2"]) -> Int[np.ndarray, " n"]:
+    """Label the connected components of `count` nodes, ordered by first node."""
+    graph = coo_array((np.ones(len(pairs), np.int8), (pairs[:, 0], pairs[:, 1])), shape=(count, count))
+    _, raw = connected_components(graph, directed=False)
+    first = np.unique(raw, return_index=True)[1]
+    rank = np.empty(len(first), np.int64)
+    rank[np.argsort(first)] = np.arange(len(first))
+    return rank[raw]
 
 
 def weld(vertices: Float[np.ndarray, "V 3"]) -> Int[np.ndarray, " V"]:

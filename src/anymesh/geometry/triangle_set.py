@@ -1,4 +1,7 @@
-"""Sets of triangles with oriented normals, surface samples, a distance tree and a ray caster, each computed on demand."""
+"""Sets of triangles with oriented normals, surface samples, a distance tree and a ray caster, each computed on demand.
+
+Also what is measured on their surfaces: samples, moments, shares above a level, and the box without protrusions.
+"""
 
 from __future__ import annotations
 
@@ -8,14 +11,76 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.geometry.boxes import OrientedBox, fit_box
+from anymesh.geometry.boxes import OrientedBox, box_in_frame, fit_box
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.geometry.sampling import SurfacePoints, spread_points
 from anymesh.types.triangles import bounds_of, boxes_meet, corner_bounds, normals_and_areas
 
 SAMPLES = 3000  # surface points per triangle set; a share of 1 % is 30 points
 SLANTED = np.array([0.3127, 0.5241, 0.7922])  # direction of the rays that tell inside from outside; along no usual face
+SIDE_LEVEL_RATIO = 0.12  # of the surface that faces along an axis, either way: the outermost share is not the level of a side
+MAX_PROTRUSION_RATIO = 0.25  # upper bound on the share of the surface that protrudes
+
+
+@dataclass(frozen=True, eq=False)
+class SurfacePoints:
+    """Points on a surface with the unit normal and the index of the face that each lies on."""
+
+    points: Float[np.ndarray, "n 3"]
+    normals: Float[np.ndarray, "n 3"]
+    faces: Int[np.ndarray, " n"]
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def take(self, index: np.ndarray) -> SurfacePoints:
+        """Return the points chosen by an index array or a mask."""
+        return SurfacePoints(self.points[index], self.normals[index], self.faces[index])
+
+    def joined(self, other: SurfacePoints) -> SurfacePoints:
+        """Return these points and then those of the other; the indices of faces are kept."""
+        pairs = (self.points, other.points), (self.normals, other.normals), (self.faces, other.faces)
+        return SurfacePoints(*(np.concatenate(pair) for pair in pairs))
+
+    @cached_property
+    def moments(self) -> Float[np.ndarray, "n 3"]:
+        """Return the moment of each normal about the asset frame's origin [m]."""
+        return np.cross(self.points, self.normals)
+
+
+def spread_directions(count: int) -> Float[np.ndarray, "n 3"]:
+    """Return unit vectors spread evenly over the sphere (Fibonacci), from the top down."""
+    z = 1 - (2 * np.arange(count) + 1) / count
+    turn = np.arange(count) * np.pi * (3 - np.sqrt(5))
+    return np.stack([np.sqrt(1 - z * z) * np.cos(turn), np.sqrt(1 - z * z) * np.sin(turn), z], 1)
+
+
+def sample_surface(triangles: Float[np.ndarray, "F 3 3"], count: int, seed: int, at_least: int = 0) -> SurfacePoints:
+    """Sample `count` points, with a number per face proportional to its area.
+
+    Systematic sampling is even, and stable for a seed. If no face has an area, all count the same. `at_least` = 1 adds the
+    centroid of every face without points, so that small faces are represented.
+    """
+    normals, areas = normals_and_areas(triangles)
+    points, index = spread_points(triangles, areas, count, seed)
+    if at_least:
+        unseen = np.setdiff1d(np.flatnonzero(areas > 0), index)
+        points = np.concatenate([points, triangles[unseen].mean(1)])
+        index = np.concatenate([index, unseen])
+    return SurfacePoints(points, normals[index], index)
+
+
+def spread_points(
+    triangles: Float[np.ndarray, "F 3 3"], areas: Float[np.ndarray, " F"], count: int, seed: int
+) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, " n"]]:
+    """Return the points of `sample_surface` and the face of each, if the areas of the faces are known."""
+    rng = np.random.default_rng(seed)
+    weights = areas if (areas > 0).any() else np.ones(len(areas))
+    ticks = (np.arange(count if len(areas) else 0) + rng.random()) / count * weights.sum()
+    index = np.minimum(np.searchsorted(np.cumsum(weights), ticks), len(areas) - 1)
+    r1, r2 = np.sqrt(rng.random(len(index))), rng.random(len(index))
+    t = triangles[index]
+    return (1 - r1)[:, None] * t[:, 0] + (r1 * (1 - r2))[:, None] * t[:, 1] + (r1 * r2)[:, None] * t[:, 2], index
 
 
 @dataclass(frozen=True, eq=False)
@@ -164,3 +229,76 @@ class TriangleSet:
     def prepared(self) -> TriangleSet:
         """Return the same faces with the data that subsets share."""
         return replace(self, known=KnownFaces.of(self.triangles))
+
+
+def shares_above(heights: Float[np.ndarray, "F 3"], level: float) -> Float[np.ndarray, " F"]:
+    """Return the share of each face that is above a level."""
+    low, middle, high = np.sort(heights, axis=1).T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        below = (level - low) ** 2 / ((middle - low) * (high - low))  # a corner is below
+        above = (high - level) ** 2 / ((high - low) * (high - middle))  # a corner is above
+    return np.where(level < low, 1.0, np.where(level >= high, 0.0, np.where(level < middle, 1 - below, above)))
+
+
+def points_above(
+    triangles: Float[np.ndarray, "F 3 3"], heights: Float[np.ndarray, "F 3"], level: float
+) -> Float[np.ndarray, "n 3"]:
+    """Return the corners of the faces' parts above a level [m]."""
+    start, end = heights, np.roll(heights, -1, axis=1)
+    face, edge = np.nonzero((start > level) != (end > level))
+    share = (level - start[face, edge]) / (end[face, edge] - start[face, edge])
+    a, b = triangles[face, edge], triangles[face, (edge + 1) % 3]
+    return np.concatenate([triangles[heights > level], a + share[:, None] * (b - a)])
+
+
+def surface_moments(triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, "4 4"]:
+    """Return the integral of p p^T over the surface for homogeneous points p = (x, y, z, 1); its last entry is the area."""
+    corners = np.concatenate([triangles, np.ones((*triangles.shape[:2], 1))], axis=2)
+    total = corners.sum(1)
+    weight = normals_and_areas(triangles)[1] / 12
+    return np.einsum("f,fki,fkj->ij", weight, corners, corners) + np.einsum("f,fi,fj->ij", weight, total, total)
+
+
+def principal_spread(moments: Float[np.ndarray, "n 4 4"]) -> Float[np.ndarray, "n 3"]:
+    """Return the standard deviations of surfaces along their principal axes, the largest last, in any rotation."""
+    mean = moments / np.maximum(moments[:, 3:, 3:], 1e-300)
+    return np.sqrt(np.maximum(np.linalg.eigvalsh(mean[:, :3, :3] - mean[:, :3, 3:] * mean[:, 3:, :3]), 0))
+
+
+def body_obb(shape: TriangleSet) -> OrientedBox:
+    """Return the oriented box of a part without protrusions: a small share of its surface, narrower than the part."""
+    frame = shape.box.axes
+    local, area = shape.triangles @ frame.T, max(shape.area, 1e-300)
+    facing = np.abs(shape.normals @ frame.T) > 0.9
+    corners = shape.corners @ frame.T
+    low, high = corners.min(0), corners.max(0)
+    tolerance = 0.01 * shape.box.diagonal
+    for axis in range(3):
+        for sign, edge in ((1.0, high), (-1.0, low)):
+            heights = sign * local[:, :, axis]
+            level = _side_level(heights[facing[:, axis]], shape.areas[facing[:, axis]], 0.02 * area)
+            if level >= sign * edge[axis] - tolerance:
+                continue
+            share = float(shape.areas @ shares_above(heights, level + tolerance / 2)) / area
+            beyond = points_above(local, heights, level + tolerance / 2)
+            if 0 < share < MAX_PROTRUSION_RATIO and _is_narrow(beyond, corners, axis):
+                edge[axis] = sign * level
+    ends = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+    return box_in_frame(ends @ frame, frame)
+
+
+def _side_level(heights: Float[np.ndarray, "F 3"], areas: Float[np.ndarray, " F"], least: float) -> float:
+    """Return the level of the faces that face along an axis, without the outermost; inf if they are smaller than `least`."""
+    if areas.sum() <= least:
+        return np.inf
+    middle = heights.mean(1)
+    order = np.argsort(-middle, kind="stable")
+    outer = np.cumsum(areas[order])
+    return float(middle[order[np.searchsorted(outer, SIDE_LEVEL_RATIO * outer[-1], side="right")]])
+
+
+def _is_narrow(beyond: Float[np.ndarray, "n 3"], corners: Float[np.ndarray, "m 3"], axis: int) -> bool:
+    """Return whether what is beyond a level is narrower than the part in one direction."""
+    others = [k for k in range(3) if k != axis]
+    span = np.ptp(beyond[:, others], axis=0) / np.maximum(np.ptp(corners[:, others], axis=0), 1e-12)
+    return bool(span.min() < 0.6)

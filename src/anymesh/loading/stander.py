@@ -10,8 +10,8 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial import ConvexHull, KDTree, QhullError
 
-from anymesh.geometry.sampling import sample_surface, spread_directions
 from anymesh.geometry.surface import mesh_surface
+from anymesh.geometry.triangle_set import sample_surface, spread_directions
 from anymesh.types import Mesh
 
 POINTS = 1500  # samples of the surface

@@ -9,11 +9,9 @@ from jaxtyping import Float
 from scipy.spatial import KDTree
 
 from anymesh.config import FACING_COSINE
-from anymesh.geometry.body_obb import MAX_PROTRUSION_RATIO
 from anymesh.geometry.boxes import OrientedBox
-from anymesh.geometry.connected import label_connected
-from anymesh.geometry.levels import points_above, shares_above
-from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.geometry.topology import label_connected
+from anymesh.geometry.triangle_set import MAX_PROTRUSION_RATIO, TriangleSet, points_above, shares_above
 from anymesh.types import Handle
 
 MIN_TAB_GAP_RATIO = 0.01  # of the tolerance length: a tab that is closer to the parent is a hinge barrel

@@ -9,13 +9,11 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.config import ALONG_COSINE, FACING_COSINE, ArticulationConfig
-from anymesh.geometry.body_obb import body_obb
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import Outline, outline_about, roundest
 from anymesh.geometry.contact import connecting_area
-from anymesh.geometry.sampling import SurfacePoints
 from anymesh.geometry.sweep import Obstacles
-from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.geometry.triangle_set import SurfacePoints, TriangleSet, body_obb
 from anymesh.motion.handle import face_axes, find_handle
 from anymesh.motion.opening import best_direction
 from anymesh.types import Handle, JointType, Motion

@@ -12,8 +12,8 @@ from jaxtyping import Bool
 from anymesh.articulation.estimate import PartMotions, choose_motion, estimate_joints, motion_questions, with_labels_of
 from anymesh.articulation.part_labels import label_of
 from anymesh.config import Config
-from anymesh.geometry.ground import ground_faces
 from anymesh.geometry.patches import DividedSurface, ObjectShape
+from anymesh.geometry.surface import ground_faces
 from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.prompted.answerers.reference import Reference, reference_of

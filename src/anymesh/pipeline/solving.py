@@ -9,8 +9,8 @@ from typing import Protocol
 import numpy as np
 
 from anymesh.config import Config
+from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.patches import ObjectShape
-from anymesh.geometry.yaw import straight_mesh, turned_back
 from anymesh.pipeline.geometry_stages import GeometryStages
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, segmentation_result
 from anymesh.prompted.questions.asking import AnswererFactory

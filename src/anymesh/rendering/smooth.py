@@ -6,8 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from anymesh.geometry.connected import label_connected
-from anymesh.geometry.topology import edge_pairs, weld, without_cracks
+from anymesh.geometry.topology import edge_pairs, label_connected, weld, without_cracks
 from anymesh.types import Mesh
 
 CREASE_ANGLE = float(np.deg2rad(35))  # [rad] faces that meet at a larger angle form a crease; wheels of 11 sides are round

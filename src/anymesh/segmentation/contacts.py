@@ -11,8 +11,8 @@ from jaxtyping import Float, Float32, Int
 
 from anymesh.config import SegmentationConfig
 from anymesh.geometry.boxes import box_pairs
-from anymesh.geometry.connected import label_connected
 from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.runtime import CONTACTS, Deadline
 from anymesh.segmentation.dominators import NONE, immediate_dominators

@@ -7,13 +7,12 @@ from jaxtyping import Bool, Int
 from scipy.spatial import KDTree
 
 from anymesh.config import SAME_SIZE, PatchConfig
-from anymesh.geometry.connected import label_connected
-from anymesh.geometry.creases import convex_regions
+from anymesh.geometry.creases import convex_regions, divide_at_seams
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.patches import DividedSurface, ObjectShape
-from anymesh.geometry.sampling import spread_points
-from anymesh.geometry.seams import divide_at_seams
 from anymesh.geometry.surface import MeshSurface, mesh_surface
+from anymesh.geometry.topology import label_connected
+from anymesh.geometry.triangle_set import spread_points
 from anymesh.segmentation.panels import split_panels
 from anymesh.segmentation.surface_regions import region_sizes
 from anymesh.types import Mesh

@@ -9,9 +9,9 @@ from jaxtyping import Float, Int
 
 from anymesh.config import SAME_AXIS_COSINE
 from anymesh.geometry.boxes import OrientedBox, fit_box
-from anymesh.geometry.connected import label_connected
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.surface import MeshSurface
+from anymesh.geometry.topology import label_connected
 from anymesh.segmentation.surface_regions import is_main_component, region_sizes
 
 MIN_BAR_ASPECT = 2.0  # minimum length of a bar over its larger width

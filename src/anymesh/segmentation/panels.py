@@ -7,9 +7,9 @@ from jaxtyping import Float, Int
 from scipy.spatial import ConvexHull
 
 from anymesh.config import FACING_COSINE, SAME_AXIS_COSINE
-from anymesh.geometry.connected import label_connected
-from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.surface import MeshSurface
+from anymesh.geometry.topology import label_connected
+from anymesh.geometry.triangle_set import sample_surface
 from anymesh.segmentation.handles import SurfaceHandle, aligned, find_handles
 from anymesh.segmentation.layout import filled, tile
 from anymesh.segmentation.surface_regions import is_main_component, region_sizes

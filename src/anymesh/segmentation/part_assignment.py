@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.sparse import csr_array
 
-from anymesh.geometry.connected import label_connected
+from anymesh.geometry.topology import label_connected
 from anymesh.segmentation.contacts import Contacts
 from anymesh.segmentation.part_candidates import Overlap
 

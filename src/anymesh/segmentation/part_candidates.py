@@ -16,8 +16,8 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.config import SAME_SIZE
-from anymesh.geometry.moments import principal_spread, surface_moments
 from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.triangle_set import principal_spread, surface_moments
 from anymesh.segmentation.contacts import Contacts, dominated_by
 from anymesh.segmentation.merge_tree import merged_groups
 from anymesh.segmentation.patch_names import named_groups

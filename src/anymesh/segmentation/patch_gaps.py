@@ -6,8 +6,7 @@ import numpy as np
 from scipy.spatial.distance import cdist
 
 from anymesh.geometry.boxes import within
-from anymesh.geometry.sampling import spread_points
-from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.geometry.triangle_set import TriangleSet, spread_points
 from anymesh.types.triangles import meet_box, normals_and_areas, quartered
 
 PROBES = 160  # sample points per patch for the distance to another patch

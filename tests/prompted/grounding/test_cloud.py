@@ -8,7 +8,7 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.config import GroundingConfig
-from anymesh.geometry.sampling import SurfacePoints
+from anymesh.geometry.triangle_set import SurfacePoints
 from anymesh.prompted.grounding.cloud import Cloud, _nearest_alike, sample_cloud, seen_points, sight
 from anymesh.rendering.render import render
 from anymesh.segmentation.divide import object_shape

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.applications.scan.smoothing import neighbours
-from anymesh.geometry.connected import label_connected
+from anymesh.geometry.topology import label_connected
 from anymesh.types.triangles import face_cross
 
 CUT = 2.5  # [voxels] above the floor where the surface is cut, since the fused crease between floor and object is rounded

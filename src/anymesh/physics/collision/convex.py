@@ -6,7 +6,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial import ConvexHull, QhullError
 
-from anymesh.geometry.sampling import spread_directions
+from anymesh.geometry.triangle_set import spread_directions
 from anymesh.types import Hull
 from anymesh.types.triangles import face_cross
 

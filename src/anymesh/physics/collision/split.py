@@ -15,8 +15,8 @@ from scipy.spatial import ConvexHull, QhullError
 
 from anymesh.geometry.boxes import dominant_normals
 from anymesh.geometry.distance_ import distance_to_triangles
-from anymesh.geometry.sampling import sample_surface
 from anymesh.geometry.topology import weld
+from anymesh.geometry.triangle_set import sample_surface
 from anymesh.physics.collision.convex import DIRECTIONS, cut, hull_of
 from anymesh.types import Hull
 from anymesh.types.triangles import normals_and_areas

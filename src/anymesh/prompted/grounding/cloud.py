@@ -10,10 +10,10 @@ from jaxtyping import Bool, Float, Int, UInt8
 from scipy.spatial import KDTree
 
 from anymesh.config import GroundingConfig
-from anymesh.geometry.connected import label_connected
 from anymesh.geometry.patches import ObjectShape
-from anymesh.geometry.sampling import SurfacePoints, sample_surface
 from anymesh.geometry.superpoints import superpoints
+from anymesh.geometry.topology import label_connected
+from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
 from anymesh.rendering.render import View, face_colors
 from anymesh.types import Mesh
 

@@ -9,10 +9,9 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.config import GroundingConfig, ViewsConfig
-from anymesh.geometry.connected import label_connected
+from anymesh.geometry.creases import divide_at_seams
 from anymesh.geometry.patches import ObjectShape
-from anymesh.geometry.seams import divide_at_seams
-from anymesh.geometry.topology import components
+from anymesh.geometry.topology import components, label_connected
 from anymesh.prompted.grounding.cloud import Cloud
 from anymesh.rendering.render import View
 from anymesh.segmentation.surface_regions import MIN_WHOLE_OBJECT_SHARE

@@ -8,8 +8,8 @@ import numpy as np
 from jaxtyping import Bool, Int
 
 from anymesh.config import Config
-from anymesh.geometry.connected import label_connected
 from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.topology import label_connected
 from anymesh.segmentation.contacts import Contacts, dominated_by, find_contacts
 from anymesh.types.triangles import boxes_meet
 

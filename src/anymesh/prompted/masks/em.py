@@ -13,7 +13,7 @@ from jaxtyping import Float, Int
 from scipy.spatial import KDTree
 
 from anymesh.config import GroundingConfig
-from anymesh.geometry.connected import label_connected
+from anymesh.geometry.topology import label_connected
 from anymesh.prompted.grounding.cloud import Cloud
 from anymesh.prompted.masks.fuse import Counts, Instances
 

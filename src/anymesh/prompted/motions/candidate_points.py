@@ -9,8 +9,8 @@ from jaxtyping import Float
 from scipy.spatial import KDTree
 
 from anymesh.config import ALONG_COSINE, GroundingConfig, PromptConfig
-from anymesh.geometry.sampling import SurfacePoints
 from anymesh.geometry.superpoints import superpoints
+from anymesh.geometry.triangle_set import SurfacePoints
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.pictures.points import labels_apart
 from anymesh.types import Motion
