@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.loading.checks import FORMATS
+from anymesh.loading.files import FORMATS
 from benchmarks.fuzz_scenes import FIXTURES
 
 Case = dict[str, Any]

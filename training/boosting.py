@@ -16,9 +16,7 @@ import lightgbm
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.scoring.boosted_trees import NO_FEATURE, BoostedTrees
-from anymesh.scoring.classifier import NETWORK, TREES
-from anymesh.scoring.set_network import SetNetwork
+from anymesh.scoring.classifier import NETWORK, NO_FEATURE, TREES, BoostedTrees, SetNetwork
 
 SETTINGS = {
     "objective": "cross_entropy", "learning_rate": 0.1, "num_leaves": 15, "min_data_in_leaf": 25, "feature_fraction": 0.5,

@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.optimize import minimize
 
-from anymesh.scoring.set_network import scaled
+from anymesh.scoring.classifier import scaled
 from training.boosting import Sample, Scores, leave_kinds_out, leave_sources_out
 from training.part_rows import PartRows, read_rows
 from training.set_training import knots_of

@@ -1,4 +1,4 @@
-"""Train set networks (`anymesh.scoring.set_network`) by torch, which nothing else here needs except the extras."""
+"""Train set networks (`anymesh.scoring.classifier`) by torch, which nothing else here needs except the extras."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ import torch
 from jaxtyping import Float
 from torch import nn
 
-from anymesh.scoring.set_network import HEADS, SetNetwork, place_pairs, place_tokens, scaled, turned
+from anymesh.scoring.classifier import HEADS, SetNetwork, place_pairs, place_tokens, scaled, turned
 
 WIDTH, HIDDEN, PAIR_HIDDEN, LAYERS = 48, 96, 24, 3
 KNOTS, KNOT_ROWS = 33, 60  # quantiles of a feature, and candidates of an object that they are taken over

@@ -25,8 +25,7 @@ from jaxtyping import Bool, Float
 
 from anymesh.evaluation.changes import changed
 from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.loading.stander import Stander
-from anymesh.loading.up_features import up_candidates, up_features
+from anymesh.loading.upright import Stander, up_candidates, up_features
 from training.boosting import Model, Sample, Scores, fit, held_out, leave_kinds_out, leave_sources_out, manifest_of, write
 from training.collect_rows import kind_of, open_object
 

@@ -11,7 +11,7 @@ from anymesh.errors import MissingExtraError
 from anymesh.finishing.blocks import board, tray
 from anymesh.finishing.closing import backed, cap, covers_itself, shelled, without_folds
 from anymesh.finishing.sheets import open_sheets
-from anymesh.geometry.triangulate_ import triangulate
+from anymesh.loading.polygons_ import triangulate
 
 
 def volume(triangles: np.ndarray) -> float:

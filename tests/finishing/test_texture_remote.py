@@ -19,7 +19,7 @@ from anymesh.finishing.retexture import Remote, described
 from anymesh.finishing.retexture_match import nearest
 from anymesh.finishing.scene_glb import read_scene, scene_glb
 from anymesh.finishing.texture import Carried, Painted
-from anymesh.loading.folder import Folder
+from anymesh.loading.files import Folder
 from anymesh.loading.gltf import read_gltf
 from anymesh.loading.join import join
 from anymesh.rendering.render import face_colors

@@ -8,9 +8,9 @@ import trimesh
 from assets import box, mesh_of
 
 from anymesh.config import PatchConfig
-from anymesh.geometry.contact import connecting_area
 from anymesh.geometry.creases import convex_regions
 from anymesh.geometry.topology import components
+from anymesh.motion.part_context import connecting_area
 
 
 def test_points_at_the_threshold_are_not_closer_than_it() -> None:

@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from rigid import apply, move
 from scipy.spatial.distance import cdist
 
-from anymesh.geometry.contact import connecting_area
 from anymesh.geometry.distance_ import distance_to_mesh, distance_to_triangles, winding_number
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.triangle_set import sample_surface
+from anymesh.motion.part_context import connecting_area
 
 
 def soup(seed: int, count: int = 12) -> np.ndarray:

@@ -8,8 +8,8 @@ from assets import box
 from rigid import shape_of
 
 from anymesh.geometry.circles import outline_about
-from anymesh.geometry.contact import connecting_area
 from anymesh.geometry.triangle_set import sample_surface, spread_directions
+from anymesh.motion.part_context import connecting_area
 
 Z = np.array([0.0, 0, 1])
 

@@ -5,7 +5,8 @@ import pytest
 from assets import CUBE_FACES, box, mesh_of
 
 from anymesh.errors import OptionError
-from anymesh.loading import LoadedMesh, load_mesh, place, place_mesh
+from anymesh.loading import LoadedMesh, load_mesh, place_mesh
+from anymesh.loading import load
 from anymesh.loading.upright import up_of
 from anymesh.types import Mesh
 
@@ -55,7 +56,7 @@ def test_a_large_object_in_the_unit_of_its_file_gets_a_warning(unit: float, warn
 
 @pytest.mark.parametrize(("probability", "warned"), [(0.5, True), (0.7, False), (None, False)])
 def test_an_up_axis_that_is_hardly_likely_gets_a_warning(monkeypatch, probability: float | None, warned: bool) -> None:
-    monkeypatch.setattr(place, "infer_up", lambda mesh, usual: up_of(np.array([0.0, -1, 0]), probability))
+    monkeypatch.setattr(load, "infer_up", lambda mesh, usual: up_of(np.array([0.0, -1, 0]), probability))
     placed = place_mesh(loaded())
     assert placed.up == "-y"
     assert any("--up" in w for w in placed.warnings) == warned

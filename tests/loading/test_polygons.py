@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from anymesh.loading import load_mesh
-from anymesh.loading.polygons import fans, recut
+from anymesh.loading.polygons_ import fans, recut
 
 FRAME = np.array([(0, 0), (1, 0), (1, 0.2), (0.2, 0.2), (0.2, 1.8), (1, 1.8), (1, 2), (0, 2)], float)  # a C
 # a square with a square hole, connected by a cut from corner to corner

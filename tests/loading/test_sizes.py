@@ -5,7 +5,7 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.loading import LoadedMesh, place_mesh
-from anymesh.loading.sizes import BELIEVED_FACTOR, LONGEST, usual_size
+from anymesh.loading.load import BELIEVED_FACTOR, LONGEST, usual_size
 
 
 def placed(longest: float, *, path: str = "thing.obj", unit: float | None = None, category: str | None = None):

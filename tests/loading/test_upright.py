@@ -11,9 +11,7 @@ from anymesh.evaluation.changes import changed, rotation
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.protocols import prepared
 from anymesh.loading import LoadedMesh, place_mesh
-from anymesh.loading.stander import Stander, distinct
-from anymesh.loading.up_features import up_candidates, up_features
-from anymesh.loading.upright import infer_up, read_up, up_classifier, up_of
+from anymesh.loading.upright import Stander, distinct, infer_up, read_up, up_candidates, up_classifier, up_features, up_of
 from anymesh.types import Mesh
 
 Z = np.array([0.0, 0, 1])

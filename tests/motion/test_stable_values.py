@@ -11,8 +11,7 @@ from geometry.rigid import shape_of
 
 from anymesh.config import ArticulationConfig
 from anymesh.geometry.triangle_set import body_obb
-from anymesh.motion.opening import MIN_LEAD, best_direction
-from anymesh.motion.part_context import PartContext
+from anymesh.motion.part_context import MIN_LEAD, PartContext, best_direction
 
 SEEDS = range(5)
 

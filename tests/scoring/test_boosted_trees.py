@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from anymesh.scoring.boosted_trees import NO_FEATURE, BoostedTrees
+from anymesh.scoring.classifier import NO_FEATURE, BoostedTrees
 
 # x0 <= 1 ? -1 : (x1 <= 2 ? 3 : 5), and x1 <= 0 ? 10 : 20; values of inner nodes are means
 TREES = BoostedTrees(

@@ -3,9 +3,7 @@
 import numpy as np
 import pytest
 
-from anymesh.scoring.boosted_trees import BoostedTrees
-from anymesh.scoring.classifier import MAX_CONFIDENCE, MIN_CONFIDENCE, MISSING, Classifier
-from anymesh.scoring.set_network import SetNetwork
+from anymesh.scoring.classifier import MAX_CONFIDENCE, MIN_CONFIDENCE, MISSING, BoostedTrees, Classifier, SetNetwork
 
 
 def stump(column: int) -> BoostedTrees:

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from anymesh.scoring.set_network import HEADS, SetNetwork, place_pairs, scaled, turned
+from anymesh.scoring.classifier import HEADS, SetNetwork, place_pairs, scaled, turned
 
 WIDTH, HIDDEN, PAIR_HIDDEN, OWN, RELATIONS = 8, 6, 5, 3, 2
 

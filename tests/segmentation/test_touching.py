@@ -8,7 +8,7 @@ from geometry.rigid import shape_of
 from scipy.spatial.distance import cdist
 
 from anymesh.config import SegmentationConfig
-from anymesh.geometry.contact import connecting_area
+from anymesh.motion.part_context import connecting_area
 from anymesh.runtime import Deadline
 from anymesh.segmentation.contacts import Contacts, dominated_by, find_contacts
 from anymesh.segmentation.divide import object_shape

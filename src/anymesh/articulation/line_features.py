@@ -8,8 +8,7 @@ from jaxtyping import Float
 from anymesh.articulation.adjacent_panels import outer_side, pair_side
 from anymesh.config import ALONG_COSINE
 from anymesh.geometry.circles import share_in_place
-from anymesh.motion.part_context import PartContext
-from anymesh.motion.part_shape import MAX_LENGTH_RATIO
+from anymesh.motion.part_context import MAX_LENGTH_RATIO, PartContext
 from anymesh.scoring.classifier import MISSING
 from anymesh.types import Motion
 

@@ -17,8 +17,7 @@ from anymesh.articulation.evidence import initial_direction, sides
 from anymesh.articulation.line_features import NO_LINE, line_features
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.part_values import part_values
-from anymesh.motion.part_context import PartContext
-from anymesh.motion.part_shape import MAX_LENGTH_RATIO
+from anymesh.motion.part_context import MAX_LENGTH_RATIO, PartContext
 from anymesh.scoring.classifier import MISSING
 from anymesh.types import JointType
 

@@ -6,8 +6,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.config import LEVEL_COSINE
-from anymesh.motion.part_context import PartContext
-from anymesh.motion.part_shape import shape_features
+from anymesh.motion.part_context import PartContext, shape_features
 
 
 def part_values(context: PartContext, contact: Float[np.ndarray, "n 3"]) -> dict[str, float]:

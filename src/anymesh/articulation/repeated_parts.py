@@ -14,8 +14,7 @@ from jaxtyping import Bool, Float
 from anymesh.config import SAME_AXIS_COSINE
 from anymesh.geometry.boxes import same_box
 from anymesh.geometry.triangle_set import TriangleSet, body_obb
-from anymesh.motion.opening import best_direction
-from anymesh.motion.part_context import PartContext
+from anymesh.motion.part_context import PartContext, best_direction
 
 # maximum component of the offset along the opening direction, over its length, between parts in a row
 MAX_ROW_OFFSET_RATIO = 0.25

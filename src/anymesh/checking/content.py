@@ -13,8 +13,7 @@ from jaxtyping import Float
 from anymesh.checking.engines.files import find_file
 from anymesh.checking.engines.robot import Geometry, Robot, shape_triangles
 from anymesh.errors import InputError
-from anymesh.loading.checks import check_file
-from anymesh.loading.folder import Folder
+from anymesh.loading.files import Folder, check_file
 from anymesh.loading.load import READERS
 from anymesh.types import Mesh
 

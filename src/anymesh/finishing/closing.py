@@ -9,7 +9,7 @@ from jaxtyping import Float, Int
 
 from anymesh.finishing.sheets import Sheet
 from anymesh.geometry.topology import weld
-from anymesh.geometry.triangulate_ import triangulate
+from anymesh.loading.polygons_ import triangulate
 
 MITER = 2.5  # maximum offset of a skin at a corner, as a multiple of its thickness
 STIFF = 0.03  # share of the largest eigenvalue of the normals' moment at a vertex, below which a direction is unconstrained

@@ -12,7 +12,7 @@ from jaxtyping import Float
 from anymesh.errors import InputError
 from anymesh.export.glb_buffer import INDICES, VERTICES, GlbBuffer
 from anymesh.export.links import unique_rows
-from anymesh.loading.folder import Folder
+from anymesh.loading.files import Folder
 from anymesh.loading.gltf import read_gltf
 from anymesh.types import Mesh
 

@@ -12,8 +12,7 @@ from urllib.parse import unquote_to_bytes
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.loading.checks import MAX_FACES
-from anymesh.loading.folder import Folder
+from anymesh.loading.files import MAX_FACES, Folder
 
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}

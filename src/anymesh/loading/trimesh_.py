@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.loading.folder import Folder
+from anymesh.loading.files import Folder, picture_file, quiet_decoder
 from anymesh.loading.join import join, rgba, simple_mesh, unit
-from anymesh.loading.pictures import picture_file, quiet_decoder
 from anymesh.types import Material, Mesh, Texture
 from anymesh.types.mesh import to_linear
 

@@ -1,4 +1,8 @@
-"""Geometry of one part relative to the rest of the object: body OBB, opening direction, handle, connecting area."""
+"""Geometry of one part relative to the rest of the object: body OBB, opening direction, handle, connecting area.
+
+Also the named features of its shape, place and handle that part candidates and the motions of parts share. Their lengths are
+relative to the object's diagonal, and ratios of lengths are limited.
+"""
 
 from __future__ import annotations
 
@@ -11,19 +15,53 @@ from jaxtyping import Bool, Float, Int
 from anymesh.config import ALONG_COSINE, FACING_COSINE, ArticulationConfig
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import Outline, outline_about, roundest
-from anymesh.geometry.contact import connecting_area
 from anymesh.geometry.sweep import Obstacles
 from anymesh.geometry.triangle_set import SurfacePoints, TriangleSet, body_obb
 from anymesh.motion.handle import face_axes, find_handle
-from anymesh.motion.opening import best_direction
 from anymesh.types import Handle, JointType, Motion
 
+MIN_LEAD = 0.03  # of the score of a direction over that of the opposite one; less is chance
+CENTRAL_RATIO = 1e-3  # of the diagonal: a part that is nearer to the object's middle along a direction is in the middle
 DOWNWARD_PENALTY = 0.4  # subtracted from the score of a downward direction, since most objects stand on something
 CONTACT_REACHES = (0.08, 0.2)  # of the link's diagonal: its contact with the parent is within this distance
 MAX_SURFACE_POINTS = 400  # sample points of the surfaces in contact
 MIN_ROUNDNESS = 0.5  # minimum roundness of the outline of a round part
 MAX_PART_DIAGONALS = 5  # lengths are compared with the object's diagonal, but with at most this many diagonals of the part
 MIN_SCALE_RATIO = 1e-9  # of the diagonal: keeps tolerances positive for a part that is a point
+MAX_LENGTH_RATIO = 4.0  # upper limit of ratios of lengths
+MAX_HEIGHT_OVER_RADIUS = 8.0
+
+
+def connecting_area(
+    gap_a: Float[np.ndarray, " n"], gap_b: Float[np.ndarray, " m"], threshold: float
+) -> tuple[Bool[np.ndarray, " n"], Bool[np.ndarray, " m"], float]:
+    """Return the points of each part closer than `threshold` [m] to the other (paper, 3.3).
+
+    The threshold is doubled until there is at least one point.
+
+    gap_a, gap_b: distance of the points of each part to the other [m].
+
+    Return both masks and the threshold used.
+    """
+    if threshold <= 0:
+        raise ValueError(f"the threshold of a connecting area must be positive, found {threshold}")
+    if not (np.isfinite(gap_a).any() or np.isfinite(gap_b).any()):
+        raise ValueError("a connecting area needs points of both parts, found none")
+    while not ((gap_a < threshold).any() or (gap_b < threshold).any()):
+        threshold *= 2
+    return gap_a < threshold, gap_b < threshold, threshold
+
+
+def best_direction(scores: Float[np.ndarray, " 6"], outwards: Float[np.ndarray, " 6"]) -> int:
+    """Return the opening direction of highest score; of two opposite ones that score about the same the outer one.
+
+    scores: as from `PartContext.opening_directions`, in pairs of opposite directions; outwards: how far the part is off the
+    object's middle along each, over the diagonal. Of a part in the middle the positive direction along the box axis.
+    """
+    best = int(scores.argmax())
+    if scores[best ^ 1] <= scores[best] - MIN_LEAD:
+        return best
+    return best - best % 2 if abs(outwards[best]) < CENTRAL_RATIO else best ^ int(outwards[best] < 0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -245,3 +283,41 @@ class PartContext:
     def face_axes(self) -> list[int]:
         """Return the two box axes that span the outer face, in the order of Handle.across."""
         return face_axes(self.body_obb, self.opening_direction)
+
+
+def shape_features(context: PartContext) -> dict[str, float]:
+    """Return the features of a part that need only its own shape and the object's bounds."""
+    core, outline = context.body_obb, context.outline
+    length, width, thickness = core.half
+    low, high = context.bounds
+    extent, middle = np.maximum(high - low, 1e-12), context.part.bounds.mean(0)
+    box_area = 8 * float(length * width + width * thickness + length * thickness)
+    return {
+        "size": context.part.box.diagonal / context.diagonal,
+        "thinness": float(thickness / max(width, 1e-12)),
+        "width over length": float(width / max(length, 1e-12)),
+        "thickness": float(2 * thickness / context.diagonal),
+        "roundness": outline.roundness,
+        "height over radius": min(outline.height / max(outline.radius, 1e-12), MAX_HEIGHT_OVER_RADIUS),
+        "opening direction up": float(context.opening_direction[2]),
+        "visibility": context.visibility,
+        "height": float((middle[2] - low[2]) / extent[2]),
+        "horizontal offset": float(np.linalg.norm(((middle - low) / extent * 2 - 1)[:2])),
+        "object height": float(np.clip(extent[2] / extent[:2].max(), 0, MAX_LENGTH_RATIO)),
+        "solid": float(context.part.solid @ context.part.areas / max(context.part.area, 1e-300)),
+        "area over box": float(np.clip(context.part.area / max(box_area, 1e-300), 0, MAX_LENGTH_RATIO)),
+        "insertion depth": min(context.insertion_depth, MAX_LENGTH_RATIO),
+        **_handle(context),
+    }
+
+
+def _handle(context: PartContext) -> dict[str, float]:
+    handle = context.handle
+    if handle is None:
+        return {"handle": 0.0, "handle size": 0.0, "handle off the middle": 0.0, "bar handle": 0.0}
+    return {
+        "handle": 1.0,
+        "handle size": handle.size,
+        "handle off the middle": max(abs(a) for a in handle.across),
+        "bar handle": float(handle.along is not None),
+    }

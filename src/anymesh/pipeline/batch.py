@@ -10,7 +10,7 @@ from typing import Any
 
 from anymesh import pipeline
 from anymesh.errors import AnymeshError, BudgetError, InputError, MissingExtraError, OpenQuestionError, OptionError, OutputError
-from anymesh.loading.checks import FORMATS
+from anymesh.loading.files import FORMATS
 from anymesh.pipeline.options import GEOMETRY
 from anymesh.prompted.answerers.answering import FILES
 from anymesh.prompted.answerers.question_files import NAME

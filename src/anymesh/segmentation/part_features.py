@@ -8,8 +8,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.config import FACING_COSINE, Config
-from anymesh.motion.part_context import PartContext
-from anymesh.motion.part_shape import MAX_LENGTH_RATIO, shape_features
+from anymesh.motion.part_context import MAX_LENGTH_RATIO, PartContext, shape_features
 from anymesh.segmentation.part_candidates import PartCandidates
 from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, on_axis, touching, two_pivots
 from anymesh.segmentation.part_freedom import blocked_shares, exposure, space_behind

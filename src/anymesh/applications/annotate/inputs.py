@@ -11,7 +11,7 @@ from pathlib import Path
 from anymesh.applications.annotate.requests import OBJAVERSE, ObjectRequest
 from anymesh.applications.annotate.tables import TABLES, read_table
 from anymesh.errors import InputError, OptionError
-from anymesh.loading.checks import FORMATS
+from anymesh.loading.files import FORMATS
 
 log = logging.getLogger("anymesh")
 WILD = re.compile(r"[*?\[]")

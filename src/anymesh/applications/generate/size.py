@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from anymesh.applications.generate.protocol import Unit
-from anymesh.loading.sizes import usual_size
+from anymesh.loading.load import usual_size
 
 ADVICE = "give --scale METRES:AXIS, such as 0.9:z"
 

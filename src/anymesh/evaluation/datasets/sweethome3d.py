@@ -26,7 +26,7 @@ from anymesh.evaluation.datasets.dataset_links import DatasetLink, assemble
 from anymesh.evaluation.datasets.debian import member
 from anymesh.evaluation.datasets.splits import check_split
 from anymesh.evaluation.ground_truth import GroundTruth
-from anymesh.loading.folder import Folder
+from anymesh.loading.files import Folder
 from anymesh.loading.obj import read_obj
 from anymesh.types import JointType, KnownJoint, Mesh
 

@@ -8,8 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.loading.checks import check_file
-from anymesh.loading.folder import Folder
+from anymesh.loading.files import Folder, check_file
 from anymesh.loading.load import READERS
 from anymesh.types import Mesh
 

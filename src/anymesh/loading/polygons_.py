@@ -1,4 +1,4 @@
-"""Triangulation of polygons.
+"""Triangulation of polygons, with manifold3d (Apache-2.0).
 
 Convex polygons become fans. Concave ones are cut by manifold3d, so that no triangle covers a window's hole. It keeps every
 corner, also those on a line between others, and with them the seams to neighbours, and it ends soon for outlines that cross
@@ -7,12 +7,27 @@ themselves.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.geometry.triangulate_ import triangulate
+from anymesh.errors import MissingExtraError
 
 REFLEX = 1e-6  # sine-like ratio of a corner's cross product to its sides' lengths; a corner that turns in by less is straight
+
+
+def triangulate(outlines: Sequence[Float[np.ndarray, "_ 2"]]) -> Int[np.ndarray, "m 3"]:
+    """Return counterclockwise triangles over the concatenated points of outlines; no points are added or omitted.
+
+    outlines: counterclockwise, holes clockwise. Each of their edges bounds one triangle, and each inner edge two, for any
+    shape. Raise MissingExtraError without manifold3d.
+    """
+    try:
+        from manifold3d import triangulate as cut
+    except ImportError:
+        raise MissingExtraError("manifold3d is missing; it is a dependency of articulate-anymesh; reinstall that") from None
+    return np.asarray(cut([np.ascontiguousarray(o, np.float64) for o in outlines]), np.int64).reshape(-1, 3)
 
 
 def fans(counts: Int[np.ndarray, " n"]) -> tuple[Int[np.ndarray, "F 3"], Int[np.ndarray, " F"]]:

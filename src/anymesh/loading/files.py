@@ -1,0 +1,341 @@
+"""Bytes of a mesh file and of the files that it refers to: checked, and only within its own folder or a given root.
+
+References are paths, file URLs and the packages of ROS and Gazebo. Pictures of materials are kept as the bytes of their file.
+"""
+
+from __future__ import annotations
+
+import copy
+import hashlib
+import io
+import json
+import os
+import re
+import struct
+import unicodedata
+import warnings
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from urllib.parse import unquote
+
+from PIL import Image
+
+from anymesh.errors import InputError, OptionError
+from anymesh.types import Texture
+
+SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]+):")  # one letter is a Windows drive
+DRIVE = re.compile(r"[a-zA-Z]:")
+FILE_URL = re.compile(r"(?i)file:(//localhost(?=/)|//)?")
+PACKAGE_URL = re.compile(r"(?i)(?:package|model)://([^/]*)/?(.*)", re.S)
+PACKAGES = ("package", "model")  # schemes of ROS and of Gazebo
+MISSING = "is missing"
+OUTSIDE = "lies outside the permitted folder"
+SHOWN = 100  # characters of a reference shown in a message
+HINT = "--root FOLDER names the folder within which files may be read"
+MAX_PIXELS = 16384**2
+MIME_TYPES = {"PNG": "image/png", "JPEG": "image/jpeg"}
+OBJECT = re.compile(r"\s*<[^>]*>")  # Python's name of a stream in an error, with an address that differs between runs
+FORMATS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae")
+MAX_FACES = 20_000_000
+MAX_BYTES = 4 * 1024**3
+ASCII_STL = re.compile(rb"(?is)(\xef\xbb\xbf)?\s*solid\b.{0,2000}facet")
+SIGNS = {  # start of files of other formats
+    "GLB": rb"glTF",
+    "PLY": rb"ply\r?\n",
+    "DAE": rb"(?s).{0,2000}<COLLADA",
+    "OFF": rb"\s*(ST)?C?N?4?OFF",
+    "glTF": rb"(\xef\xbb\xbf)?\s*\{",
+    "a PNG picture": rb"\x89PNG",
+    "a JPEG picture": rb"\xff\xd8\xff",
+    "a ZIP archive": rb"PK\x03\x04",
+    "an FBX": rb"Kaydara FBX",
+    "an ASCII STL": ASCII_STL,
+    "a web page": rb"(?i)\s*<(!doctype )?html",
+}
+
+
+@dataclass(frozen=True)
+class Unresolved:
+    """Reason why a reference leads to no readable file, as the end of a sentence."""
+
+    reason: str
+
+
+def resolve_reference(uri: str, bases: Sequence[Path], root: Path) -> Path | Unresolved:
+    """Find the file within `root` that a reference means; nothing outside is read or listed, and no URL is followed.
+
+    bases: the folders that relative paths start from, in order; they and root are resolved, and lie within root.
+
+    A backslash counts as a slash. Percent-encoded names are decoded if the name as written is missing. If no name has the same
+    case, the only one that differs in case is used. `package://NAME/REST` and `model://NAME/REST` mean REST in a folder NAME
+    between the first base and root, or in the folder NAME of root. Links are followed before any check.
+    """
+    scheme = SCHEME.match(uri)
+    kind = scheme[1].lower() if scheme else ""
+    if kind in PACKAGES:
+        starts = _package_starts(uri, bases[0], root)
+    elif kind in ("", "file"):
+        starts = _path_starts(FILE_URL.sub("", uri, count=1) if kind else uri, bases, root)
+    else:
+        return Unresolved(f"has the scheme {kind}:, which is not followed")
+    outside = False
+    for start, name in starts:
+        path = None if start is None else _walk(start, name, root)
+        if path is not None and _is_file(path):
+            return path
+        outside = outside or path is None
+    return Unresolved(OUTSIDE if outside else MISSING)
+
+
+def _path_starts(text: str, bases: Sequence[Path], root: Path) -> Iterator[tuple[Path | None, str]]:
+    """Yield folders and the paths to walk from them; None for an absolute path that does not lead into root."""
+    for name in dict.fromkeys(n.replace("\\", "/") for n in (text, unquote(text))):
+        drive = name[1:] if DRIVE.match(name[1:]) and name.startswith("/") else name
+        if drive.startswith("//"):  # a server is not searched
+            yield None, ""
+        elif drive.startswith("/") or DRIVE.match(drive):
+            inner = _relative(Path(drive), root) if Path(drive).is_absolute() else None
+            yield (None, "") if inner is None else (root, inner)
+        else:
+            yield from ((base, drive) for base in bases)
+
+
+def _package_starts(uri: str, base: Path, root: Path) -> Iterator[tuple[Path, str]]:
+    match = PACKAGE_URL.match(uri.replace("\\", "/"))
+    if match is None:
+        return
+    for name, rest in dict.fromkeys((match.groups(), (unquote(match[1]), unquote(match[2])))):
+        above = (folder for folder in (base, *base.parents) if folder.is_relative_to(root))
+        yield from ((folder, rest) for folder in above if folder.name == name)
+        yield root, f"{name}/{rest}"
+
+
+def _relative(path: Path, root: Path) -> str | None:
+    try:
+        return path.resolve().relative_to(root).as_posix()
+    except (OSError, RuntimeError, ValueError):  # links in a circle, another place, a name with a null character
+        return None
+
+
+def _walk(start: Path, name: str, root: Path) -> Path | None:
+    """Return the resolved path that a relative path leads to, whether a file exists or not; None outside root."""
+    here = start
+    try:
+        for part in name.split("/"):
+            if part == "..":
+                here = here.parent
+            elif part not in ("", "."):
+                here = _child(here, part, root).resolve()
+    except (OSError, RuntimeError, ValueError):  # such as links in a circle, a name that is too long, a null character
+        return root / "\ufffd"
+    return here if here.is_relative_to(root) else None
+
+
+def _child(folder: Path, name: str, root: Path) -> Path:
+    """Return the entry of that name, or the only one that differs in case or Unicode form; nothing outside root is listed."""
+    exact = folder / name
+    if exact.exists() or not folder.is_relative_to(root) or not folder.is_dir():
+        return exact
+    alike = [entry for entry in folder.iterdir() if _folded(entry.name) == _folded(name)]
+    return alike[0] if len(alike) == 1 else exact
+
+
+def _folded(name: str) -> str:
+    return unicodedata.normalize("NFC", name).casefold()
+
+
+def _is_file(path: Path) -> bool:
+    try:
+        return path.is_file()
+    except (OSError, ValueError):
+        return False
+
+
+class Folder:
+    """The files around one mesh file, and the warnings from reading what the file refers to.
+
+    root: the folder within which references may be read, by default the mesh's own.
+
+    Raise OptionError if it is not a folder or the mesh is not inside it.
+    """
+
+    def __init__(self, path: Path, root: str | Path | None = None) -> None:
+        self.path = path
+        self.warnings: list[str] = []
+        self._digests: dict[str, str] = {}  # of the files that were read
+        own = path.parent.resolve()
+        self._root = own if root is None else _checked(Path(root), path, own)
+        self._bases: tuple[Path, ...] = (own,)
+
+    def beside(self, file: Path) -> Folder:
+        """Return the same files, but with relative references starting from the folder of `file` first.
+
+        This is used for references in a material library.
+        """
+        folder = copy.copy(self)  # caches and warnings are shared
+        folder._bases = tuple(dict.fromkeys((file.parent, *self._bases)))
+        return folder
+
+    def find(self, uri: str) -> Path | None:
+        """Return the file that a reference means; None if none may be read."""
+        file = resolve_reference(uri, self._bases, self._root)
+        return None if isinstance(file, Unresolved) else file
+
+    def read(self, uri: str) -> bytes:
+        """Return the bytes of a file that the mesh requires.
+
+        Raise InputError if it cannot be read.
+        """
+        content = self._bytes(uri)
+        if isinstance(content, Unresolved):
+            raise InputError(f"{self.path.name} refers to {uri[:SHOWN]!r}, which {_reason(content)}")
+        return content
+
+    def read_or_warn(self, uri: str, what: str) -> bytes | None:
+        """Return the bytes of an optional file; None, with a warning, if it cannot be read.
+
+        what: its role.
+        """
+        content = self._bytes(uri)
+        if isinstance(content, Unresolved):
+            self.warn(f"{what} {uri[:SHOWN]!r} left out: it {_reason(content)}")
+            return None
+        return content
+
+    def _bytes(self, uri: str) -> bytes | Unresolved:
+        file = resolve_reference(uri, self._bases, self._root)
+        if isinstance(file, Unresolved):
+            return file
+        try:
+            data = file.read_bytes()
+        except OSError as error:
+            return Unresolved(f"cannot be opened ({error.strerror})")
+        self._digests[os.path.relpath(file, self._bases[-1])] = hashlib.sha256(data).hexdigest()
+        return data
+
+    def warn(self, text: str) -> None:
+        """Record a warning, once."""
+        if text not in self.warnings:
+            self.warnings.append(text)
+
+    def digest(self) -> str:
+        """Return a digest that differs between loads of the same mesh file with other referenced contents or warnings."""
+        contents = (sorted(self._digests.items()), self.warnings)
+        return hashlib.sha256(json.dumps(contents).encode()).hexdigest()
+
+
+def _reason(unresolved: Unresolved) -> str:
+    return f"{unresolved.reason} ({HINT})" if unresolved.reason == OUTSIDE else unresolved.reason
+
+
+def _checked(root: Path, path: Path, own: Path) -> Path:
+    if not root.is_dir():
+        raise OptionError(f"--root: found {str(root)!r}, which is not a folder; valid is the mesh's folder or one above it")
+    resolved = root.resolve()
+    if not own.is_relative_to(resolved):
+        raise OptionError(f"--root: {path} does not lie within {str(root)!r}; valid is the mesh's folder or one above it")
+    return resolved
+
+
+def picture_file(folder: Folder, uri: str) -> Texture | None:
+    """Return the texture in a named file; None, with a warning, if it cannot be read."""
+    data = folder.read_or_warn(uri, "texture")
+    return None if data is None else picture(folder, data, uri)
+
+
+def picture(folder: Folder, data: bytes, name: str) -> Texture | None:
+    """Return a texture of encoded bytes; None, with a warning, if they are broken.
+
+    PNG and JPEG are kept unchanged, other formats are converted to PNG.
+    """
+    stem = PurePosixPath(name.replace("\\", "/")).stem
+    try:
+        with quiet_decoder():
+            image = Image.open(io.BytesIO(data))
+        if image.width * image.height > MAX_PIXELS:
+            raise ValueError(f"{image.width} x {image.height} pixels")
+        image.load()
+        if image.format in MIME_TYPES:
+            return Texture(data, MIME_TYPES[image.format], stem)
+        buffer = io.BytesIO()
+        image.convert("RGBA" if image.has_transparency_data else "RGB").save(buffer, "PNG")
+    except Exception as error:  # decoders raise many types of errors for broken pictures
+        warn_unreadable(folder, name, error)
+        return None
+    return Texture(buffer.getvalue(), "image/png", stem)
+
+
+def warn_unreadable(folder: Folder, name: str, error: Exception) -> None:
+    """Warn of an existing texture that cannot be read."""
+    reason = f"{type(error).__name__}: {OBJECT.sub('', str(error))}"[:100]
+    folder.warn(f"texture {name[:SHOWN]!r} left out: it cannot be read ({reason})")
+
+
+@contextmanager
+def quiet_decoder() -> Generator[None]:
+    """Suppress the decoder's warning about large pictures, which are limited by MAX_PIXELS."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", Image.DecompressionBombWarning)
+        yield
+
+
+def check_file(path: Path) -> bytes:
+    """Return the bytes of the file if they are plausible for its format.
+
+    Raise InputError otherwise.
+    """
+    if not path.exists():
+        raise InputError(f"found no file {path}")
+    if not path.is_file():
+        raise InputError(f"{path} is not a file; a mesh file is expected ({', '.join(FORMATS)})")
+    suffix = path.suffix.lower()
+    if suffix not in FORMATS:
+        raise InputError(f"{path.name}: found the format {suffix or '(none)'}; valid are {', '.join(FORMATS)}")
+    size = path.stat().st_size
+    if size == 0:
+        raise InputError(f"{path.name} is empty (0 bytes); valid is a file with at least one triangle")
+    if size > MAX_BYTES:
+        raise InputError(f"{path.name} has {size} bytes; at most {MAX_BYTES} are read")
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"{path.name} cannot be opened: {error.strerror}") from None
+    if not _plausible(suffix, data):
+        seems = next((f"; it looks like {kind}" for kind, sign in SIGNS.items() if re.match(sign, data)), "")
+        raise InputError(f"{path.name}: found no {suffix[1:].upper()} file inside{seems}; is the extension right?")
+    return data
+
+
+def _plausible(suffix: str, data: bytes) -> bool:
+    match suffix:
+        case ".glb":
+            return data[:4] == b"glTF"
+        case ".gltf":
+            return re.match(SIGNS["glTF"], data) is not None
+        case ".ply":
+            return data[:3] == b"ply"
+        case ".off":
+            return re.match(SIGNS["OFF"], data) is not None
+        case ".dae":
+            return b"<COLLADA" in data[:4096]
+        case ".stl":
+            return ASCII_STL.match(data) is not None or is_binary_stl(data)
+        case _:
+            return b"\0" not in data[:4096] and re.search(rb"(^|[\r\n])[ \t]*(v|f|o|g|mtllib|usemtl)\s", data) is not None
+
+
+def is_binary_stl(data: bytes) -> bool:
+    """Return whether bytes that are no ASCII STL could be a binary one, complete or truncated."""
+    if len(data) < 84:
+        return data[:5].lower() == b"solid" or b"\0" in data
+    count = struct.unpack_from("<I", data, 80)[0]
+    known = any(re.match(sign, data) for kind, sign in SIGNS.items() if "STL" not in kind)
+    return len(data) >= 84 + 50 * count or (b"\0" in data and not known)
+
+
+def check_count(name: str, what: str, stated: int, room: int) -> None:
+    """Raise InputError if a header states more elements than the file has room for."""
+    if stated < 0 or stated > room:
+        raise InputError(f"{name} is truncated or broken: it states {stated} {what}, and has room for at most {max(room, 0)}")
