@@ -3,32 +3,25 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Generator, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from importlib.util import find_spec
 from itertools import chain, islice
 from pathlib import Path
 from typing import Any
 
-from anymesh.applications.annotate.claims import begun_run, free_lost
-from anymesh.applications.annotate.entering import enter_objects
-from anymesh.applications.annotate.inputs import find_objects
-from anymesh.applications.annotate.ledger import Ledger
-from anymesh.applications.annotate.outages import Outage
+from anymesh.applications.annotate.inputs import ObjectRequest, find_objects
+from anymesh.applications.annotate.ledger import OBJECTS, Ledger, driven_ledger
 from anymesh.applications.annotate.report import write_report
-from anymesh.applications.annotate.requests import ObjectRequest
-from anymesh.applications.annotate.runner import Plan, Runner
-from anymesh.applications.annotate.salvage import open_ledger
+from anymesh.applications.annotate.runner import Outage, Plan, Runner
 from anymesh.applications.annotate.states import AttemptOutcome
 from anymesh.applications.annotate.tally import Tally, tally
-from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits, Workers
-from anymesh.errors import OptionError
+from anymesh.applications.annotate.workers import LocalWorkers, Workers, object_limits
+from anymesh.errors import OptionError, OutputError
 from anymesh.export.formats import DEFAULT
 from anymesh.export.options import ExportOptions
 from anymesh.pipeline.options import GEOMETRY, Answering
 from anymesh.prompted.answerers.answering import FILES, choose_answerer
-from anymesh.prompted.models.rates import Rate
 from anymesh.runtime import DEFAULT_SECONDS, Deadline, usable_cores
 
 PARQUET = "ledger.parquet"
@@ -84,26 +77,26 @@ def annotate(
     """
     out = Path(out).absolute()
     who = checked(options)
-    plan = Plan(options, speed.attempts, (speed.requests, speed.tokens), metered=who not in (GEOMETRY, FILES))
     if speed.attempts < 1:
         raise OptionError(f"--attempts: found {speed.attempts}; valid are integers from 1 up")
-    Rate(speed.requests, speed.tokens)
     objects = _begun(find_objects(source, without=out))
-    with _workers(speed, options, plan, work) as (workers, count), open_ledger(out) as ledger:
-        _pin(ledger, options)
-        enter_objects(ledger, objects)
-        _open_again(ledger, again)
-        with begun_run(ledger, count) as run:
-            runner = Runner(ledger, run, workers, plan, Outage(speed.patience), on_tally, count=count)
-            free_lost(ledger, run)
-            try:
-                runner.loop()
-            finally:
-                workers.close()
-        report = write_report(ledger)
-        if find_spec("pyarrow") is not None:
-            export_ledger(ledger, out / PARQUET)
-        return Annotated(tally(ledger), runner.ended, report)
+    metered = who not in (GEOMETRY, FILES)
+    workers = work or _workers(speed, options, waits=metered)
+    try:
+        plan = Plan(options, speed.attempts, _worker_rate(speed, workers.count), metered)
+        with driven_ledger(out, workers.count) as ledger:
+            _pin(ledger, options)
+            runner = Runner(ledger, workers, plan, Outage(speed.patience), on_tally)
+            runner.recover()
+            ledger.enter(objects)
+            ledger.reopen(quarantined=again)
+            runner.loop()
+            report = write_report(ledger)
+            if find_spec("pyarrow") is not None:
+                export_ledger(ledger, out / PARQUET)
+            return Annotated(tally(ledger), runner.ended, report)
+    finally:
+        workers.close()
 
 
 def killed_after(speed: Speed, options: Mapping[str, Any]) -> float:
@@ -141,38 +134,30 @@ def _pin(ledger: Ledger, options: Mapping[str, Any]) -> None:
         raise OptionError(f"{ledger.out} was begun with {shown}; use the same options, or another output")
 
 
-def _open_again(ledger: Ledger, again: bool) -> None:
-    """Set waiting objects to pending, since their questions may be answered; with `again`, also quarantined ones."""
-    with ledger.writing() as connection:
-        connection.execute("UPDATE objects SET state = 'pending' WHERE state = 'waiting'")
-        if again:
-            statement = "UPDATE objects SET state = 'pending', attempts = 0, losses = 0 WHERE state = 'quarantined'"
-            connection.execute(statement)
-
-
-@contextmanager
-def _workers(speed: Speed, options: Mapping[str, Any], plan: Plan, given: Workers | None) -> Generator[tuple[Workers, int]]:
+def _workers(speed: Speed, options: Mapping[str, Any], *, waits: bool) -> Workers:
     if speed.workers is not None and speed.workers < 1:
         raise OptionError(f"--workers: found {speed.workers}; valid are integers from 1 up")
     seconds = killed_after(speed, options)
-    if given is not None:
-        yield given, given.free
-    elif speed.ray is not None:
+    if speed.ray is not None:
         from anymesh.applications.annotate.ray_ import RayWorkers
 
-        limits = ObjectLimits.default(1, speed.memory or 4.0, seconds, waits=plan.metered)
-        workers = RayWorkers(speed.ray, limits, speed.workers)
-        yield workers, workers.free
-    else:
-        count = speed.workers or usable_cores()
-        yield LocalWorkers(count, ObjectLimits.default(count, speed.memory, seconds, waits=plan.metered)), count
+        return RayWorkers(speed.ray, object_limits(1, speed.memory or 4.0, seconds, waits=waits), speed.workers)
+    count = speed.workers or usable_cores()
+    return LocalWorkers(count, object_limits(count, speed.memory, seconds, waits=waits))
+
+
+def _worker_rate(speed: Speed, workers: int) -> tuple[int | None, int | None]:
+    """Return requests and tokens per minute of one worker. Raise OptionError if there is less than one for each."""
+    for name, limit in (("requests", speed.requests), ("tokens", speed.tokens)):
+        if limit is not None and limit < workers:
+            raise OptionError(f"--{name}-per-minute: found {limit}; valid are integers from {workers} up, 1 per worker")
+    share = [None if limit is None else limit // workers for limit in (speed.requests, speed.tokens)]
+    return share[0], share[1]
 
 
 def export_ledger(ledger: Ledger, path: Path) -> None:
     """Write the table of objects as Parquet. Raise MissingExtraError or OutputError."""
-    from anymesh.applications.annotate.ledger_schema import OBJECTS
     from anymesh.applications.annotate.parquet_ import write_rows
-    from anymesh.errors import OutputError
 
     try:
         write_rows(path, OBJECTS, ledger.export_rows())

@@ -1,22 +1,67 @@
-"""The objects of a collection: a folder, a pattern, a table, or ids of Objaverse."""
+"""The objects of a collection: a folder, a pattern, a table with options per object, or ids of Objaverse."""
 
 from __future__ import annotations
 
+import csv
+import hashlib
+import json
 import logging
 import os
 import re
-from collections.abc import Iterable, Iterator
-from pathlib import Path
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from pathlib import Path, PurePosixPath
+from typing import Any
 
-from anymesh.applications.annotate.requests import OBJAVERSE, ObjectRequest
-from anymesh.applications.annotate.tables import TABLES, read_table
 from anymesh.errors import InputError, OptionError
 from anymesh.loading.files import FORMATS
 
 log = logging.getLogger("anymesh")
+OBJAVERSE = "objaverse:"  # prefix of the source of an object that is fetched by id
+READABLE = 60  # characters of a name that are kept in its folder's name
+DIGEST = 12  # hex digits that distinguish folders; with 48 bits, two of a million names collide with probability .002
+# Options of single objects, and the types of their values in a table.
+OPTIONS: dict[str, type] = {
+    "parts": str, "up": str, "scale": str, "root": str, "base": str, "formats": str, "drives": str, "category": str,
+    "parts_list": str, "at_least": int, "seed": int, "time_limit": float,
+}  # fmt: skip
+TABLES = (".csv", ".parquet")
+PATH, UID, NAME = "path", "uid", "name"  # columns of a table, beside OPTIONS
 WILD = re.compile(r"[*?\[]")
-UID = re.compile(r"[0-9a-f]{32}")
+HEX_UID = re.compile(r"[0-9a-f]{32}")
 ANY_FOLDERS = "(?:[^/]+/)*"  # `**/` as a regular expression
+
+
+@dataclass(frozen=True)
+class ObjectRequest:
+    """An object. name: unique in its collection; source: path of the mesh, or `objaverse:UID`; options: its own, of OPTIONS.
+
+    refusal: why it cannot be attempted, "" if it can; size: [bytes] and modified: [ns], to detect changes of the file.
+    """
+
+    name: str
+    source: str
+    options: Mapping[str, Any] = field(default_factory=dict)
+    refusal: str = ""
+    size: int = 0
+    modified: int = 0
+
+    @property
+    def folder(self) -> str:
+        """Relative folder of the object in the output: readable, legal on every system, and unique by a digest."""
+        return object_folder(self.name)
+
+    @property
+    def options_text(self) -> str:
+        """The options as JSON, identical for equal options."""
+        return json.dumps(dict(self.options), sort_keys=True)
+
+
+def object_folder(name: str) -> str:
+    """Return the relative folder of an object's output, in one of 256 folders to limit their sizes."""
+    digest = hashlib.sha256(name.encode("utf-8", "surrogateescape")).hexdigest()[:DIGEST]
+    readable = re.sub(r"[^A-Za-z0-9_-]+", "_", PurePosixPath(name).stem).strip("_-")[:READABLE] or "object"
+    return f"objects/{digest[:2]}/{readable}-{digest}"
 
 
 def find_objects(spec: str, *, without: Path) -> Iterator[ObjectRequest]:
@@ -32,7 +77,7 @@ def find_objects(spec: str, *, without: Path) -> Iterator[ObjectRequest]:
         requests = _files(path, (p for p in walk(path, without) if p.suffix.lower() in FORMATS))
     elif path.is_file():
         table = path.suffix.lower() in TABLES
-        requests = (_with_file(r) for r in read_table(path)) if table else _files(path.parent, [path])
+        requests = (_with_file(r) for r in _table(path)) if table else _files(path.parent, [path])
     elif WILD.search(spec):
         requests = _files(*_matches(spec, without))
     else:
@@ -140,7 +185,65 @@ def _objaverse(text: str) -> Iterator[ObjectRequest]:
     is_file = len(text) < 4096 and path.is_file()
     ids = [line.strip() for line in (path.read_text(encoding="utf-8").splitlines() if is_file else text.split(","))]
     ids = list(dict.fromkeys(i.removesuffix(".glb") for i in ids if i))
-    wrong = [i for i in ids if not UID.fullmatch(i)]
+    wrong = [i for i in ids if not HEX_UID.fullmatch(i)]
     if wrong or not ids:
         raise OptionError(f"objaverse: found {(wrong or [text])[0][:80]!r}; valid are ids of 32 hexadecimal digits, or a file")
     yield from (ObjectRequest(i, f"{OBJAVERSE}{i}") for i in ids)
+
+
+def _table(path: Path) -> Iterator[ObjectRequest]:
+    """Yield the objects of a table, one per row.
+
+    Columns: `path` (relative to the table's folder) or `uid` (of Objaverse), `name` (default: the path or id), and those of
+    OPTIONS, where an empty cell is the default; others are ignored with a warning. Raise InputError for an invalid table.
+    """
+    rows = _csv_rows(path) if path.suffix.lower() == ".csv" else _parquet_rows(path)
+    checked = False
+    for number, row in enumerate(rows, 2):
+        if not checked:
+            checked = True
+            _check_columns(path, row)
+        yield _row_request(path, f"{path.name}, row {number}", row)
+
+
+def _csv_rows(path: Path) -> Iterator[Mapping[str, str]]:
+    try:
+        with path.open(newline="", encoding="utf-8-sig") as file:
+            for row in csv.DictReader(file, restkey=None):
+                yield {str(k).strip(): v or "" for k, v in row.items() if k is not None and not isinstance(v, list)}
+    except (csv.Error, UnicodeDecodeError) as error:
+        raise InputError(f"{path.name} is not a valid CSV table in UTF-8: {error}") from None
+
+
+def _parquet_rows(path: Path) -> Iterator[Mapping[str, str]]:
+    from anymesh.applications.annotate.parquet_ import read_rows
+
+    return read_rows(path)
+
+
+def _check_columns(path: Path, row: Iterable[str]) -> None:
+    names = set(row)
+    if not names & {PATH, UID}:
+        columns = ", ".join(sorted(names))[:200]
+        raise InputError(f"{path.name}: found the columns {columns}; one of them must be `path` or `uid`")
+    unknown = sorted(names - {PATH, UID, NAME, *OPTIONS})
+    if unknown:
+        log.warning("%s: the columns %s are ignored; options are %s", path.name, ", ".join(unknown)[:200], ", ".join(OPTIONS))
+
+
+def _row_request(table: Path, where: str, row: Mapping[str, str]) -> ObjectRequest:
+    uid, path = row.get(UID, "").strip(), row.get(PATH, "")
+    if not (uid or path):
+        raise InputError(f"{where}: found neither a path nor a uid")
+    options = {k: _parsed(k, v, where) for k in OPTIONS if (v := row.get(k, "")) != ""}
+    source = f"{OBJAVERSE}{uid}" if uid else str((table.parent / path).absolute())
+    return ObjectRequest(row.get(NAME, "") or uid or path, source, options)
+
+
+def _parsed(name: str, text: str, where: str) -> Any:
+    """Parse the value of an option in a table's cell. Raise InputError if it is not valid."""
+    try:
+        return OPTIONS[name](text)
+    except ValueError:
+        kind = "an integer" if OPTIONS[name] is int else "a number"
+        raise InputError(f"{where}: found {name} {text[:100]!r}; valid is {kind}") from None

@@ -12,17 +12,14 @@ import importlib
 import os
 import socket
 from collections.abc import Iterator
-from contextlib import ExitStack
-from dataclasses import asdict
+from functools import cache
 from pathlib import Path
 from typing import Any
 
-from anymesh.applications.annotate.bridge import Bridge, Meter
-from anymesh.applications.annotate.states import AttemptOutcome, Claim, Result
-from anymesh.applications.annotate.work import Job
-from anymesh.applications.annotate.workers import TARGET, ObjectLimits, as_outcome, child_failure
+from anymesh.applications.annotate.states import AttemptOutcome, Job, Result
+from anymesh.applications.annotate.workers import TARGET, run_in_child
 from anymesh.errors import MissingExtraError, OptionError
-from anymesh.isolation import ChildError, ChildLimits, ChildPool
+from anymesh.isolation import ChildLimits, ChildPool
 
 RETRIES = 3  # maximum number of restarts of a task whose node is lost
 REACH = 5.0  # [s] time-out of the connection to the cluster
@@ -40,7 +37,7 @@ def _ray() -> Any:
 class RayWorkers:
     """Tasks on the cluster at an address. most: number of parallel tasks, two per core of the cluster by default."""
 
-    def __init__(self, address: str, limits: ObjectLimits, most: int | None = None, target: tuple[str, str] = TARGET) -> None:
+    def __init__(self, address: str, limits: ChildLimits, most: int | None = None, target: tuple[str, str] = TARGET) -> None:
         self._ray = ray = _ray()
         self._began = not ray.is_initialized()
         if self._began:
@@ -54,46 +51,36 @@ class RayWorkers:
         self._task = ray.remote(
             num_cpus=1, memory=limits.memory // 2, max_retries=RETRIES, retry_exceptions=False, scheduling_strategy="SPREAD"
         )(_task)
-        self._running: dict[Any, Claim] = {}
-        self._meters: dict[str, Any] = {}
+        self._running: dict[Any, Job] = {}
         self._closed = False
 
     @property
+    def count(self) -> int:
+        """Number of objects that are processed at once; it follows changes of the nodes."""
+        return self._most or max(int(self._ray.cluster_resources().get("CPU", 1)), 1)
+
+    @property
     def free(self) -> int:
-        """Number of further jobs that can be accepted; it follows changes of the nodes."""
+        """Number of further jobs that can be accepted."""
         if self._closed:
             return 0
-        most = self._most or AHEAD * max(int(self._ray.cluster_resources().get("CPU", 1)), 1)
-        return max(most - len(self._running), 0)
+        return max((self._most or AHEAD * self.count) - len(self._running), 0)
 
-    def submit(self, claim: Claim, job: Job) -> None:
+    def submit(self, job: Job) -> None:
         """Submit a job to the cluster."""
-        meter = self._meter(job) if job.metered else None
-        reference = self._task.remote(self._target, job.as_dict(), self._limits, meter)
-        self._running[reference] = claim
+        self._running[self._task.remote(self._target, job, self._limits)] = job
 
-    def _meter(self, job: Job) -> Any:
-        """Return the actor with the account, on the driver's machine, where the ledger is."""
-        if job.collection not in self._meters:
-            here = importlib.import_module("ray.util.scheduling_strategies").NodeAffinitySchedulingStrategy(
-                self._ray.get_runtime_context().get_node_id(), soft=False
-            )
-            make = self._ray.remote(num_cpus=0, scheduling_strategy=here)(Meter)
-            self._meters[job.collection] = make.remote(job.collection, job.rate)
-        return self._meters[job.collection]
-
-    def collect(self, timeout: float) -> Iterator[tuple[Claim, AttemptOutcome]]:
+    def collect(self, timeout: float) -> Iterator[tuple[Job, AttemptOutcome]]:
         """Yield finished jobs; wait up to `timeout` [s] if there are none."""
         if not self._running:
             return
         done, _ = self._ray.wait(list(self._running), num_returns=len(self._running), timeout=timeout)
         for reference in done:
-            claim = self._running.pop(reference)
-            yield claim, self._outcome(reference)
+            yield self._running.pop(reference), self._outcome(reference)
 
     def _outcome(self, reference: Any) -> AttemptOutcome:
         try:
-            return as_outcome(self._ray.get(reference))
+            return self._ray.get(reference)
         except self._ray.exceptions.RayTaskError as error:  # error of the task itself, not of the object
             return AttemptOutcome(Result.FAILED, "RayTaskError", " ".join(str(error.cause).split())[:300])
         except self._ray.exceptions.RayError as error:
@@ -103,9 +90,7 @@ class RayWorkers:
         """End all tasks immediately."""
         for reference in self._running:
             self._ray.cancel(reference, force=True)
-        for meter in self._meters.values():
-            self._ray.kill(meter)
-        self._running, self._meters, self._closed = {}, {}, True
+        self._running, self._closed = {}, True
         if self._began:
             self._ray.shutdown()
 
@@ -128,20 +113,12 @@ def _environment() -> dict[str, Any]:
     return {"env_vars": {"PYTHONPATH": os.pathsep.join(filter(None, paths))}}
 
 
-def _task(target: tuple[str, str], job: dict[str, Any], limits: ObjectLimits, meter: Any) -> dict[str, Any]:
-    """Run one object in a child process of the task; its requests to the account pass through a socket."""
-    how = ChildLimits(seconds=limits.seconds, memory=limits.memory, wall=limits.wall)
-    with ExitStack() as stack:
-        pool = stack.enter_context(ChildPool(1, how))
-        if meter is not None:
-            ray = _ray()
+def _task(target: tuple[str, str], job: Job, limits: ChildLimits) -> AttemptOutcome:
+    """Run one object in a child process of the task."""
+    return run_in_child(_children(limits), target, job)
 
-            def ask(method: str, *values: Any) -> Any:
-                return ray.get(getattr(meter, method).remote(*values))
 
-            job = job | {"bridge": stack.enter_context(Bridge(ask))}
-        try:
-            return pool.run(*target, {"job": job})
-        except ChildError as error:
-            failed = child_failure(error)
-            return asdict(failed) | {"result": str(failed.result)}
+@cache
+def _children(limits: ChildLimits) -> ChildPool:
+    """Return the pool of one child that a worker process of Ray keeps for its tasks."""
+    return ChildPool(1, limits)

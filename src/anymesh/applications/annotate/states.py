@@ -1,10 +1,11 @@
-"""States of an object, results of an attempt, and claims."""
+"""States of an object, the job that a worker gets, and the outcome of an attempt."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
+from pathlib import Path
 from typing import Any
 
 
@@ -29,23 +30,42 @@ class Result(StrEnum):
     OUTAGE = "outage"  # a model or a hub is unreachable
     STORAGE = "storage"  # the output cannot be written: full, read-only, missing
     BUDGET = "budget"  # the next call could exceed the budget
-    STOPPED = "stopped"  # an option or an extra is wrong for every object, or the run was interrupted
+    STOPPED = "stopped"  # an option or an extra is wrong for every object
 
 
-ENDING = (Result.STORAGE, Result.BUDGET, Result.STOPPED)  # results after which a run claims no more objects
+ENDING = (Result.STORAGE, Result.BUDGET, Result.STOPPED)  # results after which a run starts no more objects
 
 
 @dataclass(frozen=True)
-class Claim:
-    """The right to work on an object; token: required for recording its result."""
+class Job:
+    """An object for a worker. seq: its number in the ledger; folder: relative to `collection`, the output with the ledger.
+
+    options: of `articulate`; redo: whether an existing asset was made with other options; metered: whether calls of a model
+    are counted; spent: calls and cost [USD] of the collection so far; rate: requests and tokens per minute of one worker;
+    core: that the process is pinned to, None for any.
+    """
 
     seq: int
     name: str
     source: str
-    options: Mapping[str, Any]
     folder: str
-    token: str
-    redo: bool
+    collection: str
+    options: Mapping[str, Any] = field(default_factory=dict)
+    redo: bool = False
+    metered: bool = False
+    spent: tuple[int, float] = (0, 0.0)
+    rate: tuple[int | None, int | None] = (None, None)
+    core: int | None = None
+
+    @property
+    def out(self) -> Path:
+        """Folder of the asset."""
+        return Path(self.collection, self.folder)
+
+    @property
+    def spending(self) -> Path:
+        """File of the calls of the current attempt, and of their cost."""
+        return self.out.with_name(f"{self.out.name}.spent.json")
 
 
 @dataclass(frozen=True)

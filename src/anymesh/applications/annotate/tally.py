@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from anymesh.applications.annotate.accounts import spent
 from anymesh.applications.annotate.ledger import Ledger
 from anymesh.applications.annotate.states import State
 from anymesh.errors import OutputError
@@ -43,7 +42,7 @@ class Tally:
 def tally(ledger: Ledger, *, finished: int = 0, seconds: float = 0.0, workers: int = 0, note: str = "") -> Tally:
     """Count objects by state; finished, seconds: objects finished by this run and its duration [s], for the rate."""
     counts = dict.fromkeys(map(str, State), 0) | dict(ledger.rows("SELECT state, count(*) FROM objects GROUP BY state"))
-    calls, cost = spent(ledger)
+    calls, cost = ledger.spent
     rate = finished / seconds * 3600 if finished and seconds > 0 else 0.0
     open_ = counts[State.PENDING] + counts[State.RUNNING]
     return Tally(counts, calls, cost, rate, 3600 * open_ / rate if rate else None, workers, note)

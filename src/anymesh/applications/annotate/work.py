@@ -1,19 +1,22 @@
-"""Annotation of one object in a worker process, with its outcome as plain values."""
+"""Annotation of one object in a worker process."""
 
 from __future__ import annotations
 
 import errno
+import hashlib
+import json
 import os
 import re
 import time
-from collections.abc import Mapping
 from contextlib import suppress
-from dataclasses import asdict, dataclass, field
+from dataclasses import replace
+from functools import cache
 from pathlib import Path
-from typing import Any
+from threading import Lock
+from typing import TYPE_CHECKING, Any
 
-from anymesh.applications.annotate.requests import OBJAVERSE
-from anymesh.applications.annotate.states import AttemptOutcome, Result
+from anymesh.applications.annotate.inputs import OBJAVERSE
+from anymesh.applications.annotate.states import AttemptOutcome, Job, Result
 from anymesh.errors import (
     AnymeshError,
     BudgetError,
@@ -24,89 +27,128 @@ from anymesh.errors import (
     OptionError,
     failed_stage,
 )
+from anymesh.prompted.models.budget import Limit, Spent
 from anymesh.prompted.models.retry import UnavailableError
+from anymesh.runtime import read_json, write_whole
+
+if TYPE_CHECKING:
+    from anymesh.prompted.models.rates import WindowLimiter
 
 STORAGE = {getattr(errno, name, errno.ENOSPC) for name in "ENOSPC EROFS EDQUOT EIO ENODEV ESTALE EACCES EPERM".split()}
 FILES = "files:"
 LONGEST = 500  # maximum number of characters of an error
 
 
-@dataclass(frozen=True)
-class Job:
-    """An object for a worker. out: its folder; collection: the output with the ledger; options: of `articulate`.
-
-    rate: requests and tokens per minute; core: that the process is pinned to, None for any; metered: whether a model's calls
-    are counted in the ledger;
-    bridge: socket of the process with the ledger, None if it is opened directly.
-    """
-
-    name: str
-    source: str
-    out: str
-    collection: str
-    token: str
-    options: Mapping[str, Any] = field(default_factory=dict)
-    redo: bool = False
-    rate: tuple[int | None, int | None] = (None, None)
-    core: int | None = None
-    metered: bool = False
-    bridge: str | None = None
-
-    def as_dict(self) -> dict[str, Any]:
-        """Return plain values, for another process."""
-        return asdict(self)
-
-
-def annotate_object(job: dict[str, Any]) -> dict[str, Any]:
-    """Annotate an object; return an AttemptOutcome as a dictionary.
-
-    Only MemoryError is raised, which the worker handles as a limit.
-    """
-    what, begin = Job(**job), time.perf_counter()
-    _prepare(what)
+def annotate_object(job: Job) -> AttemptOutcome:
+    """Annotate an object; only MemoryError is raised, which the worker handles as a limit."""
+    begin = time.perf_counter()
+    _prepare(job)
     try:
-        outcome = _annotated(what)
+        outcome = _annotated(job)
     except MemoryError:
         raise
     except Exception as error:
         outcome = failure(error)
-    record = asdict(outcome) | {"seconds": time.perf_counter() - begin, "memory": _peak_memory()}
-    return record | {"result": str(outcome.result)}
+    return replace(outcome, seconds=time.perf_counter() - begin, memory=_peak_memory())
 
 
 def _annotated(job: Job) -> AttemptOutcome:
-    from anymesh.applications.annotate.results import asset_columns
     from anymesh.pipeline import articulate
 
-    mesh = local_mesh(job.source)
-    out = Path(job.out)
+    mesh, out = local_mesh(job.source), job.out
     if not job.redo and (made := asset_columns(out)) and made["sha256"] == _digest(mesh):
         return AttemptOutcome(Result.DONE, record=made)  # its run ended between the last file and the ledger
     options = dict(job.options)
     if str(options.get("answerer", "")).startswith(FILES):
         options["answerer"] = f"{options['answerer']}/{out.name}"
+    if job.metered:
+        options |= {"spent": ObjectAccount(job.spent, job.spending), "limiter": _limiter(*job.rate) if any(job.rate) else None}
     out.parent.mkdir(parents=True, exist_ok=True)
-    articulate(mesh, out, force=out.exists(), **options, **_metered(job))
+    articulate(mesh, out, force=out.exists(), **options)
     made = asset_columns(out)
     if made is None:
         raise InputError(f"{out} was removed during processing")
     return AttemptOutcome(Result.DONE, record=made)
 
 
-def _metered(job: Job) -> dict[str, Any]:
-    if not job.metered:
-        return {}
-    if job.bridge is not None:
-        from anymesh.applications.annotate.bridge import RemoteMeter
+@cache
+def _limiter(requests: int | None, tokens: int | None) -> WindowLimiter:
+    """Return the limiter of this process, for all its objects."""
+    from anymesh.prompted.models.rates import Rate, WindowLimiter
 
-        remote = RemoteMeter(job.bridge, job.name, job.token)
-        return {"spent": remote, "limiter": remote if any(job.rate) else None}
-    from anymesh.applications.annotate.accounts import open_account
-    from anymesh.prompted.models.rates import Rate
+    return WindowLimiter(Rate(requests, tokens))
 
-    rate = Rate(*job.rate) if any(job.rate) else None
-    account, limiter = open_account(Path(job.collection), job.name, job.token, rate)
-    return {"spent": account, "limiter": limiter}
+
+class ObjectAccount:
+    """Calls of one object and their cost [USD], on top of what its collection had spent when the object began.
+
+    The object's own share is kept in a file, which the driver of the run reads even if this process is killed. A call in
+    progress counts at its upper bound.
+    """
+
+    def __init__(self, before: tuple[int, float], file: Path) -> None:
+        self._before, self._file = before, file
+        calls, cost = read_spending(file)  # of a start of the same attempt on a machine that was lost
+        self._spent = Spent(before[0] + calls, before[1] + cost)
+        self._open: dict[int, float] = {}
+        self._lock = Lock()
+
+    @property
+    def calls(self) -> int:
+        """Number of calls answered so far."""
+        return self._spent.calls
+
+    @property
+    def cost(self) -> float:
+        """Their cost [USD, of known prices]."""
+        return self._spent.cost
+
+    def hold(self, kind: str, most: float, limit: Limit) -> int:
+        """Reserve a call of at most `most` [USD] and return the reservation's number. Raise BudgetError beyond the limit."""
+        with self._lock:
+            number = self._spent.hold(kind, most, limit)
+            self._open[number] = most
+            self._write()
+        return number
+
+    def settle(self, hold: int, cost: float | None) -> None:
+        """Replace a reservation by the cost of the call; None for a call that failed and was not billed."""
+        with self._lock:
+            self._spent.settle(hold, cost)
+            del self._open[hold]
+            self._write()
+
+    def _write(self) -> None:
+        calls, cost = self.calls - self._before[0] + len(self._open), self.cost - self._before[1] + sum(self._open.values())
+        self._file.parent.mkdir(parents=True, exist_ok=True)
+        write_whole(self._file, json.dumps({"calls": calls, "cost_usd": cost}).encode())
+
+
+def read_spending(file: Path) -> tuple[int, float]:
+    """Return the calls and their cost [USD] that an account wrote; 0 if there is no file."""
+    record = read_json(file) or {}
+    return int(record.get("calls", 0)), float(record.get("cost_usd", 0.0))
+
+
+def asset_columns(folder: Path) -> dict[str, Any] | None:
+    """Return the columns of the ledger for a finished asset; None if there is none, or if it is incomplete."""
+    asset = read_json(folder / "asset.json")
+    if asset is None:
+        return None
+    try:
+        joints = asset["joints"]
+        return {
+            "confidence": min((float(j["confidence"]) for j in joints), default=None),
+            "parts": len(asset["parts"]) - 1,
+            "joints": len(joints),
+            "faces": sum(int(p["face_count"]) for p in asset["parts"]),
+            "warnings": len(asset["warnings"]),
+            "bytes": sum(p.lstat().st_size for p in folder.rglob("*") if p.is_file()),
+            "sha256": str(asset["source"]["sha256"]),
+            "stage_seconds": json.dumps(read_json(folder / str(asset["timing"])) or {}),
+        }
+    except (KeyError, TypeError, ValueError, OSError):
+        return None
 
 
 def local_mesh(source: str) -> Path:
@@ -119,8 +161,6 @@ def local_mesh(source: str) -> Path:
 
 
 def _digest(mesh: Path) -> str:
-    import hashlib
-
     with mesh.open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import os
 from collections import deque
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import Any, Protocol, runtime_checkable
+from typing import Protocol, runtime_checkable
 
-from anymesh.applications.annotate.states import AttemptOutcome, Claim, Result
-from anymesh.applications.annotate.work import Job
+from anymesh.applications.annotate.states import AttemptOutcome, Job, Result
 from anymesh.errors import OptionError
 from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
 
@@ -23,31 +22,19 @@ MIN_GIB = 1.5  # of address space, needed by the libraries alone
 WAITING = 10.0  # maximum elapsed time over processor time for an object that waits for a model
 
 
-@dataclass(frozen=True)
-class ObjectLimits:
-    """Limits of one object.
+def object_limits(workers: int, memory: float | None, seconds: float, *, waits: bool = False) -> ChildLimits:
+    """Return the limits of the processes of a number of workers. Raise OptionError if one is not valid.
 
-    memory: address space of its process [bytes]; seconds, wall: processor time and elapsed time [s] after which it is ended.
+    memory: address space [GiB], None for an equal share of nine tenths of the machine's memory, 2 to 16 GiB; seconds: processor
+    time of one object; waits: whether objects wait for a model, which takes elapsed time but no processor time.
     """
-
-    memory: int
-    seconds: float
-    wall: float
-
-    @classmethod
-    def default(cls, workers: int, memory: float | None, seconds: float, *, waits: bool = False) -> ObjectLimits:
-        """Return the limits for a number of workers.
-
-        memory: [GiB], None for an equal share of nine tenths of the machine's memory, 2 to 16 GiB; waits: whether it waits for
-        a model, which takes elapsed time but no processor time.
-        """
-        if memory is not None and not memory >= MIN_GIB:
-            raise OptionError(f"--memory: found {memory:g}; valid are numbers from {MIN_GIB:g} GiB up")
-        if not seconds > 0:
-            raise OptionError(f"--kill-after: found {seconds:g}; valid are seconds above 0")
-        share = 0.9 * machine_memory() / max(workers, 1)
-        size = int(memory * GIB) if memory else int(min(max(share, 2 * GIB), 16 * GIB))
-        return cls(size, seconds, WAITING * seconds if waits else seconds)
+    if memory is not None and not memory >= MIN_GIB:
+        raise OptionError(f"--memory: found {memory:g}; valid are numbers from {MIN_GIB:g} GiB up")
+    if not seconds > 0:
+        raise OptionError(f"--kill-after: found {seconds:g}; valid are seconds above 0")
+    share = 0.9 * machine_memory() / max(workers, 1)
+    size = int(memory * GIB) if memory else int(min(max(share, 2 * GIB), 16 * GIB))
+    return ChildLimits(seconds=seconds, memory=size, wall=WAITING * seconds if waits else seconds, calls=RENEWED)
 
 
 @runtime_checkable
@@ -55,13 +42,18 @@ class Workers(Protocol):
     """Protocol of workers: processes on this machine, or tasks of a cluster."""
 
     @property
+    def count(self) -> int:
+        """Number of objects that are processed at once."""
+        ...
+
+    @property
     def free(self) -> int:
         """Number of further jobs that can be accepted."""
         ...
 
-    def submit(self, claim: Claim, job: Job) -> None: ...
+    def submit(self, job: Job) -> None: ...
 
-    def collect(self, timeout: float) -> Iterator[tuple[Claim, AttemptOutcome]]:
+    def collect(self, timeout: float) -> Iterator[tuple[Job, AttemptOutcome]]:
         """Yield finished jobs; wait up to `timeout` [s] if there are none."""
         ...
 
@@ -73,39 +65,31 @@ class Workers(Protocol):
 class LocalWorkers:
     """`count` child processes. target: module and function that they call."""
 
-    def __init__(self, count: int, limits: ObjectLimits, target: tuple[str, str] = TARGET) -> None:
-        self._count, self._target = count, target
-        child = ChildLimits(seconds=limits.seconds, memory=limits.memory, wall=limits.wall, calls=RENEWED)
-        self._pool = ChildPool(count, child)
+    def __init__(self, count: int, limits: ChildLimits, target: tuple[str, str] = TARGET) -> None:
+        self.count, self._target = count, target
+        self._pool = ChildPool(count, limits)
         self._threads = ThreadPoolExecutor(count, "anymesh-annotate")
-        self._running: dict[Future[AttemptOutcome], Claim] = {}
+        self._running: dict[Future[AttemptOutcome], Job] = {}
         cores = sorted(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else [None]
         self._cores: deque[int | None] = deque(cores[k % len(cores)] for k in range(count))
-        self._on_core: dict[Future[AttemptOutcome], int | None] = {}
 
     @property
     def free(self) -> int:
         """Number of further jobs that can be accepted."""
-        return self._count - len(self._running)
+        return self.count - len(self._running)
 
-    def submit(self, claim: Claim, job: Job) -> None:
+    def submit(self, job: Job) -> None:
         """Start a job."""
-        core = self._cores.popleft()
-        future = self._threads.submit(self._run, replace(job, core=core))
-        self._running[future], self._on_core[future] = claim, core
+        job = replace(job, core=self._cores.popleft())
+        self._running[self._threads.submit(run_in_child, self._pool, self._target, job)] = job
 
-    def _run(self, job: Job) -> AttemptOutcome:
-        try:
-            return as_outcome(self._pool.run(*self._target, {"job": job.as_dict()}))
-        except ChildError as error:
-            return child_failure(error)
-
-    def collect(self, timeout: float) -> Iterator[tuple[Claim, AttemptOutcome]]:
+    def collect(self, timeout: float) -> Iterator[tuple[Job, AttemptOutcome]]:
         """Yield finished jobs; wait up to `timeout` [s] if there are none."""
         done, _ = wait(self._running, timeout, FIRST_COMPLETED)
         for future in done:
-            self._cores.append(self._on_core.pop(future))
-            yield self._running.pop(future), future.result()
+            job = self._running.pop(future)
+            self._cores.append(job.core)
+            yield job, future.result()
 
     def close(self) -> None:
         """End all processes immediately."""
@@ -113,16 +97,13 @@ class LocalWorkers:
         self._threads.shutdown(wait=True, cancel_futures=True)
 
 
-def child_failure(error: ChildError) -> AttemptOutcome:
-    """Convert the failure of a process without a result to an outcome."""
-    names = {Failure.CRASH: "CrashError", Failure.TIME: "TimeLimitError", Failure.MEMORY: "MemoryLimitError"}
-    return AttemptOutcome(Result.FAILED, names.get(error.failure, "ChildError"), str(error)[:500])
-
-
-def as_outcome(values: Mapping[str, Any]) -> AttemptOutcome:
-    """Restore the outcome that a worker returned as a dictionary."""
-    rest: dict[str, Any] = {k: v for k, v in values.items() if k != "result"}
-    return AttemptOutcome(Result(values["result"]), **rest)
+def run_in_child(pool: ChildPool, target: tuple[str, str], job: Job) -> AttemptOutcome:
+    """Run a job in a child process; convert the failure of a process without a result to an outcome."""
+    try:
+        return pool.run(*target, {"job": job})
+    except ChildError as error:
+        names = {Failure.CRASH: "CrashError", Failure.TIME: "TimeLimitError", Failure.MEMORY: "MemoryLimitError"}
+        return AttemptOutcome(Result.FAILED, names.get(error.failure, "ChildError"), str(error)[:500])
 
 
 def machine_memory() -> int:
