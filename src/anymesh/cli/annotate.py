@@ -43,9 +43,11 @@ KillAfter = Annotated[
 ]
 Attempts = Annotated[int, typer.Option(help="Attempts before an object that crashes, hangs or exceeds memory is quarantined.")]
 Again = Annotated[bool, typer.Option("--retry-quarantined", help="Try quarantined objects again.")]
-Requests = Annotated[int | None, typer.Option("--requests-per-minute", help="Limit of requests to a model, over all workers.")]
+Requests = Annotated[
+    int | None, typer.Option("--requests-per-minute", help="Limit of requests to a model, in equal shares per worker.")
+]
 Tokens = Annotated[
-    int | None, typer.Option("--tokens-per-minute", help="Limit of a model's input and output tokens, over all workers.")
+    int | None, typer.Option("--tokens-per-minute", help="Limit of a model's input and output tokens, likewise.")
 ]
 Patience = Annotated[
     float, typer.Option("--patience", metavar="SECONDS", help="How long to wait for an unreachable model or hub.")
@@ -53,9 +55,6 @@ Patience = Annotated[
 Ray = Annotated[
     str | None,
     typer.Option("--ray", metavar="ADDRESS", help="Address of a Ray cluster: auto or HOST:PORT (extra ray)."),
-]
-DryRun = Annotated[
-    int, typer.Option("--dry-run", metavar="N", help="Estimate time and cost from N objects; nothing is paid or kept.")
 ]
 
 
@@ -66,7 +65,6 @@ def annotate(
     out: Out = None,
     status: Status = None,
     export: Export = None,
-    dry_run: DryRun = 0,
     workers: Workers = None,
     memory: Memory = None,
     kill_after: KillAfter = None,
@@ -88,16 +86,13 @@ def annotate(
     if status is not None:
         _tell_status(status, export, json_)
         return
-    if source is None or (out is None and not dry_run):
+    if source is None or out is None:
         raise OptionError("found no INPUT or no --out; valid is `anymesh annotate INPUT -o OUT`, or `--status OUT`")
     from anymesh.applications.annotate.annotate import Speed
 
     options: dict[str, Any] = {"parts": parts, **placement, **writing, **time, **answering}
     speed = Speed(workers, memory, kill_after, attempts, requests_per_minute, tokens_per_minute, patience, ray)
-    if dry_run:
-        _tell_estimate(source, dry_run, speed, options, json_)
-    elif out is not None:
-        _run(source, out, speed, retry_quarantined, options, json_, quiet)
+    _run(source, out, speed, retry_quarantined, options, json_, quiet)
 
 
 def _run(source: str, out: Path, speed: Speed, again: bool, options: dict[str, Any], json_: bool, quiet: bool) -> None:
@@ -135,14 +130,6 @@ def _tell_status(out: Path, export: Path | None, json_: bool) -> None:
     if export is not None:
         with Ledger.open(out) as ledger:
             export_ledger(ledger, export)
-
-
-def _tell_estimate(source: str, count: int, speed: Speed, options: dict[str, Any], json_: bool) -> None:
-    from anymesh.applications.annotate.estimate import estimate
-
-    estimated = estimate(source, count, speed=speed, **options)
-    lines = [json.dumps(asdict(estimated), indent=2)] if json_ else [plain(line) for line in estimated.words().splitlines()]
-    typer.echo("\n".join(lines))
 
 
 class Live:

@@ -7,11 +7,12 @@ from pathlib import Path
 
 import pytest
 
-from anymesh.applications.annotate.ledger import Ledger
-from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits
+from anymesh.applications.annotate.ledger import Ledger, driven_ledger
+from anymesh.applications.annotate.workers import LocalWorkers
+from anymesh.isolation import ChildLimits
 
 TARGET = ("fake_work", "run")
-LIMITS = ObjectLimits(memory=2 << 30, seconds=20.0, wall=6.0)  # imports alone take seconds on a busy machine
+LIMITS = ChildLimits(memory=2 << 30, seconds=20.0, wall=6.0)  # imports alone take seconds on a busy machine
 
 
 @pytest.fixture
@@ -20,7 +21,7 @@ def workers(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., LocalWork
     monkeypatch.syspath_prepend(Path(__file__).parent)
     made: list[LocalWorkers] = []
 
-    def make(count: int = 2, limits: ObjectLimits = LIMITS) -> LocalWorkers:
+    def make(count: int = 2, limits: ChildLimits = LIMITS) -> LocalWorkers:
         made.append(LocalWorkers(count, limits, TARGET))
         return made[-1]
 
@@ -31,7 +32,7 @@ def workers(monkeypatch: pytest.MonkeyPatch) -> Iterator[Callable[..., LocalWork
 
 @pytest.fixture
 def ledger(tmp_path: Path) -> Iterator[Ledger]:
-    with Ledger.open(tmp_path / "out", create=True) as made:
+    with driven_ledger(tmp_path / "out", 2) as made:
         yield made
 
 
@@ -47,3 +48,9 @@ def collection(tmp_path: Path) -> Callable[..., Path]:
         return folder
 
     return make
+
+
+@pytest.fixture
+def metered(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Options count as those of a model, whose calls are counted."""
+    monkeypatch.setattr("anymesh.applications.annotate.annotate.checked", lambda _: "openai:gpt-4o")

@@ -4,25 +4,18 @@ import signal
 import sys
 from pathlib import Path
 
-from anymesh.applications.annotate.claims import begun_run
-from anymesh.applications.annotate.entering import enter_objects
-from anymesh.applications.annotate.inputs import find_objects
-from anymesh.applications.annotate.outages import Outage
-from anymesh.applications.annotate.runner import Plan, Runner
-from anymesh.applications.annotate.salvage import open_ledger
-from anymesh.applications.annotate.workers import LocalWorkers, ObjectLimits
+from anymesh.applications.annotate.annotate import annotate
+from anymesh.applications.annotate.workers import LocalWorkers
+from anymesh.errors import AnymeshError
+from anymesh.isolation import ChildLimits
 
 
 def main(source: str, out: Path) -> None:
     signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs start with it ignored
-    workers = LocalWorkers(2, ObjectLimits(2 << 30, 20.0, 20.0), ("fake_work", "run"))
-    with open_ledger(out) as ledger:
-        enter_objects(ledger, find_objects(source, without=out))
-        with begun_run(ledger, 2) as run:
-            try:
-                Runner(ledger, run, workers, Plan({}), Outage(60.0)).loop()
-            finally:
-                workers.close()
+    try:
+        annotate(source, out, work=LocalWorkers(2, ChildLimits(memory=2 << 30, seconds=20.0, wall=20.0), ("fake_work", "run")))
+    except AnymeshError as error:
+        sys.exit(str(error))
 
 
 if __name__ == "__main__":

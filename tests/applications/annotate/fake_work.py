@@ -64,7 +64,7 @@ def articulate(mesh: Path, out: Path, *, force: bool = False, **options: Any) ->
         case "open" if not (collection / "answered").exists():
             raise OpenQuestionError("a question waits", [out / "q"])
         case "pay":
-            hold = account.hold("marks", 0.5, Limit(cost=options.get("max_cost")))
+            hold = account.hold("marks", 0.5, Limit(options.get("max_calls"), options.get("max_cost")))
             if value == "lost":
                 os.kill(os.getpid(), signal.SIGKILL)
             account.settle(hold, 0.1)
@@ -78,6 +78,4 @@ def articulate(mesh: Path, out: Path, *, force: bool = False, **options: Any) ->
 sys.modules["anymesh.pipeline"] = types.SimpleNamespace(articulate=articulate)  # ty: ignore[invalid-assignment]
 
 
-def run(job: dict[str, Any]) -> dict[str, Any]:
-    """As `annotate_object`."""
-    return work.annotate_object(job)
+run = work.annotate_object

@@ -9,11 +9,9 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from anymesh.applications.annotate.claims import begun_run, claim, finish
-from anymesh.applications.annotate.entering import enter_objects
-from anymesh.applications.annotate.ledger import Ledger
+from anymesh.applications.annotate.inputs import ObjectRequest
+from anymesh.applications.annotate.ledger import driven_ledger
 from anymesh.applications.annotate.report import GALLERY, write_report
-from anymesh.applications.annotate.requests import ObjectRequest
 from anymesh.applications.annotate.states import AttemptOutcome, Result
 from anymesh.applications.annotate.tally import METRICS, tally, write_metrics
 
@@ -28,9 +26,9 @@ def out(tmp_path_factory) -> Path:
 @pytest.fixture(scope="module")
 def page(out) -> str:
     """The report of 40 objects that are done, and three that are not."""
-    with Ledger.open(out, create=True) as ledger, begun_run(ledger, 1) as run:
-        enter_objects(ledger, [ObjectRequest(f"{EVIL}{k:02d}", "/x.glb") for k in range(43)])
-        for k, one in enumerate(claim(ledger, run, 43)):
+    with driven_ledger(out, 1) as ledger:
+        ledger.enter([ObjectRequest(f"{EVIL}{k:02d}", "/x.glb") for k in range(43)])
+        for k, one in enumerate(ledger.take(43)):
             if k < 40:
                 folder = ledger.out / one.folder
                 folder.mkdir(parents=True)
@@ -42,7 +40,7 @@ def page(out) -> str:
                 outcome = AttemptOutcome(Result.REFUSED, "InputError", EVIL)
             else:
                 outcome = AttemptOutcome(Result.FAILED, "CrashError", "signal 11", stage="segment")
-            finish(ledger, one, outcome, most=1)
+            ledger.finish(one, outcome, most=1)
         write_metrics(ledger.out, tally(ledger, finished=43, seconds=3600.0, workers=1), 1.5)
         return write_report(ledger).read_text()
 

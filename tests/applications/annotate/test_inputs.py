@@ -7,8 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from anymesh.applications.annotate.inputs import find_objects
-from anymesh.applications.annotate.requests import ObjectRequest, object_folder
+from anymesh.applications.annotate.inputs import ObjectRequest, find_objects, object_folder
 from anymesh.errors import InputError, OptionError
 
 ODD = [

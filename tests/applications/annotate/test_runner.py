@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import time
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -14,9 +15,14 @@ from ledger_rows import column, states, trace
 
 from anymesh.applications.annotate import annotate as module
 from anymesh.applications.annotate import runner
-from anymesh.applications.annotate.annotate import Speed, annotate, collection_status, killed_after
-from anymesh.applications.annotate.workers import ObjectLimits
+from anymesh.applications.annotate.annotate import Speed, annotate, collection_status, killed_after, worker_rate
+from anymesh.applications.annotate.inputs import find_objects
+from anymesh.applications.annotate.ledger import driven_ledger
+from anymesh.applications.annotate.states import AttemptOutcome, Result
+from anymesh.applications.annotate.work import ObjectAccount
+from anymesh.applications.annotate.workers import object_limits
 from anymesh.errors import InputError, OptionError, OutputError
+from anymesh.prompted.models.budget import Limit
 
 HERE = Path(__file__).parent
 
@@ -118,22 +124,6 @@ def test_a_read_only_output_is_one_clear_error(tmp_path, collection, workers) ->
         out.chmod(0o755)
 
 
-def test_a_ledger_that_becomes_read_only_or_full_is_one_clear_error(tmp_path, collection) -> None:
-    from anymesh.applications.annotate.entering import enter_objects
-    from anymesh.applications.annotate.inputs import find_objects
-    from anymesh.applications.annotate.ledger import Ledger
-
-    source = collection(**{f"n{k}": "ok" for k in range(400)})
-    with Ledger.open(tmp_path / "out", create=True) as ledger:
-        ledger.rows("PRAGMA max_page_count = 30")  # as a disk that is full
-        with pytest.raises(OutputError, match="full"):
-            enter_objects(ledger, find_objects(str(source), without=tmp_path / "out"))
-        assert ledger.rows("SELECT count(*) FROM objects") == [(0,)]
-        ledger.rows("PRAGMA query_only = 1")  # as a file system that turned read-only
-        with pytest.raises(OutputError, match="readonly"):
-            ledger.setting("key", "value")
-
-
 def test_a_model_that_is_down_is_waited_for_and_counts_against_no_object(tmp_path, collection, workers, monkeypatch) -> None:
     source, out = collection(a="down", b="down b", c="down c"), tmp_path / "out"
     monkeypatch.setattr(module, "Outage", lambda patience: real(patience, first=0.1))
@@ -188,38 +178,79 @@ def test_quarantined_objects_get_another_chance_when_asked(tmp_path, collection,
 
 
 def begun(source: Path, out: Path) -> subprocess.Popen:
-    log = (source.parent / f"stderr-{time.monotonic_ns()}").open("w")
-    return subprocess.Popen([sys.executable, HERE / "fake_run.py", str(source), str(out)], stderr=log)
+    command = [sys.executable, HERE / "fake_run.py", str(source), str(out)]
+    return subprocess.Popen(command, stderr=subprocess.PIPE, text=True)
 
 
 def wait_for(count: int, out: Path) -> None:
-    end = time.monotonic() + 30
+    end = time.monotonic() + 60
     while len(trace(out)) < count and time.monotonic() < end:
         time.sleep(0.01)
     assert len(trace(out)) >= count
 
 
-@pytest.mark.parametrize("how", [signal.SIGKILL, pytest.param(signal.SIGINT, marks=pytest.mark.slow)])
-def test_a_run_that_is_killed_loses_nothing_and_redoes_nothing(tmp_path, collection, how) -> None:
+def test_runs_that_are_killed_lose_nothing_and_redo_nothing(tmp_path, collection) -> None:
     source, out = collection(**{f"n{k}": f"slow 0.0{k % 7}" for k in range(30)}), tmp_path / "out"
+    for count, how in ((5, signal.SIGKILL), (12, signal.SIGINT), (18, signal.SIGKILL)):
+        process = begun(source, out)
+        wait_for(count, out)
+        process.send_signal(how)
+        process.communicate(timeout=60)
     process = begun(source, out)
-    wait_for(10, out)
-    process.send_signal(how)
-    process.wait(timeout=20)
-    process = begun(source, out)
-    assert process.wait(timeout=60) == 0
+    assert process.communicate(timeout=60) == (None, "")
+    assert process.returncode == 0
     assert set(states(out).values()) == {"done"}
     assert len(trace(out)) == len(set(trace(out))) == 30
     assert collection_status(out).counts["done"] == 30
-    assert not list((out / "runs").iterdir())
 
 
-def test_two_runs_on_one_output_share_the_work(tmp_path, collection) -> None:
-    source, out = collection(**{f"n{k}": "slow 0.04" for k in range(40)}), tmp_path / "out"
-    both = [begun(source, out), begun(source, out)]
-    assert [process.wait(timeout=60) for process in both] == [0, 0]
-    assert len(trace(out)) == len(set(trace(out))) == 40
+def test_a_second_run_on_one_output_is_refused_and_harms_nothing(tmp_path, collection, workers) -> None:
+    source, out = collection(**{f"n{k}": "slow 0.1" for k in range(20)}), tmp_path / "out"
+    first = begun(source, out)
+    wait_for(1, out)
+    with pytest.raises(OutputError, match="another run works on"):
+        annotate(str(source), out, work=workers())
+    first.communicate(timeout=60)
+    assert first.returncode == 0
     assert set(states(out).values()) == {"done"}
+    assert len(trace(out)) == len(set(trace(out))) == 20
+
+
+def test_the_budget_holds_over_the_collection_and_its_runs(tmp_path, collection, workers, metered) -> None:
+    source, out = collection(**{f"n{k}": "pay" for k in range(12)}), tmp_path / "out"
+    found = annotate(str(source), out, work=workers(1), max_cost=0.95)
+    assert (found.ended.exit_code, found.found.calls, found.found.cost) == (7, 5, pytest.approx(0.5))  # .5 fits up to .45
+    assert "could exceed --max-cost 0.95; spent so far: 5 calls, 0.5000 USD" in found.ended.error
+    assert found.found.counts["done"] == 5
+    found = annotate(str(source), out, work=workers(2), max_calls=8)
+    assert found.ended.exit_code == 7
+    assert 8 <= found.found.calls <= 9  # two objects in progress
+    assert not list(out.glob("objects/*/*.json"))
+
+
+def test_a_call_whose_process_dies_counts_at_its_upper_bound(tmp_path, collection, workers, metered) -> None:
+    out = tmp_path / "out"
+    found = annotate(str(collection(a="pay lost", b="pay")), out, work=workers(1), speed=Speed(attempts=2))
+    assert (column(out, "a", "calls"), column(out, "a", "cost")) == (2, 1.0)
+    assert (found.found.calls, found.found.cost) == (3, pytest.approx(1.1))
+
+
+def test_calls_of_a_run_that_was_killed_are_counted_by_the_next(tmp_path, collection, workers, metered) -> None:
+    source, out = collection(a="ok"), tmp_path / "out"
+    with driven_ledger(out, 1) as ledger:
+        ledger.enter(find_objects(str(source), without=out))
+        (job,) = ledger.take(1)
+        job.spending.parent.mkdir(parents=True)
+        ObjectAccount((0, 0.0), job.spending).hold("marks", 0.5, Limit())
+    found = annotate(str(source), out, work=workers(1))
+    assert (found.found.counts["done"], found.found.calls, found.found.cost) == (1, 1, 0.5)
+    assert column(out, "a", "losses") == 1
+
+
+def test_rates_are_shared_equally_by_the_workers(tmp_path, collection, workers) -> None:
+    with pytest.raises(OptionError, match="--requests-per-minute: found 1; valid are integers from 2 up"):
+        annotate(str(collection(a="ok")), tmp_path / "out", work=workers(2), speed=Speed(requests=1))
+    assert worker_rate(Speed(requests=9, tokens=1000), 4) == (2, 250)
 
 
 def test_an_asset_whose_run_ended_before_the_ledger_knew_is_taken_as_it_is(tmp_path, collection, workers) -> None:
@@ -238,8 +269,9 @@ def test_an_asset_whose_run_ended_before_the_ledger_knew_is_taken_as_it_is(tmp_p
 
 def test_limits_are_checked() -> None:
     with pytest.raises(OptionError, match="--memory"):
-        ObjectLimits.default(2, 0.1, 10.0)
-    assert ObjectLimits.default(2, 3.0, 10.0, waits=True) == ObjectLimits(3 << 30, 10.0, 100.0)
+        object_limits(2, 0.1, 10.0)
+    limits = object_limits(2, 3.0, 10.0, waits=True)
+    assert (limits.memory, limits.seconds, limits.wall) == (3 << 30, 10.0, 100.0)
 
 
 @pytest.mark.parametrize(
@@ -248,3 +280,23 @@ def test_limits_are_checked() -> None:
 def test_an_object_is_ended_long_after_its_time_limit(speed: Speed, limit: float, seconds: float) -> None:
     """Reading the file counts too, so that a short limit still leaves a minute."""
     assert killed_after(speed, {"time_limit": limit}) == seconds
+
+
+def test_an_outage_is_tried_less_and_less_and_ends_with_the_first_answer() -> None:
+    now, tries = 1000.0, []
+    outage, failed = runner.Outage(600.0, clock=lambda: now, first=5.0), AttemptOutcome(Result.OUTAGE)
+    assert outage.allowed(4, 0) == 4
+    for _ in range(5):
+        outage.failed(failed)
+        outage.failed(failed)  # of another worker, at once
+        while not outage.allowed(4, 0):
+            now += 1
+        tries.append(now)
+        assert outage.allowed(4, 1) == 0
+    assert [b - a for a, b in pairwise([1000.0, *tries])] == [5, 10, 20, 40, 80]
+    assert not outage.is_over
+    now += 600
+    assert outage.is_over
+    outage.reached()
+    assert outage.allowed(4, 0) == 4
+    assert not outage.is_over

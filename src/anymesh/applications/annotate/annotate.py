@@ -83,7 +83,7 @@ def annotate(
     metered = who not in (GEOMETRY, FILES)
     workers = work or _workers(speed, options, waits=metered)
     try:
-        plan = Plan(options, speed.attempts, _worker_rate(speed, workers.count), metered)
+        plan = Plan(options, speed.attempts, worker_rate(speed, workers.count), metered)
         with driven_ledger(out, workers.count) as ledger:
             _pin(ledger, options)
             runner = Runner(ledger, workers, plan, Outage(speed.patience), on_tally)
@@ -146,7 +146,7 @@ def _workers(speed: Speed, options: Mapping[str, Any], *, waits: bool) -> Worker
     return LocalWorkers(count, object_limits(count, speed.memory, seconds, waits=waits))
 
 
-def _worker_rate(speed: Speed, workers: int) -> tuple[int | None, int | None]:
+def worker_rate(speed: Speed, workers: int) -> tuple[int | None, int | None]:
     """Return requests and tokens per minute of one worker. Raise OptionError if there is less than one for each."""
     for name, limit in (("requests", speed.requests), ("tokens", speed.tokens)):
         if limit is not None and limit < workers:
