@@ -144,10 +144,8 @@ def finished(out: Path) -> int:
 
 def ledger(how: argparse.Namespace) -> Figures:
     """Enter so many objects, finish 2,000 of them, and fill in the rest as if they were finished."""
-    from anymesh.applications.annotate.claims import begun_run, claim, finish
-    from anymesh.applications.annotate.entering import enter_objects
-    from anymesh.applications.annotate.ledger import Ledger
-    from anymesh.applications.annotate.requests import ObjectRequest
+    from anymesh.applications.annotate.inputs import ObjectRequest
+    from anymesh.applications.annotate.ledger import Ledger, driven_ledger
     from anymesh.applications.annotate.states import AttemptOutcome, Result
     from anymesh.applications.annotate.tally import tally
 
@@ -157,27 +155,26 @@ def ledger(how: argparse.Namespace) -> Figures:
     record["stage_seconds"] = '{"load": 0.01, "segment": 1.25, "joints": 0.75, "export": 0.5}'
     done = AttemptOutcome(Result.DONE, seconds=2.5, memory=300 << 20, record=record)
     times = {}
-    with Ledger.open(out, create=True) as opened, begun_run(opened, 2) as run:
+    with driven_ledger(out, 2) as opened:
         begin = time.perf_counter()
-        enter_objects(
-            opened, (ObjectRequest(f"glbs/000-{k % 160:03d}/{k:032x}.glb", f"/data/{k:032x}.glb") for k in range(how.objects))
-        )
+        opened.enter(ObjectRequest(f"glbs/000-{k % 160:03d}/{k:032x}.glb", f"/data/{k:032x}.glb") for k in range(how.objects))
         times["enter_seconds"] = time.perf_counter() - begin
         begin, count = time.perf_counter(), min(2000, how.objects)
         for _ in range(count):
-            for one in claim(opened, run, 1):
-                finish(opened, one, done, most=3)
+            for one in opened.take(1):
+                opened.finish(one, done, most=3)
         times["milliseconds_per_object"] = 1000 * (time.perf_counter() - begin) / count
         with opened.writing() as connection:
             columns = ", ".join(f"{name} = ?" for name in record)
             connection.execute(f"UPDATE objects SET state = 'done', {columns}", tuple(record.values()))
-            connection.execute("INSERT INTO attempts SELECT seq, run, 1e9, 'done', NULL, NULL, 2.5, 3e8 FROM objects")
+            connection.execute("INSERT INTO attempts SELECT seq, 1, 1e9, 'done', NULL, NULL, 2.5, 3e8 FROM objects")
         begin = time.perf_counter()
         tally(opened)
         times["tally_seconds"] = time.perf_counter() - begin
         opened.rows("PRAGMA wal_checkpoint(TRUNCATE)")
     begin = time.perf_counter()
-    Ledger.open(out, check=True).close()
+    with Ledger.open(out) as opened:
+        opened.check()
     times["check_seconds"] = time.perf_counter() - begin
     size = (out / "ledger.sqlite").stat().st_size
     return {"objects": how.objects, "megabytes": round(size / 1e6, 1), **{k: round(v, 3) for k, v in times.items()}}

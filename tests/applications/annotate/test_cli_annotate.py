@@ -1,9 +1,8 @@
-"""The command line: real meshes to assets, a status, a dry run; odd names through the whole of it."""
+"""The command line: real meshes to assets, a status; odd names through the whole of it."""
 
 from __future__ import annotations
 
 import json
-import shutil
 from pathlib import Path
 
 import pytest
@@ -48,27 +47,10 @@ def test_wrong_calls_are_one_line(tmp_path, source, capfd) -> None:
         ([], 2), ([str(source)], 2), (["--status", str(tmp_path)], 4), ([str(tmp_path / "none"), "-o", out], 3),
         ([str(source), "-o", out, "--workers", "0"], 2), ([str(source), "-o", out, "--formats", "fbx"], 2),
         ([str(source), "-o", out, "--attempts", "0"], 2), ([str(source), "-o", out, "--tokens-per-minute", "0"], 2),
-        ([str(source), "-o", out, "--memory", "0.1"], 2), ([str(source), "--dry-run", "-1"], 2),
+        ([str(source), "-o", out, "--memory", "0.1"], 2),
     ):  # fmt: skip
         assert run(["annotate", *call]) == code, call
         told = capfd.readouterr().err
         assert told.startswith("error: ")
         assert told.count("\n") == 1
     assert not Path(out).exists()  # a mistyped call fixes no options for later ones
-
-
-@pytest.mark.slow
-def test_a_dry_run_counts_what_a_model_would_be_asked_and_keeps_nothing(tmp_path, source, monkeypatch, capfd) -> None:
-    for name in ("storage_box", "bucket"):
-        shutil.copy(EXAMPLES / f"{name}.glb", source)
-    monkeypatch.setenv("TMPDIR", str(tmp_path / "tmp"))
-    (tmp_path / "tmp").mkdir()
-    monkeypatch.setattr("tempfile.tempdir", None)
-    assert run(["annotate", str(source), "--dry-run", "4", "--answerer", "openai:gpt-4o", "--json"]) == 0
-    told = json.loads(capfd.readouterr().out)
-    assert (told["total"], told["sample"], told["failed"]) == (4, 4, 1)
-    assert told["calls"]["mean"] >= 1
-    assert 0.005 < told["cost"]["mean"] < 0.2
-    assert told["hours"] > 0
-    assert not list((tmp_path / "tmp").glob("anymesh-dry-run*"))
-    assert sorted(p.name for p in tmp_path.iterdir() if p.name not in ("cache", "tmp")) == ["in"]

@@ -156,9 +156,9 @@ class Ledger:
 
     def check(self) -> None:
         """Raise OutputError if the file is damaged."""
-        (found,) = self.rows("PRAGMA quick_check(1)")
-        if found[0] != "ok":
-            raise self._damaged(" ".join(str(found[0]).split())[:200])
+        message = str(self.rows("PRAGMA quick_check(1)")[0][0])
+        if message != "ok":
+            raise self._damaged(" ".join(message.split())[:200])
 
     @contextmanager
     def writing(self) -> Generator[sqlite3.Connection]:
