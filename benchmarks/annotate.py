@@ -23,15 +23,14 @@ import time
 from pathlib import Path
 from typing import Any
 
+from benchmarks.fuzz_scenes import scene, write_scene
+
 EXAMPLES = Path(__file__).parents[1] / "examples" / "meshes"
 Figures = dict[str, Any]
 
 
 def build(folder: Path, count: int) -> Path:
     """A mixed set: the shipped examples, then generated scenes of every format with their faults."""
-    from benchmarks.fuzz_files import write_scene
-    from benchmarks.fuzz_scenes import scene
-
     if folder.is_dir() and len([p for p in folder.iterdir() if p.is_dir()]) == count:
         return folder
     shutil.rmtree(folder, ignore_errors=True)

@@ -103,7 +103,7 @@ def child():
 @pytest.mark.parametrize("name", BOMBS)
 def test_bombs_take_little_memory_and_time(child, tmp_path, name) -> None:
     path = put(tmp_path, name, BOMBS[name]())
-    (result,) = child.run("benchmarks.fuzz_readers", "try_inputs", {"inputs": [(name, path.read_bytes())], "every": 0})
+    (result,) = child.run("benchmarks.fuzz_readers", "try_inputs", {"inputs": [(name, path.read_bytes())]})
     assert result["outcome"] in ("mesh", "refused"), result
     assert result["outside"] == []
     assert result["outcome"] == "refused" or name in ("picture.glb", "instances.glb")
