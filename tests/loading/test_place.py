@@ -5,8 +5,7 @@ import pytest
 from assets import CUBE_FACES, box, mesh_of
 
 from anymesh.errors import OptionError
-from anymesh.loading import LoadedMesh, load_mesh, place_mesh
-from anymesh.loading import load
+from anymesh.loading import LoadedMesh, load, load_mesh, place_mesh
 from anymesh.loading.upright import up_of
 from anymesh.types import Mesh
 

@@ -1,5 +1,6 @@
-"""PLY, ASCII and binary of both byte orders: polygons with colours, normals, texture coordinates, and the picture that a comment
-names.
+"""PLY, ASCII and binary of both byte orders.
+
+Polygons with colours, normals, texture coordinates, and the picture that a comment names.
 """
 
 from __future__ import annotations
