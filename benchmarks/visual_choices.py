@@ -1,13 +1,14 @@
 """Recorded choices of motions in a form that outlives the selection and the order in which motions are shown.
 
 A recorded answer names the number of a motion in a picture. Beside it stand the motion itself and where the part lies, so that
-a question that shows the same motion at another place is answered as recorded.
+a question that shows the same motion at another place is answered as recorded when an object is replayed.
 """
 
 from __future__ import annotations
 
 import itertools
 import json
+import tempfile
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
@@ -15,7 +16,14 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.errors import ModelError
+from anymesh.evaluation.datasets.dataset import Dataset
+from anymesh.evaluation.evaluate_sample import EvalConfig, evaluate_sample
+from anymesh.evaluation.record import Record
+from anymesh.evaluation.score import ObjectScore
+from anymesh.pipeline.solving import solve
 from anymesh.prompted.answerers.question_files import CHECK, QuestionFolder
+from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer
+from anymesh.prompted.models.replay import Replay
 from anymesh.prompted.questions.asking import Answer, Question, VisualAnswerer
 from anymesh.prompted.questions.motion_choice import MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.prompted.questions.saved_question import unpack_question
@@ -166,3 +174,23 @@ class WithChoices(Wrapper):
                 raise
             self.again += 1
             return picks  # ty: ignore[invalid-return-type]
+
+
+def replayed(folder: Path, setting: EvalConfig, dataset: Dataset, name: str) -> tuple[Record, int]:
+    """Answer one object from the recording in `folder`; return its record and the number of questions.
+
+    The record has an error where nothing was recorded for a question.
+    """
+    made: list[WithChoices] = []
+    replay, choices = Replay(folder), read_choices(folder / FILE)
+
+    def recorded(fallback: VisualAnswerer) -> VisualAnswerer:
+        made.append(WithChoices(VlmAnswerer(replay, fallback), choices))
+        return made[-1]
+
+    with tempfile.TemporaryDirectory() as report:
+        try:
+            (record,) = evaluate_sample(setting, dataset, name, Path(report), solve, lambda _: recorded)
+        except ModelError as error:
+            record = Record(ObjectScore(name, (), 0, 0, 0), error=str(error))
+    return record, sum(len(m.exchanges) + m.again for m in made)
