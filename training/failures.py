@@ -22,8 +22,7 @@ from anymesh.config import Config
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures.sheet import question_sheet
-from anymesh.rendering.encode import encode
-from anymesh.rendering.render import render
+from anymesh.rendering.render import encode, render
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_assignment import assign_parts

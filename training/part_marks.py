@@ -23,10 +23,8 @@ from anymesh.config import Config
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures.sheet import question_sheet
-from anymesh.rendering.encode import encode
-from anymesh.rendering.labels import font
-from anymesh.rendering.paint import mark_color
-from anymesh.rendering.render import View, render
+from anymesh.rendering.marks import font, mark_color
+from anymesh.rendering.render import View, encode, render
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.segmentation.divide import object_shape
 from training.collect_rows import called

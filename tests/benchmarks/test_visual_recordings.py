@@ -25,7 +25,7 @@ from anymesh.prompted.models.vision import Request
 from anymesh.prompted.questions.motion_choice import MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.prompted.questions.prompting import PartShown
 from anymesh.prompted.questions.recognition import Recognize
-from anymesh.rendering.encode import encode
+from anymesh.rendering.render import encode
 from anymesh.types import JointType, Motion
 from benchmarks import visual
 from benchmarks.visual_choices import Choice, pick_again

@@ -5,8 +5,7 @@ import pytest
 from PIL import Image
 
 from anymesh.prompted.pictures.marks import draw_marks, mark_positions
-from anymesh.rendering.labels import beside, plate_size, window_sums
-from anymesh.rendering.paint import contrast, highlight, mark_color, rim
+from anymesh.rendering.marks import beside, contrast, highlight, mark_color, plate_size, rim, window_sums
 
 SIZE = 640
 X, Y = np.meshgrid(np.arange(SIZE), np.arange(SIZE))

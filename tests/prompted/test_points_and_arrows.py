@@ -8,7 +8,7 @@ from anymesh.config import ViewsConfig
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures.arrows import clearest_view, distinctness, draw_arrows
 from anymesh.prompted.pictures.points import DOT, draw_points, labels_apart
-from anymesh.rendering.paint import mark_color
+from anymesh.rendering.marks import mark_color
 from anymesh.rendering.viewpoints import hidden_points, views
 from anymesh.types.camera import Camera
 

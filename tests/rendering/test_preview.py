@@ -8,7 +8,7 @@ from PIL import Image
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering import preview
-from anymesh.rendering.axes import AXIS_COLOR
+from anymesh.rendering.marks import AXIS_COLOR
 from anymesh.types import Asset, Part, Segmentation
 
 SIZE = 150

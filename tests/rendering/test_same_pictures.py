@@ -15,7 +15,7 @@ import numpy as np
 from test_smooth_pictures import CAMERA, SIZE, samples_of, sphere
 from anymesh.rendering.drawing import draw, ground, headlight_on, light_on, material_colors
 from anymesh.rendering.render import lit
-from anymesh.rendering.smooth import smoothed
+from anymesh.rendering.drawing import smoothed
 
 mesh = smoothed(sphere(40))
 samples = samples_of(mesh)

@@ -8,12 +8,22 @@ from assets import QUAD_UV, box, checker, mesh_of
 from scipy.ndimage import binary_erosion
 
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.rendering.drawing import BRIGHTNESS, draw, face_colors, ground, light_on, material_colors, render_target
-from anymesh.rendering.materials import texels_per_pixel
-from anymesh.rendering.outlines import stroke
-from anymesh.rendering.render import KEY_LIGHT
-from anymesh.rendering.samples import GRID, Window, sample
-from anymesh.rendering.smooth import CREASE_ANGLE, smoothed
+from anymesh.rendering.drawing import (
+    BRIGHTNESS,
+    CREASE_ANGLE,
+    GRID,
+    Window,
+    draw,
+    face_colors,
+    ground,
+    light_on,
+    material_colors,
+    render_target,
+    sample,
+    smoothed,
+    stroke,
+)
+from anymesh.rendering.render import KEY_LIGHT, texels_per_pixel
 from anymesh.types import Material, Mesh, Texture
 from anymesh.types.camera import Camera
 

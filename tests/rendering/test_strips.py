@@ -7,11 +7,9 @@ from assets import box, mesh_of
 from anymesh.config import ViewsConfig
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures.card import BAR, card_view, part_card, titled
-from anymesh.rendering.paint import HIGHLIGHT
-from anymesh.rendering.posed import Posed
+from anymesh.rendering.marks import HIGHLIGHT
 from anymesh.rendering.render import render
-from anymesh.rendering.strip_camera import PANEL, strip_camera
-from anymesh.rendering.strips import COLUMNS, grid, motion_strip, moved, silhouette
+from anymesh.rendering.strips import COLUMNS, PANEL, Posed, grid, motion_strip, moved, silhouette, strip_camera
 from anymesh.rendering.viewpoints import views
 from anymesh.types import JointType, Motion
 

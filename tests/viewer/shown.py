@@ -102,7 +102,7 @@ def script_hash(script: str) -> str:
 
 
 def picture(color: tuple[int, int, int], size: int = 32) -> bytes:
-    from anymesh.rendering.encode import encode
+    from anymesh.rendering.render import encode
 
     return encode(np.full((size, size, 3), color, np.uint8)).png
 

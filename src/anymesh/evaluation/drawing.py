@@ -15,12 +15,9 @@ from anymesh.evaluation.score import JointScore
 from anymesh.evaluation.worst import what_is_off
 from anymesh.geometry.kinematics import joint_motion
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.rendering.axes import axis_line, draw_arrow, ring
-from anymesh.rendering.labels import font
-from anymesh.rendering.paint import Color, blend, lighten, rim
+from anymesh.rendering.marks import Color, axis_line, blend, draw_arrow, font, lighten, rim, ring
 from anymesh.rendering.render import lit, render
-from anymesh.rendering.strip_camera import strip_camera
-from anymesh.rendering.strips import moved, silhouette
+from anymesh.rendering.strips import moved, silhouette, strip_camera
 from anymesh.rendering.viewpoints import zoom
 from anymesh.types import Joint, JointType, Mesh, Motion, Segmentation
 from anymesh.types.camera import Camera

@@ -19,7 +19,7 @@ from anymesh.evaluation.report_html import html_report
 from anymesh.evaluation.summary import RULES
 from anymesh.evaluation.tables import Table, report_tables
 from anymesh.evaluation.worst import what_is_off, worst
-from anymesh.rendering.encode import encode
+from anymesh.rendering.render import encode
 
 SHEET = "worst.png"
 MAX_SHEET_JOINTS = 24  # maximum number of joints on the contact sheet

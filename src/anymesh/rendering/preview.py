@@ -13,11 +13,18 @@ from PIL import Image, ImageDraw
 
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.rendering.axes import AxisShape, axis_shapes, draw_axes
-from anymesh.rendering.drawing import draw, face_colors, ground, light_on, material_colors, render_target
-from anymesh.rendering.labels import font
-from anymesh.rendering.samples import Window, sample
-from anymesh.rendering.smooth import smoothed
+from anymesh.rendering.drawing import (
+    Window,
+    draw,
+    face_colors,
+    ground,
+    light_on,
+    material_colors,
+    render_target,
+    sample,
+    smoothed,
+)
+from anymesh.rendering.marks import AxisShape, axis_shapes, draw_axes, font
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.types import Asset, Joint, JointType, Mesh
 from anymesh.types.camera import Camera

@@ -1,29 +1,267 @@
-"""Candidate motions in one picture: the object at rest, and with a part moved by each candidate."""
+"""Candidate motions in one picture: the object at rest, and with a part moved by each candidate.
+
+The part is drawn in many poses without rebuilding the ray scene: rays are transformed instead of the part. The camera is the
+one in which the poses differ most.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
-from jaxtyping import Bool, Float, UInt8
+from jaxtyping import Bool, Float, Int, UInt8
 from PIL import Image, ImageDraw
 
-from anymesh.geometry.raycast_ import RayScene
-from anymesh.rendering.axes import draw_arrow, draw_ring
-from anymesh.rendering.labels import PAD, Plate, draw_plate, plate_size
-from anymesh.rendering.paint import HIGHLIGHT, blend, rim
-from anymesh.rendering.posed import PartPixels, Rays, Still, part_color
-from anymesh.rendering.strip_camera import PANEL, best_camera, motion_axis, strip_poses
+from anymesh.geometry.raycast_ import Hits, RayScene
+from anymesh.rendering.marks import (
+    HIGHLIGHT,
+    PAD,
+    Plate,
+    axis_line,
+    blend,
+    draw_arrow,
+    draw_plate,
+    draw_ring,
+    lighten,
+    plate_size,
+    rim,
+    ring,
+)
+from anymesh.rendering.render import lit, shade, turned
+from anymesh.rendering.viewpoints import box_of, orbit_camera, zoom
 from anymesh.types import JointType, Mesh, Motion
 from anymesh.types.camera import Camera
 
+PANEL = 400  # [px] size of a panel
+MARGIN = 0.35  # margin around the moving part, as a share of its diagonal, so that its neighbours are visible
+AIR = 0.04  # further margin on each side, as a share of the picture
+AXIS_SCALE, RING = 3.0, 0.1  # shares of the part's diagonal: diagonal passed to `axis_line`; radius of the ring
+LEGIBLE = 0.5  # minimum size of the axis, as a share of the picture's side
+SKETCH = 64  # [px] size of the pictures used to choose the camera
+DEPTH = 0.02  # share of the diagonal above which a difference in depth counts
+# elevations and azimuths [deg] with their weights: people see objects from slightly above; oblique views show three dimensions
+ELEVATION_WEIGHTS = {24: 1.0, 55: 0.75, -24: 0.4}
+AZIMUTH_WEIGHTS = {35: 1.0, -35: 1.0, 0: 0.65, 75: 0.9, -75: 0.9, 145: 0.8, -145: 0.8}
+LIGHTEN = 0.5  # share by which the colours of static faces are moved towards white
+BOX_MARGIN = 2.0  # [px] margin around the part's box within which rays are cast
+ONWARD = 1e-5  # share of the diagonal by which a ray continues behind a moving face
+MAX_LAYERS = 24  # maximum number of moving faces that a ray passes before it counts as lost
 COLUMNS = 4  # number of panels side by side (1600 px at most)
 GHOST = 0.3  # opacity of the part where it is hidden
 TITLE, WORD = 24, 18  # [px] font size of a panel's number, and of its motion label
 WHITE, BLOCKED = (255, 255, 255), (250, 200, 120)  # background of the motion label, and of that of a blocked motion
 STILL_LINE, PART_LINE, LINE = (120, 120, 120), (8, 30, 90), 0.55  # colours of lines along creases, and their opacity
 CREASE = 0.82  # cosine (of 35 degrees) between normals below which a line is drawn
+
+
+def strip_camera(
+    mesh: Mesh, moving: Bool[np.ndarray, " F"], motions: Sequence[tuple[Motion, float]], size: int = PANEL
+) -> Camera:
+    """Choose the camera that maximizes the smallest difference between any two poses; it frames the part in every pose."""
+    posed, poses = strip_poses(mesh, moving, motions)
+    return best_camera(posed, poses, motions, size)
+
+
+def strip_poses(
+    mesh: Mesh, moving: Bool[np.ndarray, " F"], motions: Sequence[tuple[Motion, float]], scene: RayScene | None = None
+) -> tuple[Posed, list[np.ndarray]]:
+    """Return the object, and the transforms of its part: at rest and moved. Raise ValueError if nothing moves."""
+    if not moving.any():
+        raise ValueError("a motion needs faces that move, found none")
+    posed = Posed(mesh, moving, scene or RayScene(mesh.vertices, mesh.faces))
+    return posed, [np.eye(4), *(m.transform(amount) for m, amount in motions)]
+
+
+def best_camera(posed: Posed, poses: Sequence[np.ndarray], motions: Sequence[tuple[Motion, float]], size: int) -> Camera:
+    """Choose the camera for a part in the poses of `strip_poses`."""
+    places = [posed.corners @ T[:3, :3].T + T[:3, 3] for T in poses]
+    focus = bounds_of(places)
+    total = bounds_of([posed.mesh.bounds, focus])
+    margin = MARGIN * float(np.linalg.norm(focus[1] - focus[0]))
+    focus = np.stack([np.maximum(focus[0] - margin, total[0]), np.minimum(focus[1] + margin, total[1])])
+    step = DEPTH * posed.mesh.diagonal
+    best, most = None, -1.0
+    for azimuth, elevation in ((a, e) for e in ELEVATION_WEIGHTS for a in AZIMUTH_WEIGHTS):
+        far = orbit_camera(total, np.deg2rad(azimuth), np.deg2rad(elevation), SKETCH)
+        near = _framed(far, _corners(focus))
+        rays = near.rays()
+        score = _difference(_depths(posed, poses, near, rays), step) * ELEVATION_WEIGHTS[elevation] * AZIMUTH_WEIGHTS[azimuth]
+        if best is None or score > most:
+            best, most = near, score
+    assert best is not None
+    ends = [motion_axis(posed.corners, *m, best)[0] for m in motions]
+    return _tightened(best, posed, places, np.concatenate([np.zeros((0, 3)), *ends]), size)
+
+
+def _tightened(
+    camera: Camera, posed: Posed, places: Sequence[Float[np.ndarray, "k 3"]], points: Float[np.ndarray, "n 3"], size: int
+) -> Camera:
+    """Frame the part in every pose, these points, and a margin of MARGIN where the object fills it."""
+    still = np.isfinite(posed.still_hits(camera.rays()).distance).reshape(camera.height, camera.width)
+    moving = camera.project(np.concatenate([*places, points]))[0]
+    low, high = moving.min(0), moving.max(0)
+    air = MARGIN * float((high - low).max()) * np.ones(2)
+    box = box_of(still) if still.any() else np.concatenate([low, high])
+    low, high = np.minimum(low, np.maximum(low - air, box[:2])), np.maximum(high, np.minimum(high + air, box[2:]))
+    return zoom(camera, np.concatenate([low, high]), AIR, size)
+
+
+def motion_axis(
+    corners: Float[np.ndarray, "n 3"], motion: Motion, amount: float, camera: Camera
+) -> tuple[Float[np.ndarray, "2 3"], Float[np.ndarray, "k 3"] | None]:
+    """Return the arrow along the axis in the direction of the motion, and the ring if it rotates.
+
+    corners: vertices of the part at rest, which determine the size; the result is at least large enough to be visible in this
+    camera's picture.
+    """
+    depth = float(camera.project(corners.mean(0)[None])[1][0])
+    size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), LEGIBLE * 2 * depth * float(np.tan(camera.fov / 2)))
+    axis, slides = (-motion.axis if amount < 0 else motion.axis), motion.kind is JointType.PRISMATIC
+    ends, center = axis_line(corners, motion.origin, axis, slides, AXIS_SCALE * size)
+    return ends, None if slides else ring(center, axis, RING * size)
+
+
+def _corners(bounds: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, "8 3"]:
+    return np.stack(np.meshgrid(*bounds.T, indexing="ij"), -1).reshape(-1, 3)
+
+
+def _framed(camera: Camera, points: Float[np.ndarray, "n 3"]) -> Camera:
+    """Frame some points, with a small margin around them."""
+    pixel = camera.project(points)[0]
+    return zoom(camera, np.concatenate([pixel.min(0), pixel.max(0)]), AIR, camera.height)
+
+
+def _depths(posed: Posed, poses: Sequence[np.ndarray], camera: Camera, rays: Rays) -> list[Float[np.ndarray, " n"]]:
+    """Return the depth of the visible moving part for each pose, in lengths of the rays; inf elsewhere."""
+    before = posed.still_hits(rays).distance
+    depths = []
+    for T in poses:
+        part = posed.part_pixels(T, camera)
+        depth = np.full(len(before), np.inf)
+        depth[part.pixel] = np.where(part.distance < before[part.pixel], part.distance, np.inf)
+        depths.append(depth)
+    return depths
+
+
+def _difference(depths: Sequence[Float[np.ndarray, " n"]], min_difference: float) -> float:
+    """Score how different the poses look: the minimum plus 0.2 times the mean share of pixels that differ between two poses.
+
+    The share of pixels that show the part in the first pose, at rest, is added with weight 0.2.
+    """
+    clipped = np.minimum(np.array(depths), 1e9)
+    pairs = [(np.abs(a - b) > min_difference).mean() for k, a in enumerate(clipped) for b in clipped[:k]]
+    shown = np.isfinite(depths[0]).mean()
+    return float(min(pairs, default=0.0) + 0.2 * np.mean(pairs or [0.0]) + 0.2 * shown)
+
+
+Rays = tuple[np.ndarray, np.ndarray]  # origins and directions, as returned by `Camera.rays`
+Pose = Float[np.ndarray, "4 4"]
+
+
+@dataclass(frozen=True, eq=False)
+class PartPixels:
+    """Pixels that the part alone would cover.
+
+    pixel: flat indices in row-major order; distance: in lengths of the pixel's ray; normal: turned towards the camera.
+    """
+
+    pixel: Int[np.ndarray, " k"]
+    distance: Float[np.ndarray, " k"]
+    normal: Float[np.ndarray, "k 3"]
+
+
+@dataclass(frozen=True, eq=False)
+class Still:
+    """Static faces in a picture: shaded and lightened colour, distance (inf: nothing) and normal of each pixel."""
+
+    color: UInt8[np.ndarray, "n 3"]
+    distance: Float[np.ndarray, " n"]
+    normal: Float[np.ndarray, "n 3"]
+
+
+@dataclass(frozen=True, eq=False)
+class Posed:
+    """The object as modelled, its ray scene, and its moving faces. Poses are rigid transforms of these from their rest pose."""
+
+    mesh: Mesh
+    moving: Bool[np.ndarray, " F"]
+    scene: RayScene
+
+    @cached_property
+    def part(self) -> Mesh:
+        """The moving faces, at rest."""
+        return self.mesh.subset(self.moving)
+
+    @cached_property
+    def _part_scene(self) -> RayScene:
+        return RayScene(self.part.vertices, self.part.faces)
+
+    @cached_property
+    def corners(self) -> Float[np.ndarray, "n 3"]:
+        """Vertices of the moving faces, at rest."""
+        return self.part.vertices
+
+    @cached_property
+    def _box(self) -> Float[np.ndarray, "8 3"]:
+        """Corners of the bounding box of the moving faces, at rest."""
+        return _corners(bounds_of([self.corners]))
+
+    def still_hits(self, rays: Rays) -> Hits:
+        """Return the first hits on static faces; rays continue behind moving faces."""
+        hits = self.scene.first_hit(*rays)
+        face, distance, u, v = (a.copy() for a in (hits.face, hits.distance, hits.u, hits.v))
+        step = ONWARD * self.mesh.diagonal / np.linalg.norm(rays[1], axis=1)
+        for _ in range(MAX_LAYERS):
+            rows = np.flatnonzero(face >= 0)
+            rows = rows[self.moving[face[rows]]]
+            if len(rows) == 0:
+                break
+            done = distance[rows] + step[rows]
+            onward = self.scene.first_hit(rays[0][rows] + done[:, None] * rays[1][rows], rays[1][rows])
+            face[rows], distance[rows], u[rows], v[rows] = onward.face, onward.distance + done, onward.u, onward.v
+        lost = (face >= 0) & self.moving[face]
+        face[lost], distance[lost] = -1, np.inf
+        return Hits(face, distance, u, v)
+
+    def still_picture(self, rays: Rays) -> Still:
+        """Render the static faces."""
+        hits = self.still_hits(rays)
+        color, normal = shade(self.mesh, hits, rays[1])
+        return Still(lighten(color, LIGHTEN), hits.distance, normal)
+
+    def part_pixels(self, T: Pose, camera: Camera) -> PartPixels:
+        """Return the pixels that the part alone would cover in a pose, by casting rays in the frame of the part."""
+        columns, rows = self._box_pixels(T, camera)
+        R, t = T[:3, :3], T[:3, 3]
+        across, along = (turned(terms, R.astype(np.float32)) for terms in camera.ray_grid(columns + 0.5, rows + 0.5))
+        directions = (along[:, None] + across).reshape(-1, 3)
+        hits = self._part_scene.surface_hits(turned((camera.T_world_camera[:3, 3] - t)[None], R)[0], directions)
+        seen = np.flatnonzero(hits.face >= 0)
+        pixel = (rows[:, None] * camera.width + columns).reshape(-1)[seen]
+        normal = turned(hits.normal[seen], R.T.astype(np.float32))
+        return PartPixels(pixel, hits.depth[seen].astype(float), normal.astype(float))
+
+    def _box_pixels(self, T: Pose, camera: Camera) -> tuple[Int[np.ndarray, " w"], Int[np.ndarray, " h"]]:
+        """Return the columns and rows of the bounding box of the part in a pose."""
+        pixel, depth = camera.project(self._box @ T[:3, :3].T + T[:3, 3])
+        if (depth <= 0).any():
+            return np.arange(camera.width), np.arange(camera.height)
+        limit = np.array([camera.width, camera.height])
+        low = np.clip(np.floor(pixel.min(0) - BOX_MARGIN), 0, limit).astype(int)
+        high = np.clip(np.ceil(pixel.max(0) + BOX_MARGIN), 0, limit).astype(int)
+        return np.arange(low[0], high[0]), np.arange(low[1], high[1])
+
+
+def part_color(normal: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
+    """Return the shaded colour (0..255) of the highlighted part."""
+    return lit(np.tile(np.array(HIGHLIGHT, float), (len(normal), 1)), normal)
+
+
+def bounds_of(boxes: Sequence[np.ndarray]) -> Float[np.ndarray, "2 3"]:
+    """Return the bounds (2, 3) of several boxes or point sets (n, 3)."""
+    return np.stack([np.min([b.min(0) for b in boxes], axis=0), np.max([b.max(0) for b in boxes], axis=0)])
 
 
 def moved(mesh: Mesh, moving: Bool[np.ndarray, " F"], T: Float[np.ndarray, "4 4"]) -> Mesh:

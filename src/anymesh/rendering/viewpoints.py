@@ -10,17 +10,14 @@ from jaxtyping import Bool, Float, Int, UInt8
 
 from anymesh.config import ViewsConfig
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.rendering.drawing import draw, headlight_on, material_colors, render_target
+from anymesh.rendering.drawing import Window, draw, first_hits, headlight_on, material_colors, render_target, sample
 from anymesh.rendering.render import BACKGROUND, View
-from anymesh.rendering.samples import Window, first_hits, sample
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
 SIDES = ("front", "front right", "right", "back right", "back", "back left", "left", "front left")
-MAX_LEVEL_DEG, MIN_STEEP_DEG = (
-    0.5,
-    30.0,
-)  # [deg] elevation below which a view is level; from which it is described as from above or below
+MAX_LEVEL_DEG = 0.5  # elevation below which a view is level
+MIN_STEEP_DEG = 30.0  # elevation from which it is described as from above or below
 
 
 def views(mesh: Mesh, config: ViewsConfig, *, size: int | None = None, scene: RayScene | None = None) -> list[View]:
@@ -78,7 +75,7 @@ def caption(azimuth: float, elevation: float, front: float | None = None) -> str
 def shown(mesh: Mesh, camera: Camera, scene: RayScene) -> View:
     """Render a view with outlines and creases, lit from the camera.
 
-    Colours are antialiased; the other buffers hold one ray per pixel. With corner normals (`smooth.smoothed`), curved surfaces
+    Colours are antialiased; the other buffers hold one ray per pixel. With corner normals (`drawing.smoothed`), curved surfaces
     look curved.
     """
     shape = (camera.height, camera.width)

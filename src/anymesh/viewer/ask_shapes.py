@@ -11,7 +11,7 @@ from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.simplify_ import simplify
 from anymesh.prompted.questions.motion_choice import MotionTable
 from anymesh.prompted.questions.prompting import ArrowTable, PartShown, PointTable
-from anymesh.rendering.axes import axis_line
+from anymesh.rendering.marks import axis_line
 from anymesh.rendering.viewpoints import away
 from anymesh.types import JointType, Mesh
 from anymesh.viewer.ask_marks import SPLIT, MarksForm

@@ -13,10 +13,9 @@ from anymesh.export.animation import tracks
 from anymesh.export.settings import ExportConfig
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.rendering.axes import axis_shapes, draw_axes
-from anymesh.rendering.labels import font
+from anymesh.rendering.drawing import smoothed
+from anymesh.rendering.marks import axis_shapes, draw_axes, font
 from anymesh.rendering.preview import best_camera, part_colors, shown_position
-from anymesh.rendering.smooth import smoothed
 from anymesh.rendering.viewpoints import zoom
 from anymesh.types import Asset, JointType, Mesh
 from anymesh.types.camera import Camera

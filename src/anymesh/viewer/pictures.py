@@ -14,10 +14,18 @@ from anymesh.export.animation import tracks
 from anymesh.export.settings import ExportConfig
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.rendering.drawing import draw, face_colors, ground, light_on, material_colors, render_target
+from anymesh.rendering.drawing import (
+    Window,
+    draw,
+    face_colors,
+    ground,
+    light_on,
+    material_colors,
+    render_target,
+    sample,
+    smoothed,
+)
 from anymesh.rendering.preview import best_camera, part_colors, shown_position
-from anymesh.rendering.samples import Window, sample
-from anymesh.rendering.smooth import smoothed
 from anymesh.rendering.viewpoints import away
 from anymesh.types import Asset, Mesh
 from anymesh.types.camera import Camera

@@ -8,7 +8,7 @@ import numpy as np
 
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.rendering.axes import axis_line
+from anymesh.rendering.marks import axis_line
 from anymesh.rendering.preview import BASE, PALETTE, best_camera, shown_position
 from anymesh.types import Asset, Joint, JointType
 

@@ -11,7 +11,7 @@ from jaxtyping import Float, Int
 from anymesh.geometry.kinematics import joint_transform
 from anymesh.geometry.simplify_ import simplify
 from anymesh.physics.inertia import Inertia
-from anymesh.rendering.axes import axis_line, ring
+from anymesh.rendering.marks import axis_line, ring
 from anymesh.rendering.preview import BASE, PALETTE
 from anymesh.types import Asset, Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 

@@ -20,8 +20,7 @@ from anymesh.errors import MissingExtraError, OptionError
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.simplify_ import simplify
 from anymesh.mujoco_ import load_mujoco
-from anymesh.rendering.drawing import draw, face_colors, ground, render_target
-from anymesh.rendering.samples import Window, sample
+from anymesh.rendering.drawing import Window, draw, face_colors, ground, render_target, sample
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 from anymesh.types.mesh import Node

@@ -18,8 +18,7 @@ from scipy import ndimage
 from anymesh.errors import OutputError
 from anymesh.geometry.raycast_ import RayScene, SurfaceHits
 from anymesh.pipeline.storage.atomic_folder import make_locked_folder, replace_folder
-from anymesh.rendering.materials import base_colors
-from anymesh.rendering.render import lit
+from anymesh.rendering.render import base_colors, lit
 from anymesh.rendering.viewpoints import away
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera

@@ -9,9 +9,7 @@ from jaxtyping import Float, Int, UInt8
 from PIL import Image, ImageDraw
 
 from anymesh.config import REFERENCE_PX
-from anymesh.rendering.axes import draw_arrow
-from anymesh.rendering.labels import beside, draw_leader, draw_plate, take
-from anymesh.rendering.paint import mark_color
+from anymesh.rendering.marks import beside, draw_arrow, draw_leader, draw_plate, mark_color, take
 from anymesh.rendering.render import View
 from anymesh.rendering.viewpoints import visible_pixels
 from anymesh.types.camera import Camera

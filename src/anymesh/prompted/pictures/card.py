@@ -10,8 +10,7 @@ from PIL import Image, ImageDraw
 
 from anymesh.config import REFERENCE_PX, ViewsConfig
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.rendering.labels import font
-from anymesh.rendering.paint import HIGHLIGHT, highlight
+from anymesh.rendering.marks import HIGHLIGHT, font, highlight
 from anymesh.rendering.render import View
 from anymesh.rendering.strips import silhouette
 from anymesh.rendering.viewpoints import best_view, close_up, hidden_points, part_pixels, visible_pixels

@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Bool, UInt8
 
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.rendering.paint import lighten
+from anymesh.rendering.marks import lighten
 from anymesh.rendering.render import View
 from anymesh.rendering.viewpoints import shown
 from anymesh.types import Mesh

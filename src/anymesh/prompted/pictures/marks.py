@@ -10,8 +10,7 @@ from PIL import Image, ImageDraw
 from scipy import ndimage
 
 from anymesh.config import REFERENCE_PX
-from anymesh.rendering.labels import Plate, beside, draw_leader, draw_plate, plate_size, take
-from anymesh.rendering.paint import blend, mark_color
+from anymesh.rendering.marks import Plate, beside, blend, draw_leader, draw_plate, mark_color, plate_size, take
 
 LARGE, SMALL = 19, 15  # [px] font sizes in a picture of 640 px: for regions with enough space, and for the others
 OVERHANG = 0.3  # share of a plate that may extend beyond its region

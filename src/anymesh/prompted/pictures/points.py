@@ -9,8 +9,7 @@ from jaxtyping import Bool, Float, UInt8
 from PIL import Image, ImageDraw
 
 from anymesh.config import REFERENCE_PX
-from anymesh.rendering.labels import beside, draw_leader, draw_plate, take
-from anymesh.rendering.paint import mark_color
+from anymesh.rendering.marks import beside, draw_leader, draw_plate, mark_color, take
 
 FONT, DOT = 16, 4  # [px] in a picture of 640 px: font size; radius of a dot
 

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from PIL import Image, ImageDraw
 
-from anymesh.rendering.labels import font
+from anymesh.rendering.marks import font
 from anymesh.types.exchange import Picture
 
 SIDE = 2000  # [px] longest side of a sheet, which vision models accept without downscaling

@@ -15,10 +15,9 @@ from anymesh.prompted.pictures.arrows import clearest_view, draw_arrows
 from anymesh.prompted.pictures.card import card_view, part_card, titled
 from anymesh.prompted.pictures.insides import inside_views
 from anymesh.prompted.pictures.points import draw_points
-from anymesh.rendering.encode import encode
-from anymesh.rendering.paint import highlight
-from anymesh.rendering.render import View, face_colors
-from anymesh.rendering.smooth import smoothed
+from anymesh.rendering.drawing import smoothed
+from anymesh.rendering.marks import highlight
+from anymesh.rendering.render import View, encode, face_colors
 from anymesh.rendering.strips import motion_strip, silhouette
 from anymesh.rendering.viewpoints import best_view, cameras, caption, close_up, hidden_points, part_pixels, shown, views
 from anymesh.types import Mesh, Motion, Picture
