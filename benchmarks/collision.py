@@ -24,11 +24,10 @@ from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.protocols import prepared
 from anymesh.export.links import Link, split_links
 from anymesh.geometry.topology import weld
+from anymesh.physics.clear import ComponentShapes, ContactScene, LinkSurface
 from anymesh.physics.collision import CollisionConfig, collision_shapes, joint_poses
-from anymesh.physics.collision.clear import ComponentShapes, ContactScene
-from anymesh.physics.collision.convex import hull_of
-from anymesh.physics.collision.crossing import LinkSurface
-from anymesh.physics.collision.decompose import Component
+from anymesh.physics.convex import hull_of
+from anymesh.physics.decompose import Component
 from anymesh.types import Asset, JointType, Shape
 
 PAGE = Path(__file__).with_suffix(".md")

@@ -7,10 +7,10 @@ from test_shapes import collision_of
 from trimesh.boolean import union
 from trimesh.creation import box as solid_box
 
-from anymesh.physics.collision.concave import concave_planes
-from anymesh.physics.collision.contacts_ import ContactBench
-from anymesh.physics.collision.convex import cut
-from anymesh.physics.collision.settings import CollisionConfig
+from anymesh.physics.collision import CollisionConfig
+from anymesh.physics.contacts_ import ContactBench
+from anymesh.physics.convex import cut
+from anymesh.physics.split import concave_planes
 from anymesh.types import Asset, Box, Part, Segmentation
 
 

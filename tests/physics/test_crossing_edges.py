@@ -7,9 +7,9 @@ import pytest
 from assets import box
 from scipy.spatial.transform import Rotation
 
-from anymesh.physics.collision.contacts_ import ContactBench
-from anymesh.physics.collision.convex import hull_of
-from anymesh.physics.collision.crossing import LinkSurface, cross, placed_bounds
+from anymesh.physics.clear import LinkSurface, cross, placed_bounds
+from anymesh.physics.contacts_ import ContactBench
+from anymesh.physics.convex import hull_of
 from anymesh.types import Box, Cylinder
 
 X, Y, Z = np.eye(3)

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 from assets import box
 
-from anymesh.physics.collision.convex import cut, hull_of, planes, trimmed, volume
-from anymesh.physics.collision.split import (
+from anymesh.physics.convex import cut, hull_of, planes, trimmed, volume
+from anymesh.physics.split import (
     _furthest,
     _rounded_order,
     below_and_above,

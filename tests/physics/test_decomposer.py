@@ -12,9 +12,16 @@ from assets import box, cabinet
 from anymesh.export.links import split_links
 from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
 from anymesh.physics.collision import collision_shapes
-from anymesh.physics.collision.decompose import Component, Method, Resolution, cleaned, split_components
-from anymesh.physics.collision.decomposer import Decomposer, divide_here
-from anymesh.physics.collision.primitives import as_hull
+from anymesh.physics.convex import as_hull
+from anymesh.physics.decompose import (
+    Component,
+    Decomposer,
+    Method,
+    Resolution,
+    cleaned,
+    divide_here,
+    split_components,
+)
 from anymesh.runtime import Deadline
 
 FINE = Resolution(gap=0.01, wall=0.002, max_pieces=24)

@@ -9,12 +9,10 @@ import pytest
 from assets import box
 from scipy.spatial.transform import Rotation
 
-from anymesh.physics.collision.clear import ComponentShapes, ContactScene, clear, placed_hull
-from anymesh.physics.collision.contacts_ import ContactBench
-from anymesh.physics.collision.convex import hull_of, volume
-from anymesh.physics.collision.crossing import LinkSurface
-from anymesh.physics.collision.decompose import Component
-from anymesh.physics.collision.primitives import as_hull, fitted
+from anymesh.physics.clear import ComponentShapes, ContactScene, LinkSurface, clear, placed_hull
+from anymesh.physics.contacts_ import ContactBench
+from anymesh.physics.convex import as_hull, fitted, hull_of, volume
+from anymesh.physics.decompose import Component
 from anymesh.types import Box, Shape
 
 X = np.eye(3)[0]

@@ -12,14 +12,12 @@ from assets import assert_fixed, box
 from test_decomposer import FINE, FakePool, bracket
 from test_shapes import collision_of, sliding
 
-from anymesh.physics.collision.clear import ComponentShapes, ContactScene, Fault, Faults, clear
-from anymesh.physics.collision.contacts_ import ContactBench
-from anymesh.physics.collision.crossing import LinkSurface
-from anymesh.physics.collision.decompose import Component, Method, Resolution, _Around, split_components
-from anymesh.physics.collision.decomposer import Decomposer, Divided
-from anymesh.physics.collision.settings import CollisionConfig
-from anymesh.physics.collision.solids_ import _pieces
-from anymesh.physics.collision.split import patch_of
+from anymesh.physics.clear import ComponentShapes, ContactScene, Fault, Faults, LinkSurface, clear
+from anymesh.physics.collision import CollisionConfig
+from anymesh.physics.contacts_ import ContactBench
+from anymesh.physics.decompose import Component, Decomposer, Divided, Method, Resolution, _Around, split_components
+from anymesh.physics.solids_ import _pieces
+from anymesh.physics.split import patch_of
 from anymesh.types import Box
 
 

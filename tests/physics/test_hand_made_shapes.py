@@ -12,14 +12,30 @@ from trimesh.creation import box as solid_box
 from trimesh.creation import cylinder, icosphere
 
 from anymesh.geometry.surface import plain_triangles
-from anymesh.physics.collision.concave import concave_planes
-from anymesh.physics.collision.contacts_ import ContactBench
-from anymesh.physics.collision.convex import MAX_CORNERS, cut, hull_of, planes, thinned, trimmed, volume
-from anymesh.physics.collision.crossing import LinkSurface, cross, placed_bounds
-from anymesh.physics.collision.decompose import Resolution, cleaned, component_shapes, split_components
-from anymesh.physics.collision.primitives import as_hull, engine_shape, fitted, shifted
-from anymesh.physics.collision.split import cutting_planes, least_volume_first, outline, patch_of, split_surface
-from anymesh.physics.collision.store import load_shapes, save_shapes
+from anymesh.physics.clear import LinkSurface, cross, placed_bounds
+from anymesh.physics.contacts_ import ContactBench
+from anymesh.physics.convex import (
+    MAX_CORNERS,
+    as_hull,
+    cut,
+    engine_shape,
+    fitted,
+    hull_of,
+    planes,
+    shifted,
+    thinned,
+    trimmed,
+    volume,
+)
+from anymesh.physics.decompose import (
+    Resolution,
+    cleaned,
+    component_shapes,
+    load_shapes,
+    save_shapes,
+    split_components,
+)
+from anymesh.physics.split import concave_planes, cutting_planes, least_volume_first, outline, patch_of, split_surface
 from anymesh.types import Box, Cylinder, Hull
 
 X, Y, Z = np.eye(3)

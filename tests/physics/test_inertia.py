@@ -6,8 +6,7 @@ import trimesh
 from assets import CUBE_FACES, box
 
 from anymesh.export.settings import ExportConfig
-from anymesh.physics.densities import SUBSTANCES, substance_of
-from anymesh.physics.inertia import Inertia, link_inertia, physical, raw_inertia
+from anymesh.physics.inertia import SUBSTANCES, Inertia, link_inertia, physical, raw_inertia, substance_of
 
 CONFIG = ExportConfig()
 

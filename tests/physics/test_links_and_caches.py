@@ -14,8 +14,8 @@ from anymesh import physics
 from anymesh.export.links import split_links
 from anymesh.geometry.kinematics import joint_transform
 from anymesh.physics.collision import CollisionConfig, collision_shapes, joint_poses, sampled_poses
-from anymesh.physics.collision.primitives import as_hull
-from anymesh.physics.collision.store import content_key, load_shapes, save_shapes
+from anymesh.physics.convex import as_hull
+from anymesh.physics.decompose import content_key, load_shapes, save_shapes
 from anymesh.types import Asset, Box, Cylinder, Hull, Part, Segmentation
 
 SHEET = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]), np.array([[0, 1, 2], [0, 2, 3]])

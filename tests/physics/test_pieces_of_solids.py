@@ -9,10 +9,9 @@ import pytest
 from manifold3d import Manifold
 from test_solids import ring
 
-from anymesh.physics.collision import solids_
-from anymesh.physics.collision.concave import _distinct, concave_planes
-from anymesh.physics.collision.convex import hull_of, volume
-from anymesh.physics.collision.solids_ import (
+from anymesh.physics import solids_
+from anymesh.physics.convex import hull_of, volume
+from anymesh.physics.solids_ import (
     KERF,
     TOUCH,
     _Budget,
@@ -25,6 +24,7 @@ from anymesh.physics.collision.solids_ import (
     _SolidPiece,
     decompose_solid,
 )
+from anymesh.physics.split import _distinct, concave_planes
 
 X, Y, Z = np.eye(3)
 

@@ -9,9 +9,8 @@ from assets import box, cabinet, joint, mesh_of, source
 
 from anymesh.export.links import split_links
 from anymesh.geometry.kinematics import carried_links, link_transforms
+from anymesh.physics.clear import ContactScene, LinkSurface
 from anymesh.physics.collision import MAX_POSES, MIN_POSES, sampled_poses
-from anymesh.physics.collision.clear import ContactScene
-from anymesh.physics.collision.crossing import LinkSurface
 from anymesh.types import Asset, Part, Segmentation
 
 

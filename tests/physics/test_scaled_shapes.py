@@ -7,12 +7,10 @@ import pytest
 from assets import box
 from test_trimmed_contacts import BIG, SMALL
 
-from anymesh.physics.collision.clear import ComponentShapes, ContactScene, clear
-from anymesh.physics.collision.convex import hull_of, volume
-from anymesh.physics.collision.crossing import LinkSurface
-from anymesh.physics.collision.decompose import Component, smallest_box
-from anymesh.physics.collision.primitives import as_hull, fitted
-from anymesh.physics.collision.split import cutting_planes
+from anymesh.physics.clear import ComponentShapes, ContactScene, LinkSurface, clear
+from anymesh.physics.convex import as_hull, fitted, hull_of, volume
+from anymesh.physics.decompose import Component, smallest_box
+from anymesh.physics.split import cutting_planes
 
 
 @pytest.mark.parametrize("scale", [0.05, 1.0, 20.0])

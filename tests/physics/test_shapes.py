@@ -10,11 +10,17 @@ from assets import box, cabinet, joint, mesh_of, source
 from anymesh.export.links import split_links
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.physics.collision import CollisionConfig, collision_shapes
-from anymesh.physics.collision.convex import cut, hull_of, trimmed, volume
-from anymesh.physics.collision.decompose import Resolution, component_shapes, smallest_box, split_components
-from anymesh.physics.collision.primitives import _unit_hulls, as_hull, fitted
-from anymesh.physics.collision.split import split_surface
-from anymesh.physics.collision.store import content_key, load_shapes, save_shapes
+from anymesh.physics.convex import _unit_hulls, as_hull, cut, fitted, hull_of, trimmed, volume
+from anymesh.physics.decompose import (
+    Resolution,
+    component_shapes,
+    content_key,
+    load_shapes,
+    save_shapes,
+    smallest_box,
+    split_components,
+)
+from anymesh.physics.split import split_surface
 from anymesh.types import Asset, Box, Cylinder, Hull, Part, Segmentation
 
 FINE = Resolution(gap=0.02, wall=0.002, max_pieces=24)
@@ -137,9 +143,7 @@ def test_what_lies_in_a_convex_piece_and_what_is_tiny_needs_no_shape():
 
 def test_the_last_component_holds_no_other_and_needs_no_hull(monkeypatch):
     made = []
-    monkeypatch.setattr(
-        "anymesh.physics.collision.decompose.hull_of", lambda corners: made.append(corners.max()) or hull_of(corners)
-    )
+    monkeypatch.setattr("anymesh.physics.decompose.hull_of", lambda corners: made.append(corners.max()) or hull_of(corners))
     pieces = [box((0, 0, 0), (size, size, size)) for size in (3.0, 2.0, 1.0)]
     shifted = [triangles(v + 10 * k, f) for k, (v, f) in enumerate(pieces)]
     assert len(split_components(np.concatenate(shifted), 0.0)) == 3

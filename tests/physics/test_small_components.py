@@ -12,10 +12,19 @@ from test_decomposer import FINE, FakePool, bracket
 from trimesh.creation import cylinder
 
 from anymesh.isolation import ChildError, Failure
-from anymesh.physics.collision.convex import MAX_CORNERS, hull_of, volume
-from anymesh.physics.collision.decompose import Component, Method, Resolution, cleaned, component_shapes, split_components
-from anymesh.physics.collision.decomposer import BATCH_FACES, Decomposer, _at_origin, _batches
-from anymesh.physics.collision.primitives import as_hull, fitted, shifted
+from anymesh.physics.convex import MAX_CORNERS, as_hull, fitted, hull_of, shifted, volume
+from anymesh.physics.decompose import (
+    BATCH_FACES,
+    Component,
+    Decomposer,
+    Method,
+    Resolution,
+    _at_origin,
+    _batches,
+    cleaned,
+    component_shapes,
+    split_components,
+)
 from anymesh.types import Box, Cylinder, Hull
 
 X, Y, Z = np.eye(3)

@@ -11,9 +11,9 @@ from test_decomposer import bracket
 
 from anymesh.geometry.distance_ import distance_to_mesh, winding_number
 from anymesh.geometry.triangle_set import sample_surface
-from anymesh.physics.collision.convex import planes, volume
-from anymesh.physics.collision.solids_ import decompose_solid
-from anymesh.physics.collision.split import solid_mesh
+from anymesh.physics.convex import planes, volume
+from anymesh.physics.solids_ import decompose_solid
+from anymesh.physics.split import solid_mesh
 
 TURNS = np.linspace(0, 2 * np.pi, 24, endpoint=False)
 
@@ -114,7 +114,7 @@ def test_an_open_surface_gives_no_pieces():
 def test_without_manifold3d_the_module_loads_and_the_division_says_what_is_missing() -> None:
     program = (
         "import sys; sys.modules['manifold3d'] = None; import numpy as np;"
-        "from anymesh.physics.collision.solids_ import decompose_solid;"
+        "from anymesh.physics.solids_ import decompose_solid;"
         "decompose_solid(np.eye(3), np.array([[0, 1, 2]]), gap=1.0, wall=1.0, max_pieces=1)"
     )
     run = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)

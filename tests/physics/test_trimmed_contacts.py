@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 from assets import box
 
-from anymesh.physics.collision.clear import ComponentShapes, ContactScene, clear
-from anymesh.physics.collision.convex import hull_of, volume
-from anymesh.physics.collision.crossing import LinkSurface
-from anymesh.physics.collision.decompose import Component
-from anymesh.physics.collision.primitives import as_hull, fitted
+from anymesh.physics.clear import ComponentShapes, ContactScene, LinkSurface, clear
+from anymesh.physics.convex import as_hull, fitted, hull_of, volume
+from anymesh.physics.decompose import Component
 
 
 def solid(low, high) -> np.ndarray:

@@ -13,8 +13,7 @@ from anymesh.export.model import Base, Driven, Exclusion, ExportLink, Model
 from anymesh.export.settings import ExportConfig
 from anymesh.geometry.surface import plain_triangles
 from anymesh.physics.collision import Collision, collision_shapes
-from anymesh.physics.densities import Substance, substance_of
-from anymesh.physics.inertia import link_inertia
+from anymesh.physics.inertia import Substance, link_inertia, substance_of
 from anymesh.runtime import Deadline
 from anymesh.types import Asset, Mesh
 

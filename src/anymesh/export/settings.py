@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 
-from anymesh.physics.collision.settings import CollisionConfig
-from anymesh.physics.settings import InertiaConfig
+from anymesh.physics.collision import CollisionConfig
+from anymesh.physics.inertia import InertiaConfig
 
 
 @dataclass(frozen=True)

@@ -10,7 +10,7 @@ kind is a ChildError, and harms no other call. `ChildPool.close` ends all childr
 
 from anymesh.isolation.pool import ChildError, ChildLimits, ChildPool, Failure, shared_pool
 
-DECOMPOSER = "anymesh.physics.collision.decomposer"  # module whose functions run in child processes
+DECOMPOSER = "anymesh.physics.decompose"  # module whose functions run in child processes
 AHEAD = (DECOMPOSER, "manifold3d")  # modules that a child imports before its first call
 
 __all__ = ["AHEAD", "DECOMPOSER", "ChildError", "ChildLimits", "ChildPool", "Failure", "shared_pool"]

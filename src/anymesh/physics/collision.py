@@ -13,20 +13,35 @@ from jaxtyping import Float
 from anymesh.geometry.kinematics import carried_links, joint_transform, link_transforms
 from anymesh.geometry.simplify_ import simplify
 from anymesh.isolation import ChildPool, shared_pool
-from anymesh.physics.collision.clear import ComponentShapes, ContactScene, clear
-from anymesh.physics.collision.convex import hull_of, thinned
-from anymesh.physics.collision.crossing import LinkSurface
-from anymesh.physics.collision.decompose import Component, Resolution, smallest_box, split_components
-from anymesh.physics.collision.decomposer import Decomposer, Fallback
-from anymesh.physics.collision.primitives import engine_shape
-from anymesh.physics.collision.settings import CollisionConfig
+from anymesh.physics.clear import ComponentShapes, ContactScene, LinkSurface, clear
+from anymesh.physics.convex import engine_shape, hull_of, thinned
+from anymesh.physics.decompose import Component, Decomposer, Fallback, Resolution, smallest_box, split_components
 from anymesh.runtime import COLLISION, Deadline
 from anymesh.types import Asset, Joint, JointType, Shape
 
-__all__ = ["Collision", "CollisionConfig", "collision_shapes", "joint_poses", "sampled_poses"]
 MAX_CROSSING_FACES = 50_000  # faces of a link for tests of crossing surfaces
 MAX_POSES, MIN_POSES = 2000, 3  # sampled poses: maximum in all, minimum per joint
 MIN_COMPONENT_SIZE_RATIO = 0.3  # of the first gap: smaller components get no shape beside larger ones
+
+
+@dataclass(frozen=True)
+class CollisionConfig:
+    """Accuracy of shapes, and thresholds of false contacts.
+
+    Lengths are relative to the object's diagonal unless stated otherwise.
+    """
+
+    # maximum distance of a shape from the surface; the next value is used at false contacts
+    gaps: tuple[float, ...] = (0.02, 0.006)
+    pieces: tuple[int, ...] = (24, 64)  # maximum number of pieces of an open component at each of these
+    wall: float = 0.002  # thickness of open shells, at most `wall_most`
+    wall_most: float = 0.005  # [m]
+    contact: float = 1e-4  # penetration from which shapes touch; engines push them apart
+    crossing: float = 0.003  # penetration from which surfaces really collide; sweeps tolerate the same
+    poses: int = 17  # poses of each joint over its range
+    rounds: int = 10  # rounds of trimming and refinement
+    seconds: float = 20.0  # [s] processor time for one division of one component; then the next method is tried
+    most_components: int = 150  # components per link with separate shapes; the smaller ones beyond share hulls
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +64,7 @@ def collision_shapes(
     asset: Asset,
     triangles: Mapping[str, Float[np.ndarray, "n 3 3"]],
     origins: Mapping[str, Float[np.ndarray, " 3"]],
-    config: CollisionConfig = CollisionConfig(),  # noqa: B008 - frozen
+    config: CollisionConfig = CollisionConfig(),
     cache: Path | None = None,
     *,
     deadline: Deadline | None = None,

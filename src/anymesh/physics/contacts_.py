@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.mujoco_ import load_mujoco
-from anymesh.physics.collision.primitives import as_hull
+from anymesh.physics.convex import as_hull
 from anymesh.types import Box, Cylinder, Shape
 
 Pose = Mapping[str, Float[np.ndarray, "4 4"]]  # pose of the frame of each link
