@@ -24,7 +24,7 @@ from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
 from anymesh.evaluation.executability import drive
 from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.protocols import prepared
-from anymesh.finishing.shape import complete_shapes
+from anymesh.finishing.complete import complete_shapes
 from anymesh.types import JointType
 from benchmarks.completion_figures import cavity, grid_of, iou, moved, open_parts, picture
 

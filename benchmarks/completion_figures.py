@@ -11,8 +11,7 @@ from PIL import Image
 from scipy import ndimage
 
 from anymesh.finishing.protocol import Finished
-from anymesh.finishing.scenes import widest
-from anymesh.finishing.visible import GRAZE, escapes
+from anymesh.finishing.scenes import GRAZE, escapes, widest
 from anymesh.geometry.distance_ import distance_to_mesh, winding_number
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene

@@ -18,9 +18,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import anymesh
-from anymesh.checking.engines.engines import ENGINES, sweep_in
-from anymesh.checking.engines.report import SweepReport
-from anymesh.checking.find import find_description
+from anymesh.checking.engines import ENGINES, sweep_in
+from anymesh.checking.engines.driving import SweepReport
+from anymesh.checking.engines.files import find_description
 from anymesh.errors import AnymeshError, InputError, MissingExtraError
 
 ROOT = Path(__file__).parents[1]

@@ -242,7 +242,7 @@ def test_the_report_as_json_and_as_lines(tmp_path):
 
 def test_random_poses_of_the_hull_question():
     """A box lies in itself, and nothing outside it does."""
-    from anymesh.checking.collision import _in_hull
+    from anymesh.checking.bodies import _in_hull
 
     rng = np.random.default_rng(0)
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 2) for z in (0, 3)], float)

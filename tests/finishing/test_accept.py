@@ -5,10 +5,8 @@ import pytest
 from assets import box
 from surfaces import FRONT, SIZE, case_with_door, is_closed, part_triangles
 
-from anymesh.finishing.accept import accept, accepted
-from anymesh.finishing.complete import complete
+from anymesh.finishing.complete import accept, accepted, complete, complete_shapes
 from anymesh.finishing.protocol import Completer, PartMesh
-from anymesh.finishing.shape import complete_shapes
 
 
 def door(shift: float = 0.0, deeper: float = 0.0) -> PartMesh:

@@ -9,9 +9,7 @@ from assets import box, cabinet, checker, mesh_of
 from PIL import Image
 
 from anymesh.errors import OptionError
-from anymesh.finishing.bake import Baked, bake
-from anymesh.finishing.bake_charts import lay_out
-from anymesh.finishing.bake_slots import sampler
+from anymesh.finishing.bake import Baked, bake, lay_out, sampler
 from anymesh.finishing.protocol import Finished
 from anymesh.rendering.render import face_colors, render
 from anymesh.types import Material, Mesh, Texture

@@ -8,7 +8,7 @@ from assets import box
 from surfaces import is_closed, shell
 
 from anymesh.errors import MissingExtraError
-from anymesh.finishing.blocks import board, tray
+from anymesh.finishing.boards import board, tray
 from anymesh.finishing.closing import backed, cap, covers_itself, shelled, without_folds
 from anymesh.finishing.sheets import open_sheets
 from anymesh.loading.polygons_ import triangulate

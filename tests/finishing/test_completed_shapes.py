@@ -19,8 +19,8 @@ from surfaces import (
     volume,
 )
 
-from anymesh.finishing.settings import ShapeConfig
-from anymesh.finishing.shape import complete_shapes
+from anymesh.finishing.complete import complete_shapes
+from anymesh.finishing.protocol import ShapeConfig
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene

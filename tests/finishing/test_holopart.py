@@ -12,9 +12,8 @@ from holopart_checkout import checkout
 from meshy_wire import MeshyServer, refuses, says
 
 from anymesh.errors import ModelError, OptionError
-from anymesh.finishing.accept import accept, accepted
-from anymesh.finishing.holopart import HoloPart, read_pieces
-from anymesh.finishing.holopart_service import Checkout, CrashError, PartServer, open_holopart
+from anymesh.finishing.complete import accept, accepted
+from anymesh.finishing.holopart import Checkout, CrashError, HoloPart, PartServer, open_holopart, read_pieces
 from anymesh.finishing.scene_glb import scene_glb
 from anymesh.types import Asset, Mesh, Part, Segmentation
 

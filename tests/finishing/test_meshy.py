@@ -55,7 +55,7 @@ def test_a_kill_before_the_id_arrived_costs_nothing(server, meshy, monkeypatch) 
 
     server.create({"model_url": SENT, "text_style_prompt": "oak"})  # of another day
     with monkeypatch.context() as patched:
-        patched.setattr("anymesh.finishing.meshy_paid.create_task", dies)
+        patched.setattr("anymesh.finishing.meshy.create_task", dies)
         with pytest.raises(KeyboardInterrupt):
             meshy().retexture(GLB, "oak")
     meshy().retexture(GLB, "oak")

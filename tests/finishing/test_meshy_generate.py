@@ -133,7 +133,7 @@ def test_a_kill_costs_nothing(model_server, generator, waits, looks) -> None:
 
 
 def test_a_kill_before_the_id_of_a_refinement_arrived_costs_nothing(model_server, generator, monkeypatch) -> None:
-    from anymesh.finishing import meshy_paid
+    from anymesh.finishing import meshy as meshy_paid
 
     real = meshy_paid.create_task
 

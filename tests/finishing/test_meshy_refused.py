@@ -14,7 +14,7 @@ from meshy_wire import KEY, SIGNATURE, refuses, says
 from PIL import Image
 
 from anymesh.errors import AnymeshError, BudgetError, ModelError, OptionError
-from anymesh.finishing.bake_slots import png
+from anymesh.finishing.bake import png
 from anymesh.finishing.meshy import Meshy
 from anymesh.finishing.protocol import Finished
 from anymesh.finishing.retexture import Remote

@@ -7,7 +7,7 @@ import pytest
 from assets import CABINET, CUBE_FACES, box, cabinet, mesh_of, source
 from finished import grown, quad, with_wall
 
-from anymesh.finishing.bake_slots import png
+from anymesh.finishing.bake import png
 from anymesh.finishing.protocol import Finished
 from anymesh.finishing.texture import Carried, Retexturer, paint_new
 from anymesh.rendering.render import face_colors

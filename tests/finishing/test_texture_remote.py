@@ -11,12 +11,11 @@ from finished import with_wall
 
 from anymesh.errors import ModelError, OptionError
 from anymesh.export.glb_buffer import GlbBuffer
-from anymesh.finishing.bake_slots import png
+from anymesh.finishing.bake import png
+from anymesh.finishing.finishing import open_completer, open_retexturer
 from anymesh.finishing.holopart import HoloPart
-from anymesh.finishing.outside import open_completer, open_retexturer
 from anymesh.finishing.protocol import Finished
-from anymesh.finishing.retexture import Remote, described
-from anymesh.finishing.retexture_match import nearest
+from anymesh.finishing.retexture import Remote, described, nearest
 from anymesh.finishing.scene_glb import read_scene, scene_glb
 from anymesh.finishing.texture import Carried, Painted
 from anymesh.loading.files import Folder

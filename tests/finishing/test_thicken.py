@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from assets import box
 
-from anymesh.finishing.thicken import Thickened, thicken
+from anymesh.finishing.holopart import Thickened, thicken
 from anymesh.geometry.topology import components
 
 

@@ -5,26 +5,18 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from anymesh.checking.collision import check_collision
+from anymesh.checking.bodies import check_collision, check_inertia
 from anymesh.checking.content import Content, read_content
-from anymesh.checking.direction import check_direction
-from anymesh.checking.engines.contacts_ import rest_contacts
-from anymesh.checking.engines.engines import check_engine
+from anymesh.checking.engines import check_engine
+from anymesh.checking.engines.driving import SweepReport
+from anymesh.checking.engines.files import MJCF, find_description, kind_of
 from anymesh.checking.engines.mjcf_ import read_mjcf
-from anymesh.checking.engines.report import SweepReport
-from anymesh.checking.engines.robot import Robot
-from anymesh.checking.engines.urdf import read_urdf
-from anymesh.checking.find import MJCF, find_description, kind_of
-from anymesh.checking.inertia import check_inertia
-from anymesh.checking.joints import check_joints
-from anymesh.checking.meshes import check_meshes
-from anymesh.checking.motion import motion_findings, sweep_all
-from anymesh.checking.naming import check_naming
+from anymesh.checking.engines.mujoco_ import rest_contacts
+from anymesh.checking.engines.robot import Robot, read_urdf
+from anymesh.checking.joints import check_direction, check_joints, motion_findings, sweep_all
 from anymesh.checking.report import CheckReport, Finding, Severity, failure
-from anymesh.checking.scale import check_scale
-from anymesh.checking.schema_ import NAME, check_asset_json
-from anymesh.checking.texture import check_texture
-from anymesh.checking.tree import CHECK, check_files, check_tree
+from anymesh.checking.schema_ import NAME, SCHEMA, check_asset_json, check_files, check_naming, check_tree
+from anymesh.checking.shapes import check_meshes, check_scale, check_texture
 from anymesh.errors import InputError, MissingExtraError
 
 
@@ -41,14 +33,14 @@ def check_asset(path: str | Path, *, engines: Sequence[str] = ("mujoco",)) -> Ch
     try:
         robot = read_mjcf(file) if kind_of(file) == MJCF else read_urdf(file)
     except InputError as error:
-        return CheckReport(str(path), (failure(CHECK, file.name, str(error)),))
+        return CheckReport(str(path), (failure(SCHEMA, file.name, str(error)),))
     broken = tuple(check_tree(robot))
     if any(f.severity is Severity.FAILURE for f in broken):
         return CheckReport(str(path), broken)
     content = read_content(robot)
     findings = [*_still(content)]
     sweeps: list[SweepReport] = []
-    if any(f.check in (CHECK, "joints") and f.severity is Severity.FAILURE for f in findings):
+    if any(f.check in (SCHEMA, "joints") and f.severity is Severity.FAILURE for f in findings):
         chosen = ()  # engines disagree on what is broken, or end the process
     for engine, outcome in sweep_all(file, chosen):
         findings += motion_findings(engine, outcome)
@@ -66,7 +58,7 @@ def _still(content: Content) -> Iterator[Finding]:
     joints = [*check_joints(robot, content.diagonal)]
     straight = not any(f.severity is Severity.FAILURE for f in joints)
     tree = f"{len(robot.links)} links and {len(robot.joints)} joints in a tree with the root {robot.roots[0]!r}"
-    yield from _or_ok(CHECK, schema, f"{tree}{', asset.json matches its schema' if ours else ''}")
+    yield from _or_ok(SCHEMA, schema, f"{tree}{', asset.json matches its schema' if ours else ''}")
     yield from _or_ok("naming", [*check_naming(robot)], "names are legal, unique and plain ASCII")
     shapes = sum(len(some) for kind in (content.visuals, content.collisions) for some in kind.values())
     yield from _or_ok("meshes", [*check_meshes(content)], f"{shapes} shapes are read, with area, and of sensible size")

@@ -2,18 +2,37 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
+from pathlib import Path
 
 import numpy as np
 
+from anymesh.checking.content import Content, rigid_groups
+from anymesh.checking.engines import sweep_in
+from anymesh.checking.engines.driving import SweepReport
 from anymesh.checking.engines.robot import MOVING, Robot, RobotJoint
-from anymesh.checking.report import Finding, failure, warning
+from anymesh.checking.report import Finding, Severity, failure, warning
+from anymesh.errors import InputError, MissingExtraError
+from anymesh.geometry.simplify_ import simplify
+from anymesh.geometry.sweep import Obstacles, free_amount
+from anymesh.geometry.topology import components
+from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.types import JointType, Motion
+from anymesh.types.triangles import normals_and_areas
 
-CHECK = "joints"
+JOINTS = "joints"
 TYPES = (*MOVING, "fixed", "floating", "planar")
 UNIT = 1e-3  # tolerance of the length of an axis
 MAX_RANGE_RAD = 4 * np.pi  # [rad] a wider range of a hinge is probably in degrees, or a mistake
 TRAVEL = 3.0  # share of the object's diagonal; a longer slide is probably in other units
+DIRECTION = "direction"
+TOLERANCE = 0.01  # share of the object's diagonal: allowed penetration
+STOPPED = 0.5  # share of the distance to a limit; a link that stops earlier penetrates its parent
+FREER = 2.0  # ratio of the free distances from which the axis counts as reversed
+STEPS = 24
+FACES = 20_000
+MIN_MOTION_RATIO = 0.02  # share of the object's diagonal or of a turn; shorter motions are not checked
+MOTION = "motion"
 
 
 def check_joints(robot: Robot, diagonal: float) -> Iterator[Finding]:
@@ -23,24 +42,24 @@ def check_joints(robot: Robot, diagonal: float) -> Iterator[Finding]:
     """
     for joint in robot.joints:
         if joint.type not in TYPES:
-            yield failure(CHECK, joint.name, f"its type is {joint.type!r}; valid are {', '.join(TYPES)}")
+            yield failure(JOINTS, joint.name, f"its type is {joint.type!r}; valid are {', '.join(TYPES)}")
         elif joint.moves:
             yield from _axis(joint)
             yield from _limits(joint, diagonal)
             if robot.format == "URDF":  # in an MJCF they belong to motors, not to joints
                 yield from _strength(joint)
         elif joint.type != "fixed":
-            yield warning(CHECK, joint.name, f"its type {joint.type} has several degrees of freedom; it is not driven here")
+            yield warning(JOINTS, joint.name, f"its type {joint.type} has several degrees of freedom; it is not driven here")
     if not robot.moving:
-        yield warning(CHECK, "", "no joint moves; an articulated asset has at least one")
+        yield warning(JOINTS, "", "no joint moves; an articulated asset has at least one")
 
 
 def _axis(joint: RobotJoint) -> Iterator[Finding]:
     length = float(np.linalg.norm(joint.axis))
     if length < UNIT:
-        yield failure(CHECK, joint.name, f"its axis is {_vector(joint)}; valid is a direction")
+        yield failure(JOINTS, joint.name, f"its axis is {_vector(joint)}; valid is a direction")
     elif abs(length - 1) > UNIT:
-        yield warning(CHECK, joint.name, f"its axis {_vector(joint)} has length {length:.4g}; some engines need length 1")
+        yield warning(JOINTS, joint.name, f"its axis {_vector(joint)} has length {length:.4g}; some engines need length 1")
 
 
 def _vector(joint: RobotJoint) -> str:
@@ -51,27 +70,100 @@ def _limits(joint: RobotJoint, diagonal: float) -> Iterator[Finding]:
     if joint.type == "continuous":
         return
     if joint.limits is None:
-        yield failure(CHECK, joint.name, f"it has no limits; a {joint.type} joint needs lower and upper")
+        yield failure(JOINTS, joint.name, f"it has no limits; a {joint.type} joint needs lower and upper")
         return
     lower, upper = joint.limits
     shown = f"its limits are {lower:.4g} to {upper:.4g}"
     if lower > upper:
-        yield failure(CHECK, joint.name, f"{shown}; the lower must come first")
+        yield failure(JOINTS, joint.name, f"{shown}; the lower must come first")
     elif lower == upper:
-        yield failure(CHECK, joint.name, f"{shown}; a joint that moves needs a range (fixed is a type of its own)")
+        yield failure(JOINTS, joint.name, f"{shown}; a joint that moves needs a range (fixed is a type of its own)")
     elif not lower <= 0 <= upper:
         yield warning(
-            CHECK, joint.name, f"{shown}, without the rest position 0; engines start it outside its limits, which causes a jerk"
+            JOINTS,
+            joint.name,
+            f"{shown}, without the rest position 0; engines start it outside its limits, which causes a jerk",
         )
     most = MAX_RANGE_RAD if joint.type == "revolute" else TRAVEL * diagonal
     unit = "rad" if joint.type == "revolute" else "m"
     if upper - lower > most > 0:
-        yield warning(CHECK, joint.name, f"{shown} {unit}, a range beyond {most:.3g} {unit}; are the units right?")
+        yield warning(JOINTS, joint.name, f"{shown} {unit}, a range beyond {most:.3g} {unit}; are the units right?")
 
 
 def _strength(joint: RobotJoint) -> Iterator[Finding]:
     for word, value in (("effort", joint.effort), ("velocity", joint.velocity)):
         if value is None and joint.type != "continuous":
-            yield warning(CHECK, joint.name, f"it has no {word} limit; engines use 0 or their own")
+            yield warning(JOINTS, joint.name, f"it has no {word} limit; engines use 0 or their own")
         elif value is not None and value <= 0:
-            yield warning(CHECK, joint.name, f"its {word} limit is {value:.4g}; no motor can move it; it must be above 0")
+            yield warning(JOINTS, joint.name, f"its {word} limit is {value:.4g}; no motor can move it; it must be above 0")
+
+
+def check_direction(content: Content) -> Iterator[Finding]:
+    """Check that each direction within the limits is free of the parent, by the visible surfaces at rest."""
+    groups = rigid_groups(content.robot)
+    for joint in content.robot.moving:
+        length = float(np.linalg.norm(joint.axis))
+        part = content.at_rest(content.robot.carried(joint.child))
+        rest = content.at_rest(groups[joint.parent] - content.robot.carried(joint.child))
+        usable = length > 0 and joint.range[0] < joint.range[1] and len(part) and len(rest)
+        if usable and np.isfinite(part).all() and np.isfinite(rest).all():
+            yield from _ways(content, joint, _shape(part), _shape(rest))
+
+
+def _shape(triangles: np.ndarray) -> TriangleSet:
+    """Convert triangles to a set for sweeps, with outward normals where closed."""
+    triangles = simplify(triangles, FACES)
+    corners = triangles.reshape(-1, 3)
+    surface_components = components(corners, np.arange(len(corners)).reshape(-1, 3))
+    normals = normals_and_areas(triangles)[0]
+    normals = np.where(surface_components.flip[:, None], -normals, normals)
+    return TriangleSet(triangles, normals, surface_components.solid[surface_components.label], np.arange(len(triangles)))
+
+
+def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: TriangleSet) -> Iterator[Finding]:
+    T = content.places[joint.child]
+    axis = T[:3, :3] @ joint.axis / np.linalg.norm(joint.axis)
+    slides = joint.type == "prismatic"
+    motion = Motion(JointType.PRISMATIC if slides else JointType.REVOLUTE, axis, T[:3, 3], joint.name)
+    obstacles = Obstacles(part, rest, TOLERANCE * content.diagonal)
+    unit = "m" if slides else "rad"
+    for sign, most in ((1, joint.range[1]), (-1, -joint.range[0])):
+        if most < MIN_MOTION_RATIO * (content.diagonal if slides else 2 * np.pi):
+            continue
+        free = free_amount(obstacles, motion, sign, most, STEPS)[0]
+        if free >= STOPPED * most:
+            continue
+        other = free_amount(obstacles, motion, -sign, most, STEPS)[0]
+        way = "positive" if sign > 0 else "negative"
+        problem = f"{way} motion drives {joint.child!r} into {joint.parent!r} after {free:.3g} of {most:.3g} {unit}"
+        if other >= FREER * free and other >= STOPPED * most:
+            free_for = f"the opposite direction is free for {other:.3g} {unit}"
+            yield failure(DIRECTION, joint.name, f"{problem}; {free_for}, so the axis is reversed")
+        else:
+            yield warning(DIRECTION, joint.name, f"{problem}; the visible surfaces meet")
+
+
+def sweep_all(path: Path, engines: Sequence[str]) -> Iterator[tuple[str, SweepReport | InputError | MissingExtraError]]:
+    """Yield each engine with its report, or with the error that prevented it."""
+    for engine in engines:
+        try:
+            yield engine, sweep_in(engine, path)
+        except (InputError, MissingExtraError) as error:
+            yield engine, error
+
+
+def motion_findings(engine: str, outcome: SweepReport | InputError | MissingExtraError) -> Iterator[Finding]:
+    """Yield a failure for each fault of a joint, or if the engine cannot load the file; a warning if it is not installed."""
+    if isinstance(outcome, MissingExtraError):
+        yield warning(MOTION, engine, str(outcome))
+        return
+    if isinstance(outcome, InputError):
+        yield failure(MOTION, engine, str(outcome))
+        return
+    for joint in outcome.joints:
+        for fault in joint.faults:
+            yield failure(MOTION, joint.name, f"{outcome.engine}: {fault}")
+    if outcome.ok:
+        opened = [f"{j.name} after {' and '.join(j.opened)} opened" for j in outcome.joints if j.opened]
+        note = f" ({'; '.join(opened)})" if opened else ""
+        yield Finding(MOTION, Severity.OK, outcome.engine, f"{len(outcome.joints)} joints reach both limits{note}")

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 from enum import StrEnum
 from typing import Any
 
-from anymesh.checking.engines.report import SweepReport, as_record
+from anymesh.checking.engines.driving import SweepReport, as_record
 
 
 class Severity(StrEnum):

@@ -4,20 +4,69 @@ from __future__ import annotations
 
 import json
 import math
+import re
+from collections import Counter
 from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
+from anymesh.checking.content import Content
+from anymesh.checking.engines.files import PACKAGE
 from anymesh.checking.engines.robot import Robot
-from anymesh.checking.report import Finding, failure
-from anymesh.checking.tree import CHECK
+from anymesh.checking.report import Finding, failure, warning
+from anymesh.names import legal_name
 
+SCHEMA = "schema"
 NAME = "asset.json"
 MAX_VIOLATIONS = 5  # maximum number of reported violations
 FIXED = "fixed"  # an MJCF has no names for such joints
 SAME = 1e-6  # tolerance between the numbers of the two files
+NAMING = "naming"
+LEGAL_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_.-]*")
+
+
+def check_tree(robot: Robot) -> Iterator[Finding]:
+    """Check for unique names, existing links, one root and no cycle, which all other checks require."""
+    for subject, text in robot.problems:
+        yield failure(SCHEMA, subject, text)
+    if not robot.links:
+        yield failure(SCHEMA, "", "it holds no link; at least one is needed")
+        return
+    for word, names in (("link", [b.name for b in robot.links]), ("joint", [j.name for j in robot.joints])):
+        for name, count in Counter(names).items():
+            if count > 1 or not name:
+                shown = f"{count} {word}s are called {name!r}" if name else f"{count} {word}s have no name"
+                yield failure(SCHEMA, name, f"{shown}; names must be unique and not empty")
+    known = {link.name for link in robot.links}
+    for joint in robot.joints:
+        for word, link in (("parent", joint.parent), ("child", joint.child)):
+            if link not in known:
+                yield failure(SCHEMA, joint.name, f"its {word} is the link {link!r}, which is not there")
+    for child, count in Counter(j.child for j in robot.joints).items():
+        if count > 1:
+            yield failure(SCHEMA, child, f"{count} joints have this link as their child; one is valid")
+    if len(robot.roots) != 1:
+        roots = ", ".join(robot.roots) or "none, since the joints form a cycle"
+        yield failure(SCHEMA, "", f"the links that no joint carries are: {roots}; valid is one")
+    elif len(robot.carried(robot.roots[0])) < len(known):
+        lost = sorted(known - robot.carried(robot.roots[0]))
+        yield failure(SCHEMA, lost[0], f"the links {lost} are not connected to the root {robot.roots[0]!r}; valid is a tree")
+
+
+def check_files(content: Content) -> Iterator[Finding]:
+    """Check that mesh files exist, and that their paths are portable."""
+    for link, file in content.missing:
+        yield failure(SCHEMA, link, f"the mesh {file} is not there")
+    for link in content.robot.links:
+        for file in dict.fromkeys(s.file for s in (*link.visuals, *link.collisions) if s.file):
+            if file.startswith(("/", "file:")) or file[1:2] == ":":
+                yield warning(SCHEMA, link.name, f"the mesh path {file} is absolute; a relative path works everywhere")
+            elif "\\" in file:
+                yield warning(SCHEMA, link.name, f"the mesh path {file} has backslashes; forward slashes work everywhere")
+            elif "://" in file and not file.startswith(PACKAGE):
+                yield warning(SCHEMA, link.name, f"the mesh path {file} is a URL; engines read relative paths and package://")
 
 
 def check_asset_json(path: Path, robot: Robot) -> Iterator[Finding]:
@@ -27,18 +76,18 @@ def check_asset_json(path: Path, robot: Robot) -> Iterator[Finding]:
     try:
         record = json.loads(path.read_text(encoding="utf-8"), parse_constant=_finite, parse_float=_finite)
     except (OSError, ValueError) as error:
-        yield failure(CHECK, NAME, f"cannot be read: {error}")
+        yield failure(SCHEMA, NAME, f"cannot be read: {error}")
         return
     schema = json.loads(resources.files("anymesh.export").joinpath("asset.schema.json").read_text(encoding="utf-8"))
     errors = sorted(jsonschema.Draft202012Validator(schema).iter_errors(record), key=lambda e: [str(p) for p in e.path])
     for error in errors[:MAX_VIOLATIONS]:
-        yield failure(CHECK, NAME, f"{error.json_path}: {error.message[:200]}")
+        yield failure(SCHEMA, NAME, f"{error.json_path}: {error.message[:200]}")
     if not errors:
         yield from _agreement(record, robot)
         yield from _files(record, path.parent)
         for part in record["parts"]:
             if not (path.parent / part["faces"]).is_file():
-                yield failure(CHECK, NAME, f"the file {part['faces']} of part {part['name']!r} is not there")
+                yield failure(SCHEMA, NAME, f"the file {part['faces']} of part {part['name']!r} is not there")
 
 
 def _finite(number: str) -> float:
@@ -51,12 +100,12 @@ def _files(record: dict[str, Any], folder: Path) -> Iterator[Finding]:
     """Check that the main file of each format is there, and is complete if it is XML."""
     for kind, file in record["files"].items():
         if not (folder / file).is_file():
-            yield failure(CHECK, NAME, f"the {kind} file {file} is not there")
+            yield failure(SCHEMA, NAME, f"the {kind} file {file} is not there")
         elif kind in ("urdf", "mjcf", "sdf"):
             try:
                 ElementTree.parse(folder / file)
             except ElementTree.ParseError as error:
-                yield failure(CHECK, file, f"is broken or truncated: {error}")
+                yield failure(SCHEMA, file, f"is broken or truncated: {error}")
 
 
 def _agreement(record: dict[str, Any], robot: Robot) -> Iterator[Finding]:
@@ -68,9 +117,26 @@ def _agreement(record: dict[str, Any], robot: Robot) -> Iterator[Finding]:
         ("parents", [(j["child"], j["parent"]) for j in joints], [(j.child, j.parent) for j in robot.joints]),
     ):
         if sorted(recorded) != sorted(described):
-            yield failure(CHECK, NAME, f"its {word} {sorted(recorded)} are not those of {robot.path.name}: {sorted(described)}")
+            yield failure(
+                SCHEMA, NAME, f"its {word} {sorted(recorded)} are not those of {robot.path.name}: {sorted(described)}"
+            )
     limits = {j.name: j.limits for j in robot.joints}
     for joint in joints:
         other = limits.get(joint["name"])
         if joint["limits"] and other and max(abs(a - b) for a, b in zip(joint["limits"], other, strict=True)) > SAME:
-            yield failure(CHECK, NAME, f"the limits of {joint['name']!r} are {joint['limits']}, in {robot.path.name} {other}")
+            yield failure(SCHEMA, NAME, f"the limits of {joint['name']!r} are {joint['limits']}, in {robot.path.name} {other}")
+
+
+def check_naming(robot: Robot) -> Iterator[Finding]:
+    """Check that names have only letters, digits, underscore, point and hyphen, and differ by more than case."""
+    for word, names in (("link", [b.name for b in robot.links]), ("joint", [j.name for j in robot.joints])):
+        for name in names:
+            if name and not LEGAL_NAME.fullmatch(name):
+                legal = legal_name(name, fallback=word)
+                yield warning(NAMING, name, f"the name of this {word} is changed or refused by some engines; {legal} is valid")
+        seen: dict[str, str] = {}
+        for name in names:
+            other = seen.setdefault(name.lower(), name)
+            if other != name:
+                problem = f"differs from the {word} {other!r} only in case; their files would overwrite each other"
+                yield warning(NAMING, name, problem)

@@ -2,26 +2,202 @@
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float32, UInt8
+from jaxtyping import Bool, Float, Float32, Int, UInt8
+from PIL import Image
 from scipy.ndimage import distance_transform_edt
 
 from anymesh.errors import OptionError
-from anymesh.finishing.bake_charts import Layout, lay_out
-from anymesh.finishing.bake_slots import ALPHA, BASE, LIGHT, METAL, WHITE, WIDTH, png, sampler, see_through
 from anymesh.finishing.protocol import Finished
-from anymesh.finishing.texture import Carried, Painted
+from anymesh.finishing.texture import Carried, Painted, colors_at
 from anymesh.geometry.raycast_ import RayScene
+from anymesh.geometry.topology import edge_pairs, label_connected
 from anymesh.types import Material, Mesh, Texture
 
+WHITE = (1.0, 1.0, 1.0, 1.0)
+BASE, ALPHA, METAL, LIGHT = "base_color", "alpha", "metallic_roughness", "emissive"
+WIDTH = {BASE: 3, ALPHA: 1, METAL: 2, LIGHT: 3}  # channels of each slot; METAL: roughness, metallic
+ACROSS = np.array([[1, 2], [2, 0], [0, 1]])  # axes of the plane normal to each axis
+ROUNDS = 8  # iterations of cutting charts that overlap themselves; then each covered face becomes a chart
+STEPS = 24  # iterations of the search for the scale
 SIZES = (16, 16384)  # [px] minimum and maximum
 RAYS = 2  # samples per side of a texel
 BAND = 1 << 18  # texels per batch
 Sample = Callable[[np.ndarray, np.ndarray], np.ndarray]  # faces and weights of their corners -> channels
 Place = Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]
+
+
+@dataclass(frozen=True, eq=False)
+class Sampler:
+    """Reader of the slots that vary over a mesh.
+
+    Each slot is stored as the colour of a separate mesh, so that all textures are looked up as in `rendering.render`.
+    """
+
+    meshes: dict[str, Mesh]
+
+    @property
+    def slots(self) -> tuple[str, ...]:
+        return tuple(self.meshes)
+
+    def __call__(self, face: Int[np.ndarray, " n"], weights: Float[np.ndarray, "n 3"]) -> UInt8[np.ndarray, "n k"]:
+        """Return the channels of all slots, side by side."""
+        return np.concatenate([self._read(slot, face, weights) for slot in self.meshes], axis=1)
+
+    def _read(self, slot: str, face: np.ndarray, weights: np.ndarray) -> np.ndarray:
+        mesh = self.meshes[slot]
+        color = colors_at(mesh, face, weights)
+        if slot != METAL:
+            return color[:, : WIDTH[slot]]
+        factor = np.array([(m.roughness, m.metallic) for m in mesh.materials])[mesh.face_material[face]]
+        return np.rint(color[:, 1:] * factor).astype(np.uint8)
+
+
+def sampler(mesh: Mesh) -> Sampler:
+    """Return the sampler of the slots that the mesh needs; base_color is always included."""
+    plain = replace(mesh, materials=(*mesh.materials, Material()), corner_color=None)
+    if mesh.corner_uv is None:  # textures of one texel also need coordinates
+        plain = replace(plain, corner_uv=np.zeros((len(mesh.faces), 3, 2), np.float32))
+    plain = replace(plain, face_material=np.where(mesh.face_material < 0, len(mesh.materials), mesh.face_material))
+    used = [plain.materials[k] for k in np.unique(plain.face_material)]
+    meshes = {BASE: mesh}
+    if see_through(mesh).any():
+        meshes[ALPHA] = replace(plain, materials=tuple(_opacity(m) for m in plain.materials))
+    if any(METAL in m.textures for m in used) or len({(m.roughness, m.metallic) for m in used}) > 1:
+        meshes[METAL] = replace(plain, materials=tuple(_shown(m, WHITE, METAL) for m in plain.materials))
+    if any(any(m.emissive) for m in used):
+        meshes[LIGHT] = replace(plain, materials=tuple(_shown(m, (*m.emissive, 1.0), LIGHT) for m in plain.materials))
+    return Sampler(meshes)
+
+
+def see_through(mesh: Mesh) -> Bool[np.ndarray, " F"]:
+    """Return the faces whose material is transparent or has holes."""
+    clear = np.array([*(m.alpha_mode != "OPAQUE" for m in mesh.materials), False])
+    return clear[mesh.face_material]
+
+
+def _shown(material: Material, color: tuple[float, ...], slot: str) -> Material:
+    """Return a material that shows one slot as its colour."""
+    textures = {BASE: material.textures[slot]} if slot in material.textures else {}
+    return replace(material, base_color=color, textures=textures)
+
+
+def _opacity(material: Material) -> Material:
+    """Return a material that shows opacity as its colour, with the opacity factor stored as a grey texture."""
+    share = material.base_color[3] if material.alpha_mode != "OPAQUE" else 1.0
+    texture = material.textures.get(BASE)
+    with_holes = texture is not None and material.alpha_mode != "OPAQUE"
+    picture = np.full((1, 1), 255, np.uint8)
+    if with_holes:
+        with Image.open(io.BytesIO(texture.data)) as image:
+            picture = np.asarray(image.convert("RGBA"))[..., 3]
+    grey = np.rint(picture * share).astype(np.uint8)
+    return replace(material, base_color=WHITE, textures={BASE: Texture(png(grey), "image/png")})
+
+
+def png(pixels: UInt8[np.ndarray, ...]) -> bytes:
+    """Encode pixels as PNG."""
+    file = io.BytesIO()
+    Image.fromarray(pixels).save(file, "PNG")
+    return file.getvalue()
+
+
+@dataclass(frozen=True, eq=False)
+class Layout:
+    """Position of every face corner in a square picture. corners: (F, 3, 2) [px], right and down; scale: [px/m]."""
+
+    size: int
+    corners: Float[np.ndarray, "F 3 2"]
+    scale: float
+    charts: int
+
+
+def lay_out(mesh: Mesh, size: int, padding: int) -> Layout:
+    """Lay out the faces without overlap; charts are `padding` px from each other and from the border.
+
+    A chart is a connected set of faces with the same dominant axis, projected along that axis, so no length shrinks by more
+    than a factor of 1.8. Raise OptionError if the charts do not fit.
+    """
+    direction = 2 * np.abs(mesh.face_cross).argmax(1)
+    direction += np.take_along_axis(mesh.face_cross, direction[:, None] // 2, 1)[:, 0] < 0
+    flat, depth = _flattened(mesh, direction)
+    pairs = edge_pairs(mesh.vertices, mesh.faces).faces
+    pairs = pairs[direction[pairs[:, 0]] == direction[pairs[:, 1]]]
+    layer = np.zeros(len(flat), np.int64)
+    for turn in range(ROUNDS + 1):
+        chart = label_connected(len(flat), pairs[layer[pairs[:, 0]] == layer[pairs[:, 1]]])
+        layout = _packed(flat, chart, size, padding)
+        covered = _covered(layout, depth, chart)
+        if not covered.any():
+            break
+        layer[covered] = turn + 1 if turn < ROUNDS - 1 else len(flat) + np.flatnonzero(covered)
+    return layout
+
+
+def _flattened(mesh: Mesh, direction: np.ndarray) -> tuple[Float[np.ndarray, "F 3 2"], Float[np.ndarray, "F 3"]]:
+    """Project corners [m] along each face's direction, without mirroring; also return their height towards the viewer."""
+    axis, back = direction // 2, direction % 2 == 1
+    rows = np.arange(len(direction))[:, None]
+    right, up = (mesh.triangles[rows, np.arange(3), ACROSS[axis, k][:, None]] for k in (0, 1))
+    height = mesh.triangles[rows, np.arange(3), axis[:, None]]
+    flip = np.where(back, -1.0, 1.0)[:, None]
+    return np.stack([flip * right, -up], 2), flip * height
+
+
+def _packed(flat: np.ndarray, chart: np.ndarray, size: int, padding: int) -> Layout:
+    """Find the largest scale at which the charts fit, by bisection."""
+    count = int(chart.max()) + 1
+    low, high = np.full((count, 2), np.inf), np.full((count, 2), -np.inf)
+    np.minimum.at(low, chart, flat.min(1))
+    np.maximum.at(high, chart, flat.max(1))
+    extent = high - low
+    least, most = 0.0, size / max(float(np.sqrt((extent[:, 0] * extent[:, 1]).sum())), float(extent.max()) / 2, 1e-300)
+    at = _shelves(_pixels(extent, least, padding), size)
+    if at is None:
+        raise OptionError(f"an atlas of {size} px has no room for {count} charts; a larger one has")
+    for _ in range(STEPS):
+        middle = (least + most) / 2
+        tried = _shelves(_pixels(extent, middle, padding), size)
+        least, most, at = (middle, most, tried) if tried is not None else (least, middle, at)
+    corners = (flat - low[chart][:, None]) * least + at[chart][:, None] + padding + 0.5
+    return Layout(size, corners, least, count)
+
+
+def _pixels(extent: np.ndarray, scale: float, padding: int) -> Int[np.ndarray, "c 2"]:
+    return np.ceil(extent * scale).astype(np.int64) + 1 + 2 * padding
+
+
+def _shelves(boxes: Int[np.ndarray, "c 2"], size: int) -> Int[np.ndarray, "c 2"] | None:
+    """Place boxes side by side on shelves, tallest first, and return their corners; None if they do not fit."""
+    if (boxes > size).any() or boxes.prod(1).sum() > size * size:
+        return None
+    at = np.zeros_like(boxes)
+    x = y = shelf = 0
+    for k in np.lexsort((-boxes[:, 0], -boxes[:, 1])).tolist():
+        width, height = boxes[k].tolist()
+        if x + width > size:
+            x, y, shelf = 0, y + shelf, 0
+        if y + height > size:
+            return None
+        at[k] = x, y
+        x, shelf = x + width, max(shelf, height)
+    return at
+
+
+def _covered(layout: Layout, depth: np.ndarray, chart: np.ndarray) -> np.ndarray:
+    """Return which faces have their centroid below another face of their chart."""
+    corners = np.concatenate([layout.corners, (depth * layout.scale)[:, :, None]], axis=2)
+    scene = RayScene(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+    middle = corners.mean(1)
+    middle[:, 2] = corners[:, :, 2].max() + 1
+    hit = scene.first_hit(middle, np.repeat([[0.0, 0.0, -1.0]], len(middle), 0)).face
+    own = np.arange(len(hit))
+    above = depth[hit].mean(1) - depth.mean(1) > 1e-9 * max(1.0, float(np.abs(depth).max()))
+    return (hit >= 0) & (hit != own) & (chart[hit] == chart) & above
 
 
 @dataclass(frozen=True)

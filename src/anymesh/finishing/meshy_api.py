@@ -22,6 +22,7 @@ KEY, BASE = "MESHY_API_KEY", "MESHY_BASE_URL"
 TASK_ID = re.compile(r"[A-Za-z0-9_-]{1,100}")
 LARGEST = 1 << 29  # [bytes] limit of a result
 WRITTEN = ("text/", "application/json", "application/xml")  # content types that are no model
+PRICED = "2026-10-05, github.com/meshy-dev/meshy-mcp-server"  # date and source of the credits of generation
 
 
 @dataclass(frozen=True)
@@ -43,7 +44,6 @@ PREVIEW = TaskKind("a text-to-3D preview", "/openapi/v2/text-to-3d", 20, "text-t
 REFINE = TaskKind("a text-to-3D refinement", "/openapi/v2/text-to-3d", 10, "text-to-3d-refine")
 IMAGE = TaskKind("an image-to-3D task", "/openapi/v1/image-to-3d", 30, "image-to-3d")
 IMAGE_SHAPE = TaskKind("an image-to-3D task without texture", "/openapi/v1/image-to-3d", 20, "image-to-3d")
-PRICED = "2026-10-05, github.com/meshy-dev/meshy-mcp-server"  # date and source of the credits of generation
 
 
 class RefusedError(ModelError):

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.finishing.protocol import ShapeConfig
 from anymesh.finishing.scenes import Growing, Scenes, scene_of, widest
-from anymesh.finishing.settings import ShapeConfig
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.kinematics import joint_transform
 from anymesh.geometry.triangle_set import TriangleSet, body_obb

@@ -9,14 +9,59 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.finishing.visible import GRAZE, escapes
-from anymesh.geometry.kinematics import link_transforms
+from anymesh.config import ArticulationConfig
+from anymesh.geometry.kinematics import joint_motion, link_transforms
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.types import Asset, Joint, JointType
+from anymesh.geometry.sweep import Obstacles, free_amount
+from anymesh.geometry.topology import components
+from anymesh.geometry.triangle_set import SurfacePoints, TriangleSet, sample_surface, spread_directions
+from anymesh.types import Asset, Joint, JointType, Mesh
+from anymesh.types.triangles import normals_and_areas
 
+PROBES = 20_000  # points on the surface, besides the centroid of every face
+DIRECTIONS = 96  # directions from which each point is viewed
+GRAZE = 0.02  # minimum share of directions in which a point must be visible from a side; less is through a gap
+RAYS = 50_000  # rays per batch
+OFF = 1e-5  # share of the diagonal: distance of ray origins from the surface
 HALF_REVOLUTION_RAD = np.pi
 SKIP = 1e-4  # share of the diagonal: nearer surfaces are in contact
 FLOOR = 1e-3  # share of the diagonal: points within this distance of the ground stand on it
+STEPS = 24  # steps of a sweep from rest to a limit
+LOSS = 0.02  # share of its range that a joint may lose
+NONE = np.zeros((0, 3, 3))
+
+
+def seen_from_outside(
+    scene: RayScene, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], diagonal: float
+) -> Bool[np.ndarray, " n"]:
+    """Return which points are visible from far away, from either side. diagonal: of the whole scene."""
+    return (escapes(scene, points, normals, diagonal) != 0).any(1)
+
+
+def escapes(
+    scene: RayScene, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"], diagonal: float
+) -> Float[np.ndarray, "n 2"]:
+    """Compute the share of all directions in which a point is unobstructed, on the side of its normal and on the other."""
+    counts = np.zeros((len(points), 2))
+    directions = spread_directions(DIRECTIONS)
+    for ways in np.array_split(directions, min(len(directions), 1 + len(points) * len(directions) // RAYS)):
+        front = ways @ normals.T > 0
+        start = points + OFF * diagonal * np.where(front, 1.0, -1.0)[:, :, None] * normals
+        rays = np.repeat(ways * 2 * diagonal, len(points), 0)
+        free = scene.first_hit(start.reshape(-1, 3), rays, 1.0).face.reshape(front.shape) < 0
+        counts[:, 0] += (free & front).sum(0)
+        counts[:, 1] += (free & ~front).sum(0)
+    return counts / len(directions)
+
+
+def visible_faces(mesh: Mesh) -> Bool[np.ndarray, " F"]:
+    """Return which faces are at least partly visible from outside, for any winding."""
+    scene = RayScene(mesh.vertices, mesh.faces)
+    middles = SurfacePoints(mesh.triangles.mean(1), mesh.face_normals, np.arange(len(mesh.faces)))
+    seen = np.zeros(len(mesh.faces), bool)
+    for probe in (middles, sample_surface(mesh.triangles, PROBES, 0)):
+        seen[probe.faces[seen_from_outside(scene, probe.points, probe.normals, mesh.diagonal)]] = True
+    return seen
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,3 +200,53 @@ def room(
     hits = scene.first_hit(points + skip * ways, ways, max_distance)
     far = np.minimum(hits.distance + skip, max_distance)
     return far if without is None else np.where(np.isin(hits.face, without), max_distance, far)
+
+
+def moves_freely(
+    part: int,
+    growing: Growing,
+    before: Growing,
+    *,
+    added: Float[np.ndarray, "n 3 3"] = NONE,
+    beside: Float[np.ndarray, "m 3 3"] = NONE,
+) -> bool:
+    """Return whether a part still moves as far towards both limits as it did `before`.
+
+    The part moves with its descendants and the triangles `added`, among the other parts and the triangles `beside`.
+    """
+    joint = growing.scenes.joint[part]
+    if joint.type is JointType.FIXED:
+        return True
+    scenes = growing.scenes
+    carried = [k for k in scenes.order if k == part or part in scenes.carriers(k)]
+    others = [k for k in scenes.order if k not in carried]
+    tolerance = ArticulationConfig().penetration * scenes.diagonal
+    own, rest = (np.concatenate([growing.triangles(*k), new]) for k, new in ((carried, added), (others, beside)))
+    after = Obstacles(shape_of(own), shape_of(rest), tolerance)
+    motion = joint_motion(joint)
+    for sign, most in limits_of(joint):
+        now = free_amount(after, motion, sign, most, STEPS)[0]
+        if now < (1 - LOSS) * most:
+            old, about = (shape_of(before.triangles(*k)) for k in (carried, others))
+            if now < free_amount(Obstacles(old, about, tolerance), motion, sign, most, STEPS)[0] - LOSS * most:
+                return False
+    return True
+
+
+def limits_of(joint: Joint) -> list[tuple[int, float]]:
+    """Return sign and distance to each limit that is not at rest [rad or m]; half a turn each way without limits."""
+    low, high = (-np.pi, np.pi) if joint.limits is None else joint.limits
+    return [(sign, amount) for sign, amount in ((1, float(high)), (-1, -float(low))) if amount > 0]
+
+
+def shape_of(triangles: Float[np.ndarray, "n 3 3"]) -> TriangleSet:
+    """Convert triangles to a set for sweeps; closed components are oriented outwards."""
+    corners = triangles.reshape(-1, 3)
+    surface_components = components(corners, np.arange(len(corners)).reshape(-1, 3))
+    normals = normals_and_areas(triangles)[0]
+    return TriangleSet(
+        triangles,
+        np.where(surface_components.flip[:, None], -normals, normals),
+        surface_components.solid[surface_components.label],
+        np.arange(len(triangles)),
+    )

@@ -8,12 +8,10 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.finishing.closing import backed, shelled, without_folds
-from anymesh.finishing.holes import with_caps
+from anymesh.finishing.closing import backed, shelled, with_caps, without_folds
+from anymesh.finishing.protocol import ShapeConfig
 from anymesh.finishing.scenes import SKIP, Growing, Scenes, room, scene_of
-from anymesh.finishing.seen import SheetVisibility, is_laid_open, sheet_visibility
-from anymesh.finishing.settings import ShapeConfig
-from anymesh.finishing.sheets import Sheet, open_sheets
+from anymesh.finishing.sheets import Sheet, SheetVisibility, is_laid_open, open_sheets, sheet_visibility
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.topology import components
 from anymesh.geometry.triangle_set import SurfacePoints

@@ -40,7 +40,7 @@ def test_a_warning_tells_that_nothing_moves(program, tmp_path, quick, monkeypatc
 
 
 def test_looks_by_meshy_are_counted_in_and_limited(server, articulations, tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr("anymesh.finishing.outside.Remote", partial(Remote, size=128, padding=1))
+    monkeypatch.setattr("anymesh.finishing.finishing.Remote", partial(Remote, size=128, padding=1))
     with pytest.raises(BudgetError, match="would exceed --max-calls 0"):
         generate(PROMPT, tmp_path / "box", **FAST, texture="meshy:oak", max_calls=2)
     assert len(server.tasks) == 2

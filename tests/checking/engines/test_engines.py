@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 from drawn import chest
 
-from anymesh.checking.engines.driving import STEP, ReadBack, drive
-from anymesh.checking.engines.engines import ENGINES, sweep_in
-from anymesh.checking.engines.motors import motors_of, readable
-from anymesh.checking.engines.report import as_record, from_record
-from anymesh.checking.engines.urdf import read_urdf
+from anymesh.checking.engines import ENGINES, sweep_in
+from anymesh.checking.engines.driving import STEP, as_record, drive, from_record, motors_of, readable
+from anymesh.checking.engines.robot import read_urdf
 from anymesh.errors import InputError, MissingExtraError, OptionError
 
 OTHERS = [name for name in ENGINES if name != "mujoco"]
@@ -24,11 +22,11 @@ class Ideal:
 
     def __init__(self, robot, stop: float = np.inf, read=None, twist: float = 0.0) -> None:
         self.robot, self.stop, self.twist = robot, stop, twist
-        self.joints = [ReadBack(j.name, j.child, read or j.limits) for j in robot.moving]
+        self.limits = {j.name: read or j.limits for j in robot.moving}
         self.reset()
 
     def reset(self) -> None:
-        self.at = np.zeros(len(self.joints))
+        self.at = np.zeros(len(self.limits))
 
     def step(self, targets: np.ndarray) -> None:
         self.at = targets.copy()
@@ -37,15 +35,9 @@ class Ideal:
     def positions(self) -> np.ndarray:
         return self.at
 
-    def _placed(self, link: str) -> np.ndarray:
-        told = {j.name: v + self.twist for j, v in zip(self.joints, self.at, strict=True)}
+    def pose(self, link: str) -> np.ndarray:
+        told = {name: v + self.twist for name, v in zip(self.limits, self.at, strict=True)}
         return self.robot.placements(told)[link]
-
-    def origin(self, link: str) -> np.ndarray:
-        return self._placed(link)[:3, 3]
-
-    def turned(self, link: str) -> np.ndarray:
-        return self._placed(link)[:3, :3]
 
 
 @pytest.fixture
@@ -86,14 +78,14 @@ def test_limits_read_otherwise_and_links_held_elsewhere_are_told(robot):
 
 def test_a_joint_that_the_engine_does_not_know_is_told(robot):
     world = Ideal(robot)
-    world.joints = world.joints[1:]
+    world.limits.pop("slide")
     world.reset()
     assert drive(world, robot).joints[0].faults == ("the engine does not know this joint",)
 
 
 def test_motors_are_as_strong_as_what_they_carry_needs(robot):
     """By hand: the drawer's mass, and the door's inertia about its hinge, a plate turned about its edge."""
-    slide, hinge = motors_of(robot)
+    slide, hinge = motors_of(robot).values()
     drawer = next(b for b in robot.links if b.name == "drawer").inertial.mass
     door = next(b for b in robot.links if b.name == "door").inertial.mass
     inertia = door * ((0.56**2 + 0.025**2) / 12 + 0.28**2 + 0.0125**2)

@@ -5,12 +5,10 @@ import numpy as np
 import pytest
 from drawn import chest
 
-from anymesh.checking.engines.contacts_ import rest_contacts
 from anymesh.checking.engines.files import find_file
 from anymesh.checking.engines.mjcf_ import read_mjcf
-from anymesh.checking.engines.mujoco_ import sweep_joints
-from anymesh.checking.engines.robot import Geometry, shape_triangles
-from anymesh.checking.engines.urdf import read_urdf
+from anymesh.checking.engines.mujoco_ import rest_contacts, sweep_joints
+from anymesh.checking.engines.robot import Geometry, read_urdf, shape_triangles
 from anymesh.errors import InputError
 from anymesh.geometry.topology import components
 

@@ -18,7 +18,7 @@ from anymesh.applications.generate.protocol import Generator3D, MeshRequest
 from anymesh.applications.generate.size import Size, choose_size
 from anymesh.errors import OptionError, OutputError
 from anymesh.export.options import ExportOptions
-from anymesh.finishing.outside import open_completer, open_retexturer
+from anymesh.finishing.finishing import open_completer, open_retexturer
 from anymesh.loading import place_mesh
 from anymesh.loading.load import LoadedMesh
 from anymesh.pipeline.options import (

@@ -9,9 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from anymesh.errors import InputError, OptionError
+from anymesh.finishing.meshy import Bought, Order, PaidTasks
 from anymesh.finishing.meshy_api import IMAGE, IMAGE_SHAPE, PREVIEW, REFINE, RefusedError, TaskKind, read_key
-from anymesh.finishing.meshy_paid import Order, PaidTasks
-from anymesh.finishing.meshy_task import Bought
 
 LONGEST_PROMPT = 800  # characters, for shape and texture prompts (meshy-cookbook, recipe 07)
 LARGEST_IMAGE = 20 * 1024 * 1024  # [bytes] as in the service's own client

@@ -14,8 +14,8 @@ from anymesh.applications.generate.job import FREE, GenerationJob
 from anymesh.applications.generate.protocol import GeneratedMesh, PaidTask, file_digest
 from anymesh.defects import redacted
 from anymesh.errors import InputError
+from anymesh.finishing.meshy import Bought
 from anymesh.finishing.meshy_api import RETEXTURE
-from anymesh.finishing.meshy_task import Bought
 from anymesh.geometry.topology import components
 from anymesh.loading import load_mesh
 from anymesh.pipeline.storage.outputs import GENERATED, GENERATION

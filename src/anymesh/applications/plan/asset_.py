@@ -10,8 +10,8 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.applications.plan.plans import PlanError
-from anymesh.checking.engines.mujoco_bench_ import read_spec
-from anymesh.checking.find import find_description
+from anymesh.checking.engines.files import find_description
+from anymesh.checking.engines.mujoco_ import read_spec
 from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco
 from anymesh.types import JointType, Motion

@@ -2,29 +2,23 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.checking.engines.driving import STEP, ReadBack, drive
-from anymesh.checking.engines.motors import Motor, motors_of, readable
-from anymesh.checking.engines.outside import engine_version, load_engine
-from anymesh.checking.engines.report import SweepReport
-from anymesh.checking.engines.urdf import read_urdf
+from anymesh.checking.engines.driving import STEP, Limits, Motor, engine_version, finite_limits, load_engine
+from anymesh.checking.engines.robot import Robot
 from anymesh.errors import InputError
 
 
-def sweep_joints(path: Path) -> SweepReport:
-    """Drive every joint of a URDF over its range. Raise InputError if Drake cannot load it, MissingExtraError without Drake."""
-    drake = load_engine("pydrake.all", shown="Drake", extra="drake")
-    robot = readable(read_urdf(path))
-    return drive(_World(drake, Path(path), motors_of(robot), robot.roots[0]), robot)
+class World:
+    """The asset of a URDF in Drake. Raise InputError if it cannot be loaded, MissingExtraError without the engine."""
 
-
-class _World:
-    def __init__(self, drake: Any, path: Path, motors: tuple[Motor, ...], root: str) -> None:
+    def __init__(self, path: Path, robot: Robot, motors: Mapping[str, Motor]) -> None:
+        drake = load_engine("pydrake.all", shown="Drake", extra="drake")
         self.engine = engine_version("drake", "drake")
         builder = drake.DiagramBuilder()
         plant, _ = drake.AddMultibodyPlantSceneGraph(builder, time_step=STEP)
@@ -33,7 +27,7 @@ class _World:
         except Exception as error:  # its parser raises RuntimeError and others
             raise InputError(f"Drake cannot load {path}: {error}") from error
         self.plant, self.model = plant, model
-        base = self._body(root)
+        base = self._body(robot.roots[0])
         if base.index() != plant.world_body().index() and not any(
             plant.get_joint(j).child_body().index() == base.index() for j in plant.GetJointIndices(model)
         ):
@@ -41,14 +35,13 @@ class _World:
         plant.mutable_gravity_field().set_gravity_vector(np.zeros(3))
         joints = [plant.get_joint(j) for j in plant.GetJointIndices(model)]
         joints = [j for j in joints if j.num_positions() == 1]
-        by_name = {m.joint: m for m in motors}
         for joint in joints:
-            motor = by_name[joint.name()]
+            motor = motors[joint.name()]
             if not plant.HasJointActuatorNamed(f"{joint.name()}_motor", model):
                 actuator = plant.AddJointActuator(f"{joint.name()}_motor", joint, motor.effort)
                 actuator.set_controller_gains(drake.PdControllerGains(p=motor.stiffness, d=motor.damping))
         plant.Finalize()
-        self.joints = [ReadBack(j.name(), j.child_body().name(), _limits(j)) for j in joints]
+        self.limits = {j.name(): _limits(j) for j in joints}
         self.root, self._drake = base, drake
         self.diagram = builder.Build()
         self.order = [j.position_start() for j in joints]
@@ -78,18 +71,11 @@ class _World:
         known = self.plant.HasBodyNamed(link, self.model)
         return self.plant.GetBodyByName(link, self.model) if known else self.plant.world_body()
 
-    def _placed(self, link: str) -> Float[np.ndarray, "4 4"]:
+    def pose(self, link: str) -> Float[np.ndarray, "4 4"]:
         body = self._body(link)
         root = self.plant.EvalBodyPoseInWorld(self.context, self.root).GetAsMatrix4()
         return np.linalg.inv(root) @ self.plant.EvalBodyPoseInWorld(self.context, body).GetAsMatrix4()
 
-    def origin(self, link: str) -> Float[np.ndarray, " 3"]:
-        return self._placed(link)[:3, 3]
 
-    def turned(self, link: str) -> Float[np.ndarray, "3 3"]:
-        return self._placed(link)[:3, :3]
-
-
-def _limits(joint: Any) -> tuple[float, float] | None:
-    lower, upper = float(joint.position_lower_limits()[0]), float(joint.position_upper_limits()[0])
-    return (lower, upper) if np.isfinite([lower, upper]).all() else None
+def _limits(joint: Any) -> Limits:
+    return finite_limits(joint.position_lower_limits()[0], joint.position_upper_limits()[0])

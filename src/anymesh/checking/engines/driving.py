@@ -1,76 +1,201 @@
-"""Driving of every joint through its range by a motor: the loop shared by all engines except MuJoCo."""
+"""Driving of every joint through its range by a motor: the loop, motors and report shared by the engines."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
-from typing import Protocol, runtime_checkable
+from dataclasses import asdict, dataclass, replace
+from importlib import import_module
+from importlib.metadata import version
+from types import ModuleType
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.checking.engines.motors import REACHED_RATIO, Motor, motors_of
-from anymesh.checking.engines.report import JointSweep, SweepReport
 from anymesh.checking.engines.robot import Robot, RobotJoint
+from anymesh.errors import InputError, MissingExtraError
 
 STEP = 0.005  # [s] simulated time step
 HOLD_STEPS = 100  # steps for which a motor is held at a limit
 SAME = 1e-4  # tolerance of limits as read by the engine [rad or m]
-DEEP = 0.01  # share of the asset's extent: displacement that counts as a fault
+DEEP = 0.01  # share of the asset's extent: penetration or displacement that counts as a fault
+REACHED_RATIO = 0.02  # share of a joint's range: tolerance for a limit being reached, and for a joint being stuck
+MOTOR_FREQUENCY = 20.0  # [rad/s] natural frequency of the motors
+MIN_SETTLING_RATIO = 10.0  # minimum ratio of the duration of a motion to the time constant of the joint's damping
+MAX_ENGINE_SECONDS = 10.0  # [s] maximum duration of a motion in the engines other than MuJoCo
+DEFAULT_EFFORT = 1000.0  # [N or N m] default effort of a motor
+UNSTABLE = "the simulation became unstable"
+Limits = tuple[float, float] | None
 
 
 @dataclass(frozen=True)
-class ReadBack:
-    """A joint as read by an engine; limits are None if it has none."""
+class JointSweep:
+    """Motion of one joint through its range. Positions [rad or m]; `reached_*`: reached by a motor within the joint's effort.
+
+    penetration: increase over that at rest, along the path [m], None if not tested; against: link with the deepest penetration,
+    empty if none; drift: maximum motion of any other joint [rad or m];
+    off: maximum distance of its link from the position given by the joint [m]; faults: in words.
+    """
 
     name: str
-    child: str
-    limits: tuple[float, float] | None
+    type: str
+    lower: float
+    upper: float
+    reached_lower: float
+    reached_upper: float
+    penetration: float | None
+    against: str
+    drift: float
+    off: float
+    faults: tuple[str, ...]
+    opened: tuple[str, ...] = ()  # joints that were opened first, because their links were in the way
+
+    @property
+    def ok(self) -> bool:
+        return not self.faults
+
+
+@dataclass(frozen=True)
+class SweepReport:
+    """All joints of an asset in one engine. excluded: pairs of links whose contact was not tested, and why."""
+
+    engine: str
+    joints: tuple[JointSweep, ...]
+    excluded: tuple[tuple[str, str, str], ...]
+
+    @property
+    def ok(self) -> bool:
+        return all(joint.ok for joint in self.joints)
+
+
+def as_record(report: SweepReport) -> dict[str, Any]:
+    """Convert the report to plain values for JSON."""
+    return asdict(report)
+
+
+def from_record(record: Mapping[str, Any]) -> SweepReport:
+    """Restore the report from the values of `as_record`."""
+    lists: list[dict[str, Any]] = [dict(j, faults=tuple(j["faults"]), opened=tuple(j["opened"])) for j in record["joints"]]
+    joints = tuple(JointSweep(**values) for values in lists)
+    return SweepReport(record["engine"], joints, tuple((a, b, why) for a, b, why in record["excluded"]))
+
+
+@dataclass(frozen=True)
+class Motor:
+    """A position motor. stiffness [N m/rad or N/m], damping [N m s/rad or N s/m], effort [N m or N]."""
+
+    stiffness: float
+    damping: float
+    effort: float
+    seconds: float  # duration of a motion from limit to limit
+
+
+def motors_of(robot: Robot) -> dict[str, Motor]:
+    """Return a critically damped motor for each moving joint, by name, from its inertia at rest and its friction."""
+    motors = {}
+    at = robot.placements({})
+    for joint in robot.moving:
+        inertia = max(_inertia(robot, joint, at), 1e-6)
+        span = float(np.ptp(joint.range))
+        effort = joint.effort or DEFAULT_EFFORT
+        seconds = min(max(1.0, np.pi * np.sqrt(inertia * span / effort)), MAX_ENGINE_SECONDS)
+        against = max(4 * joint.friction / max(REACHED_RATIO * span, 1e-9), MIN_SETTLING_RATIO * joint.damping / seconds)
+        stiffness = max(inertia * MOTOR_FREQUENCY**2, against)
+        motors[joint.name] = Motor(stiffness, 2 * float(np.sqrt(stiffness * inertia)), effort, float(seconds))
+    return motors
+
+
+def _inertia(robot: Robot, joint: RobotJoint, at: Mapping[str, np.ndarray]) -> float:
+    """Compute the inertia that a motor of the joint moves, at rest [kg or kg m2]."""
+    carried, T = robot.carried(joint.child), at[joint.child]
+    axis = T[:3, :3] @ joint.axis / np.linalg.norm(joint.axis)
+    total = 0.0
+    for link in (b for b in robot.links if b.name in carried and b.inertial is not None):
+        if joint.type == "prismatic":
+            total += link.inertial.mass
+            continue
+        turn, place = at[link.name][:3, :3], at[link.name][:3, 3]
+        arm = np.cross(axis, turn @ link.inertial.center + place - T[:3, 3])
+        own = axis @ turn @ link.inertial.tensor @ turn.T @ axis
+        total += float(own + link.inertial.mass * arm @ arm)
+    return total
+
+
+def readable(robot: Robot) -> Robot:
+    """Return the robot if engines can load it. Raise InputError if its joints do not form a tree, or an axis is zero."""
+    names = {link.name for link in robot.links}
+    lost = [j.name for j in robot.joints if not {j.parent, j.child} <= names]
+    if lost or len(robot.roots) != 1 or any(not np.linalg.norm(j.axis) > 0 for j in robot.moving):
+        raise InputError(f"{robot.path.name} is not a tree of joints with one root and nonzero axes")
+    try:
+        robot.placements({})
+    except ValueError as error:
+        raise InputError(f"{robot.path.name}: {error}") from None
+    return robot
+
+
+def load_engine(module: str, *, shown: str, extra: str) -> ModuleType:
+    """Import an engine's module. Raise MissingExtraError, naming the extra, if it cannot be imported."""
+    try:
+        return import_module(module)
+    except ImportError as error:
+        message = f"{shown} is not installed ({error}); install it with `pip install articulate-anymesh[{extra}]`"
+        raise MissingExtraError(message) from error
+
+
+def engine_version(distribution: str, shown: str) -> str:
+    """Return name and version, as in reports."""
+    return f"{shown} {version(distribution)}"
+
+
+def finite_limits(lower: float, upper: float) -> Limits:
+    """Return limits as read by an engine; None if they are infinite, as engines write those of continuous joints."""
+    return (float(lower), float(upper)) if np.isfinite([lower, upper]).all() else None
+
+
+def pose_matrix(position: np.ndarray, quaternion: np.ndarray) -> Float[np.ndarray, "4 4"]:
+    """Convert a position and a unit quaternion (x, y, z, w) to a transform."""
+    from scipy.spatial.transform import Rotation
+
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = Rotation.from_quat(quaternion).as_matrix(), position
+    return T
 
 
 @runtime_checkable
-class World(Protocol):
+class EngineWorld(Protocol):
     """Protocol of one asset in one engine: root fixed, no gravity, one motor per joint."""
 
     engine: str  # name and version
-
-    @property
-    def joints(self) -> Sequence[ReadBack]:
-        """Moving joints."""
+    limits: dict[str, Limits]  # moving joint -> limits as the engine read them, None if it has none
 
     def reset(self) -> None:
         """Set all joints to 0, at rest."""
 
     def step(self, targets: Float[np.ndarray, " n"]) -> None:
-        """Advance by STEP seconds, with motor targets [rad or m], in the order of `joints`."""
+        """Advance by STEP seconds, with motor targets [rad or m], in the order of `limits`."""
 
     def positions(self) -> Float[np.ndarray, " n"]:
-        """Return the positions of the joints, in the order of `joints`."""
+        """Return the positions of the joints, in the order of `limits`."""
 
-    def origin(self, link: str) -> Float[np.ndarray, " 3"]:
-        """Return the origin of a link's frame, in the root's frame [m]."""
-
-    def turned(self, link: str) -> Float[np.ndarray, "3 3"]:
-        """Return the rotation of a link's axes in the root's frame."""
+    def pose(self, link: str) -> Float[np.ndarray, "4 4"]:
+        """Return the transform from a link's frame to the root's."""
 
 
-def drive(world: World, robot: Robot) -> SweepReport:
+def drive(world: EngineWorld, robot: Robot) -> SweepReport:
     """Drive every joint to its upper limit, then to its lower one, with the others held at rest; return the report.
 
     A joint that fails is tried again with others opened (such as a drawer behind a door), which the report states. A joint that
     the engine does not know is a fault, and so are limits that differ from the file.
     """
-    known = {j.name: k for k, j in enumerate(world.joints)}
-    motors = {m.joint: m for m in motors_of(robot)}
-    extent = _extent(robot)
+    motors, extent = motors_of(robot), _extent(robot)
     sweeps = []
     for joint in robot.moving:
-        if joint.name not in known:
-            lower, upper = joint.range
+        if joint.name in world.limits:
+            sweeps.append(_cleared(world, robot, joint, motors, extent))
+        else:
             missing = ("the engine does not know this joint",)
-            sweeps.append(JointSweep(joint.name, joint.type, lower, upper, 0.0, 0.0, None, "", 0.0, 0.0, missing))
-            continue
-        sweeps.append(_cleared(world, robot, joint, motors, extent))
+            sweeps.append(JointSweep(joint.name, joint.type, *joint.range, 0.0, 0.0, None, "", 0.0, 0.0, missing))
     return SweepReport(world.engine, tuple(sweeps), ())
 
 
@@ -82,14 +207,12 @@ def _extent(robot: Robot) -> float:
     return max(float(np.linalg.norm(np.ptp(points, axis=0))), 1e-3)
 
 
-def _cleared(world: World, robot: Robot, joint: RobotJoint, motors: Mapping[str, Motor], extent: float) -> JointSweep:
+def _cleared(world: EngineWorld, robot: Robot, joint: RobotJoint, motors: Mapping[str, Motor], extent: float) -> JointSweep:
     """Sweep a joint at rest; if that fails, with one other joint opened that may be in the way, or with all of those."""
     sweep = _swept(world, robot, joint, motors, extent, ())
     related = robot.carried(joint.child)
-    known = {j.name for j in world.joints}
-    free = [
-        j.name for j in robot.moving if j.name in known and j.child not in related and joint.child not in robot.carried(j.child)
-    ]
+    others = [j for j in robot.moving if j.name in world.limits and j.child not in related]
+    free = [j.name for j in others if joint.child not in robot.carried(j.child)]
     tries = [(name,) for name in free] + ([tuple(free)] if len(free) > 1 else [])
     for opened in tries if sweep.faults else ():
         again = _swept(world, robot, joint, motors, extent, opened)
@@ -99,15 +222,16 @@ def _cleared(world: World, robot: Robot, joint: RobotJoint, motors: Mapping[str,
 
 
 def _swept(
-    world: World, robot: Robot, joint: RobotJoint, motors: Mapping[str, Motor], extent: float, opened: Sequence[str]
+    world: EngineWorld, robot: Robot, joint: RobotJoint, motors: Mapping[str, Motor], extent: float, opened: Sequence[str]
 ) -> JointSweep:
+    """Drive a joint to both limits, after opening other joints."""
     lower, upper = joint.range
     reached, drift, off = {}, 0.0, 0.0
-    names = [j.name for j in world.joints]
+    names, ranges = list(world.limits), {j.name: j.range for j in robot.moving}
     index = names.index(joint.name)
     others = np.arange(len(names)) != index
     targets = np.zeros(len(names))
-    open_at = np.array([j.range[1] if j.name in opened else 0.0 for name in names for j in robot.moving if j.name == name])
+    open_at = np.array([ranges[name][1] if name in opened else 0.0 for name in names])
     world.reset()
     for share in _smooth(max(motors[name].seconds for name in opened)) if opened else ():
         targets = share * open_at
@@ -123,7 +247,7 @@ def _swept(
         off = max(off, _off(world, robot, joint, now))
         reached[goal] = float(now[index])
         start = goal
-    faults = _faults(joint, world.joints[index], (reached[lower], reached[upper]), off, extent)
+    faults = _faults(joint, world.limits[joint.name], (reached[lower], reached[upper]), off, extent)
     return JointSweep(joint.name, joint.type, lower, upper, reached[lower], reached[upper], None, "", drift, off, faults)
 
 
@@ -132,28 +256,36 @@ def _smooth(seconds: float) -> Float[np.ndarray, " n"]:
     return (1 - np.cos(np.linspace(0, np.pi, round(seconds / STEP)))) / 2
 
 
-def _off(world: World, robot: Robot, joint: RobotJoint, positions: np.ndarray) -> float:
+def _off(world: EngineWorld, robot: Robot, joint: RobotJoint, positions: np.ndarray) -> float:
     """Compute the distance of the link's centre of mass from its position by the file's joints [m]."""
-    at = robot.placements(dict(zip((j.name for j in world.joints), positions.tolist(), strict=True)))
+    at = robot.placements(dict(zip(world.limits, positions.tolist(), strict=True)))
     T = np.linalg.inv(at[robot.roots[0]]) @ at[joint.child]
-    link = next(b for b in robot.links if b.name == joint.child)
-    center = np.zeros(3) if link.inertial is None else link.inertial.center
-    there = world.turned(joint.child) @ center + world.origin(joint.child)
-    return float(np.linalg.norm(T[:3, :3] @ center + T[:3, 3] - there))
+    inertial = next(b.inertial for b in robot.links if b.name == joint.child)
+    there = world.pose(joint.child)
+    center = np.zeros(3) if inertial is None else inertial.center
+    return float(np.linalg.norm(T[:3, :3] @ center + T[:3, 3] - (there[:3, :3] @ center + there[:3, 3])))
 
 
-def _faults(joint: RobotJoint, read: ReadBack, reached: tuple[float, float], off: float, extent: float) -> tuple[str, ...]:
+def _faults(joint: RobotJoint, read: Limits, reached: tuple[float, float], off: float, extent: float) -> tuple[str, ...]:
     if not np.isfinite([*reached, off]).all():
-        return ("the simulation became unstable",)
+        return (UNSTABLE,)
     faults = []
-    span = float(np.ptp(joint.range))
-    if joint.type != "continuous" and (read.limits is None or np.abs(np.subtract(read.limits, joint.range)).max() > SAME):
-        faults.append(f"the engine reads the limits {joint.range} as {read.limits}")
-    for word, limit, at in (("upper", joint.range[1], reached[1]), ("lower", joint.range[0], reached[0])):
-        if abs(at - limit) > REACHED_RATIO * span:
+    if joint.type != "continuous" and (read is None or np.abs(np.subtract(read, joint.range)).max() > SAME):
+        faults.append(f"the engine reads the limits {joint.range} as {read}")
+    return (*faults, *motor_faults(joint.range, reached), *place_faults(off, extent))
+
+
+def motor_faults(limits: tuple[float, float], reached: tuple[float, float]) -> list[str]:
+    """Describe what a motor did not do. limits, reached: lower and upper [rad or m]."""
+    faults, tolerance = [], REACHED_RATIO * float(np.ptp(limits))
+    for word, limit, at in (("upper", limits[1], reached[1]), ("lower", limits[0], reached[0])):
+        if abs(at - limit) > tolerance:
             faults.append(f"a motor brings it to {at:.4g} only, not to its {word} limit {limit:.4g}")
-    if abs(reached[1] - reached[0]) < REACHED_RATIO * span:
+    if abs(reached[1] - reached[0]) < tolerance:
         faults.append("it does not move")
-    if off > DEEP * extent:
-        faults.append(f"its link is {off:.4g} m from where the joint should place it")
-    return tuple(faults)
+    return faults
+
+
+def place_faults(off: float, extent: float) -> list[str]:
+    """Describe a link that left its axis. off: distance from its place [m]; extent: of the asset [m]."""
+    return [f"its link is {off:.4g} m from where the joint should place it"] if off > DEEP * extent else []

@@ -12,9 +12,8 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.checking.engines.mujoco_bench_ import read_spec
+from anymesh.checking.engines.mujoco_ import load_errors, name_elements, read_spec
 from anymesh.checking.engines.robot import Geometry, Inertial, Robot, RobotJoint, RobotLink, shape_triangles
-from anymesh.errors import InputError
 from anymesh.mujoco_ import load_mujoco
 
 
@@ -22,17 +21,13 @@ def read_mjcf(path: Path) -> Robot:
     """Read the links and joints of an MJCF. Raise InputError if MuJoCo rejects it, MissingExtraError without MuJoCo."""
     mujoco = load_mujoco()
     path = Path(path)
-    try:
+    with load_errors(mujoco, path):
         spec = read_spec(mujoco, path)
         spec.compiler.fusestatic = False
         for mesh in spec.meshes:
             mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # flat visuals have no volume
-        for word, things in (("joint", spec.joints), ("body", spec.bodies)):
-            for number, thing in enumerate(things):
-                thing.name = thing.name or f"{word}_{number}"
+        name_elements(spec)
         model = spec.compile()
-    except (ValueError, mujoco.FatalError, InputError) as error:
-        raise InputError(f"MuJoCo cannot load {path}: {' '.join(str(error).split())}") from error
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     pictures = tuple(str(Path(spec.texturedir) / t.file) for t in spec.textures if t.file)

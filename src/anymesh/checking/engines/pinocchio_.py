@@ -2,32 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.checking.engines.driving import STEP, ReadBack, drive
-from anymesh.checking.engines.motors import Motor, motors_of, readable
-from anymesh.checking.engines.outside import engine_version, load_engine
-from anymesh.checking.engines.report import SweepReport
-from anymesh.checking.engines.urdf import read_urdf
+from anymesh.checking.engines.driving import STEP, Limits, Motor, engine_version, load_engine
+from anymesh.checking.engines.robot import Robot
 from anymesh.errors import InputError
 
 
-def sweep_joints(path: Path) -> SweepReport:
-    """Drive every joint of a URDF over its range. Raise InputError if Pinocchio cannot load it.
+class World:
+    """The asset of a URDF in Pinocchio. Raise InputError if it cannot be loaded, MissingExtraError without the engine."""
 
-    Raise MissingExtraError without Pinocchio.
-    """
-    pinocchio = load_engine("pinocchio", shown="Pinocchio", extra="pinocchio")
-    robot = readable(read_urdf(path))
-    return drive(_World(pinocchio, Path(path), motors_of(robot)), robot)
-
-
-class _World:
-    def __init__(self, pinocchio: Any, path: Path, motors: tuple[Motor, ...]) -> None:
+    def __init__(self, path: Path, robot: Robot, motors: Mapping[str, Motor]) -> None:
+        pinocchio = load_engine("pinocchio", shown="Pinocchio", extra="pinocchio")
         self.engine = engine_version("pin", "pinocchio")
         self.pin = pinocchio
         try:
@@ -36,21 +26,15 @@ class _World:
             raise InputError(f"Pinocchio cannot load {path}: {error}") from error
         self.model.gravity.setZero()
         self.data = self.model.createData()
-        self.numbers = range(1, self.model.njoints)  # 0 is the world
-        names = [self.model.names[k] for k in self.numbers]
-        self.joints = [ReadBack(n, self._child(n), self._limits(k)) for k, n in zip(self.numbers, names, strict=True)]
-        by_name = {m.joint: m for m in motors}
-        self.stiffness = np.array([by_name[n].stiffness for n in names])
-        self.damping = np.array([by_name[n].damping for n in names])
-        self.effort = np.array([by_name[n].effort for n in names])
+        numbers = range(1, self.model.njoints)  # 0 is the world
+        names = [self.model.names[k] for k in numbers]
+        self.limits = {n: self._limits(k) for k, n in zip(numbers, names, strict=True)}
+        self.stiffness = np.array([motors[n].stiffness for n in names])
+        self.damping = np.array([motors[n].damping for n in names])
+        self.effort = np.array([motors[n].effort for n in names])
         self.reset()
 
-    def _child(self, joint: str) -> str:
-        number = self.model.getJointId(joint)
-        kind = self.pin.FrameType.BODY
-        return next(f.name for f in self.model.frames if f.type == kind and f.parentJoint == number)
-
-    def _limits(self, number: int) -> tuple[float, float] | None:
+    def _limits(self, number: int) -> Limits:
         joint = self.model.joints[number]
         if joint.nq != 1:
             return None
@@ -75,12 +59,6 @@ class _World:
         """Return the integrated velocities, since a continuous joint is stored as cosine and sine."""
         return self.at
 
-    def _placed(self, link: str) -> Any:
+    def pose(self, link: str) -> Float[np.ndarray, "4 4"]:
         self.pin.framesForwardKinematics(self.model, self.data, self.q)
-        return self.data.oMf[self.model.getFrameId(link, self.pin.FrameType.BODY)]
-
-    def origin(self, link: str) -> Float[np.ndarray, " 3"]:
-        return np.array(self._placed(link).translation)
-
-    def turned(self, link: str) -> Float[np.ndarray, "3 3"]:
-        return np.array(self._placed(link).rotation)
+        return np.array(self.data.oMf[self.model.getFrameId(link, self.pin.FrameType.BODY)].homogeneous)

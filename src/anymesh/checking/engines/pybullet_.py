@@ -2,36 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.checking.engines.driving import STEP, ReadBack, drive
-from anymesh.checking.engines.motors import Motor, motors_of, readable
-from anymesh.checking.engines.outside import engine_version, load_engine
-from anymesh.checking.engines.report import SweepReport
-from anymesh.checking.engines.urdf import read_urdf
+from anymesh.checking.engines.driving import STEP, Limits, Motor, engine_version, load_engine
+from anymesh.checking.engines.robot import Robot
 from anymesh.errors import InputError
 
 
-def sweep_joints(path: Path) -> SweepReport:
-    """Drive every joint of a URDF over its range. Raise InputError if PyBullet cannot load it.
+class World:
+    """The asset of a URDF in PyBullet. Raise InputError if it cannot be loaded, MissingExtraError without the engine."""
 
-    Raise MissingExtraError without PyBullet.
-    """
-    bullet = load_engine("pybullet", shown="PyBullet", extra="pybullet")
-    robot = readable(read_urdf(path))
-    world = _World(bullet, Path(path), motors_of(robot))
-    try:
-        return drive(world, robot)
-    finally:
-        bullet.disconnect(world.client)
-
-
-class _World:
-    def __init__(self, bullet: Any, path: Path, motors: tuple[Motor, ...]) -> None:
+    def __init__(self, path: Path, robot: Robot, motors: Mapping[str, Motor]) -> None:
+        bullet = load_engine("pybullet", shown="PyBullet", extra="pybullet")
         self.bullet = bullet
         self.engine = engine_version("pybullet", "pybullet")
         self.client = bullet.connect(bullet.DIRECT)
@@ -42,16 +28,15 @@ class _World:
             self.body = bullet.loadURDF(str(path), useFixedBase=True, flags=flags, physicsClientId=self.client)
         except bullet.error as error:
             raise InputError(f"PyBullet cannot load {path}: {error}") from error
-        self.index, self.links, self.joints = [], {}, []
+        self.index, self.links, self.limits = [], {}, dict[str, Limits]()
         for k in range(bullet.getNumJoints(self.body, physicsClientId=self.client)):
             info = bullet.getJointInfo(self.body, k, physicsClientId=self.client)
             self.links[info[12].decode()] = k
             if info[2] in (bullet.JOINT_REVOLUTE, bullet.JOINT_PRISMATIC):
                 limits = (float(info[8]), float(info[9]))
-                self.joints.append(ReadBack(info[1].decode(), info[12].decode(), limits if limits[0] <= limits[1] else None))
+                self.limits[info[1].decode()] = limits if limits[0] <= limits[1] else None
                 self.index.append(k)
-        by_name = {m.joint: m for m in motors}
-        self.motors = [by_name[j.name] for j in self.joints]
+        self.motors = [motors[name] for name in self.limits]
 
     def reset(self) -> None:
         for k in self.index:
@@ -69,11 +54,8 @@ class _World:
         states = self.bullet.getJointStates(self.body, self.index, physicsClientId=self.client)
         return np.array([state[0] for state in states])
 
-    def _state(self, link: str) -> tuple:
-        return self.bullet.getLinkState(self.body, self.links[link], computeForwardKinematics=1, physicsClientId=self.client)
-
-    def origin(self, link: str) -> Float[np.ndarray, " 3"]:
-        return np.array(self._state(link)[4])
-
-    def turned(self, link: str) -> Float[np.ndarray, "3 3"]:
-        return np.array(self.bullet.getMatrixFromQuaternion(self._state(link)[5])).reshape(3, 3)
+    def pose(self, link: str) -> Float[np.ndarray, "4 4"]:
+        state = self.bullet.getLinkState(self.body, self.links[link], computeForwardKinematics=1, physicsClientId=self.client)
+        T = np.eye(4)
+        T[:3, :3], T[:3, 3] = np.array(self.bullet.getMatrixFromQuaternion(state[5])).reshape(3, 3), state[4]
+        return T

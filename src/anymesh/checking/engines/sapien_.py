@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import tempfile
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -10,19 +11,9 @@ from xml.etree import ElementTree
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.checking.engines.driving import STEP, ReadBack, drive
-from anymesh.checking.engines.motors import Motor, motors_of, readable
-from anymesh.checking.engines.outside import engine_version, load_engine
-from anymesh.checking.engines.report import SweepReport
-from anymesh.checking.engines.urdf import read_urdf
+from anymesh.checking.engines.driving import STEP, Limits, Motor, engine_version, finite_limits, load_engine
+from anymesh.checking.engines.robot import Robot
 from anymesh.errors import InputError
-
-
-def sweep_joints(path: Path) -> SweepReport:
-    """Drive every joint of a URDF over its range. Raise InputError if SAPIEN cannot load it, MissingExtraError without it."""
-    sapien = load_engine("sapien", shown="SAPIEN", extra="sapien")
-    robot = readable(read_urdf(path))
-    return drive(_World(sapien, Path(path), motors_of(robot)), robot)
 
 
 def without_visuals(path: Path) -> str:
@@ -38,8 +29,11 @@ def without_visuals(path: Path) -> str:
     return ElementTree.tostring(root, encoding="unicode")
 
 
-class _World:
-    def __init__(self, sapien: Any, path: Path, motors: tuple[Motor, ...]) -> None:
+class World:
+    """The asset of a URDF in SAPIEN. Raise InputError if it cannot be loaded, MissingExtraError without the engine."""
+
+    def __init__(self, path: Path, robot: Robot, motors: Mapping[str, Motor]) -> None:
+        sapien = load_engine("sapien", shown="SAPIEN", extra="sapien")
         self.engine = engine_version("sapien", "sapien")
         physics = sapien.physx.PhysxCpuSystem()
         self.scene = sapien.Scene([physics])
@@ -57,10 +51,9 @@ class _World:
         for link in self.body.links:
             link.disable_gravity = True
         self.active = list(self.body.active_joints)
-        by_name = {m.joint: m for m in motors}
-        self.joints = [ReadBack(j.name, j.child_link.name, _limits(j)) for j in self.active]
+        self.limits = {j.name: _limits(j) for j in self.active}
         for joint in self.active:
-            motor = by_name[joint.name]
+            motor = motors[joint.name]
             joint.set_drive_properties(motor.stiffness, motor.damping, motor.effort, "force")
         self.links = {link.name: link for link in self.body.links}
 
@@ -76,17 +69,10 @@ class _World:
     def positions(self) -> Float[np.ndarray, " n"]:
         return np.array(self.body.get_qpos(), float)
 
-    def _placed(self, link: str) -> Float[np.ndarray, "4 4"]:
+    def pose(self, link: str) -> Float[np.ndarray, "4 4"]:
         root = self.body.root.entity_pose.to_transformation_matrix()
         return np.linalg.inv(root) @ self.links[link].entity_pose.to_transformation_matrix()
 
-    def origin(self, link: str) -> Float[np.ndarray, " 3"]:
-        return self._placed(link)[:3, 3]
 
-    def turned(self, link: str) -> Float[np.ndarray, "3 3"]:
-        return self._placed(link)[:3, :3]
-
-
-def _limits(joint: Any) -> tuple[float, float] | None:
-    lower, upper = (float(v) for v in np.asarray(joint.limits).reshape(-1)[:2])
-    return (lower, upper) if np.isfinite([lower, upper]).all() else None
+def _limits(joint: Any) -> Limits:
+    return finite_limits(*np.asarray(joint.limits).reshape(-1)[:2])

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import html
+import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 from anymesh.checking.content import Content, Solid
+from anymesh.checking.engines.files import find_file
 from anymesh.checking.report import Finding, failure, warning
 from anymesh.geometry.topology import components
 from anymesh.types.triangles import normals_and_areas
 
-CHECK = "meshes"
+MESHES = "meshes"
 NOTHING = 1e-12  # share of a mesh's squared diagonal, below which a face has no area
 MANY = 0.05  # share of a mesh's faces without area above which a warning is given
 CLOSED = 0.5  # share of a link's surface that must belong to closed bodies for volume and inertia to be computable
@@ -19,12 +24,18 @@ TINY, HUGE = 1e-4, 1e2  # [m] plausible diagonals of a link
 APART = 0.25  # share of the link's diagonal by which collision may extend outside the visual
 UNITS = 10.0  # ratio of sizes that indicates different units
 LARGE = 200_000  # maximum number of faces of a mesh; engines are slow with more, and hulls need few
+SCALE = "scale"
+MIN_DIAGONAL, MAX_DIAGONAL = 0.01, 20.0  # [m] diagonal of articulated objects, from a clasp to a gate
+BEYOND = 10.0  # factor beyond these that indicates other units
+TEXTURE = "texture"
+MESH_FOLDER = "meshes"  # mesh folder of an asset of this project
+PICTURES = (".png", ".jpg", ".jpeg")
 
 
 def check_meshes(content: Content) -> Iterator[Finding]:
     """Check that meshes are readable, not empty or degenerate, closed, of plausible size, and that collision fits visuals."""
     for link, text in content.unread:
-        yield failure(CHECK, link, text)
+        yield failure(MESHES, link, text)
     for link in content.robot.links:
         for solid in (*content.visuals[link.name], *content.collisions[link.name]):
             yield from _faces(link.name, solid)
@@ -35,17 +46,17 @@ def check_meshes(content: Content) -> Iterator[Finding]:
 
 def _faces(link: str, solid: Solid) -> Iterator[Finding]:
     if not np.isfinite(solid.triangles).all():
-        yield failure(CHECK, link, f"{solid.shown} has corners that are not finite")
+        yield failure(MESHES, link, f"{solid.shown} has corners that are not finite")
         return
     areas = normals_and_areas(solid.triangles)[1]
     diagonal = float(np.linalg.norm(np.ptp(solid.bounds, axis=0)))
     flat = float((areas <= NOTHING * diagonal**2).mean())
     if not areas.any():
-        yield failure(CHECK, link, f"{solid.shown} has no face with an area")
+        yield failure(MESHES, link, f"{solid.shown} has no face with an area")
     elif flat > MANY:
-        yield warning(CHECK, link, f"{flat:.0%} of the faces of {solid.shown} have no area; valid is at most {MANY:.0%}")
+        yield warning(MESHES, link, f"{flat:.0%} of the faces of {solid.shown} have no area; valid is at most {MANY:.0%}")
     if len(areas) > LARGE:
-        yield warning(CHECK, link, f"{solid.shown} has {len(areas)} faces; at most {LARGE} load in reasonable time")
+        yield warning(MESHES, link, f"{solid.shown} has {len(areas)} faces; at most {LARGE} load in reasonable time")
 
 
 def closed_share(solid: Solid) -> float:
@@ -67,7 +78,7 @@ def _closed(content: Content, link: str) -> Iterator[Finding]:
     share = float((area * [closed_share(s) for s in solids]).sum() / max(area.sum(), 1e-300))
     if share < CLOSED:
         problem = f"{share:.0%} of its surface belongs to closed bodies"
-        yield warning(CHECK, link, f"{problem}; below {CLOSED:.0%} volume and inertia cannot be computed from it")
+        yield warning(MESHES, link, f"{problem}; below {CLOSED:.0%} volume and inertia cannot be computed from it")
 
 
 def _size(content: Content, link: str) -> Iterator[Finding]:
@@ -76,7 +87,7 @@ def _size(content: Content, link: str) -> Iterator[Finding]:
         return
     diagonal = float(np.linalg.norm(np.ptp(points, axis=0)))
     if not TINY <= diagonal <= HUGE:
-        yield warning(CHECK, link, f"its diagonal is {diagonal:.3g} m; valid is {TINY:g} to {HUGE:g} m")
+        yield warning(MESHES, link, f"its diagonal is {diagonal:.3g} m; valid is {TINY:g} to {HUGE:g} m")
 
 
 def _agreement(content: Content, link: str) -> Iterator[Finding]:
@@ -89,15 +100,64 @@ def _agreement(content: Content, link: str) -> Iterator[Finding]:
         return
     if not 1 / UNITS < other / diagonal < UNITS:
         yield failure(
-            CHECK, link, f"its collision is {other / diagonal:.3g} times as large as its visual; are the units right?"
+            MESHES, link, f"its collision is {other / diagonal:.3g} times as large as its visual; are the units right?"
         )
         return
     outside = max(float((low - a).max()), float((b - high).max())) / diagonal
     if outside > APART:
         problem = f"its collision extends beyond the visible surface by {outside:.0%} of its diagonal"
-        yield warning(CHECK, link, f"{problem}; at most {APART:.0%} is valid")
+        yield warning(MESHES, link, f"{problem}; at most {APART:.0%} is valid")
 
 
 def _bounds(shapes: list[np.ndarray]) -> np.ndarray:
     points = np.concatenate(shapes).reshape(-1, 3)
     return np.array([points.min(0), points.max(0)])
+
+
+def check_scale(content: Content) -> Iterator[Finding]:
+    """Check that the diagonal at rest is plausible in metres."""
+    diagonal = content.diagonal
+    if diagonal == 0:
+        yield failure(SCALE, "", "the object has no shape; links need visual or collision shapes")
+    elif not MIN_DIAGONAL <= diagonal <= MAX_DIAGONAL:
+        far = not MIN_DIAGONAL / BEYOND <= diagonal <= MAX_DIAGONAL * BEYOND
+        problem = f"the object's diagonal is {diagonal:.4g} m; plausible is {MIN_DIAGONAL:g} to {MAX_DIAGONAL:g} m"
+        yield failure(SCALE, "", f"{problem}; are the units metres?") if far else warning(SCALE, "", problem)
+
+
+def check_texture(content: Content, *, ours: bool) -> Iterator[Finding]:
+    """Check that material files and textures exist and can be read. ours: made by anymesh; then unused textures are reported.
+
+    Missing materials in mesh files of other sources are a warning, since such meshes are shown in one colour.
+    """
+    for link in content.robot.links:
+        warnings = [text for solid in content.visuals[link.name] for text in solid.warnings]
+        for text in dict.fromkeys(warnings):
+            yield failure(TEXTURE, link.name, text) if ours else warning(TEXTURE, link.name, text)
+    folder = content.robot.path.parent
+    for reference in content.robot.pictures:
+        picture = find_file(reference, folder)
+        if picture is None:
+            yield failure(TEXTURE, "", f"the picture {reference} is not there")
+        elif (broken := _broken(picture)) is not None:
+            yield failure(TEXTURE, "", f"the picture {reference} cannot be read: {broken}")
+    if ours:
+        yield from _unused(folder / MESH_FOLDER)
+
+
+def _broken(path: Path) -> str | None:
+    try:
+        with Image.open(path) as picture:
+            picture.load()
+    except (OSError, ValueError, SyntaxError, Image.DecompressionBombError) as error:
+        return " ".join(str(error).split())
+    return None
+
+
+def _unused(folder: Path) -> Iterator[Finding]:
+    """Report pictures that neither a material library nor a description (MJCF needs PNG) names."""
+    naming = sorted([*folder.glob("*.mtl"), *(p for kind in ("xml", "urdf", "sdf") for p in folder.parent.glob(f"*.{kind}"))])
+    text = html.unescape("\n".join(p.read_text(encoding="utf-8", errors="replace") for p in naming))
+    for path in sorted(folder.iterdir()) if folder.is_dir() else ():
+        if path.suffix.lower() in PICTURES and not re.search(rf"(?<![\w.-]){re.escape(path.name)}(?![\w.-])", text):
+            yield warning(TEXTURE, path.name, "no material uses this picture")

@@ -1,0 +1,173 @@
+"""Check "inertia": masses and inertia tensors that are possible for the shapes."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from jaxtyping import Bool, Float
+from scipy.spatial import ConvexHull, QhullError
+
+from anymesh.checking.content import Content, joined, rigid_groups
+from anymesh.checking.engines.robot import Inertial, RobotLink
+from anymesh.checking.report import Finding, failure, warning
+from anymesh.geometry.distance_ import distance_to_triangles, winding_number
+from anymesh.geometry.simplify_ import simplify
+
+INERTIA = "inertia"
+REL_TOLERANCE = 1e-6  # relative, for rounded numbers
+LIKE = 0.05  # relative; boxes that differ by less have the same size
+GROWN = 0.1  # share of its diagonal; maximum distance of the centre of mass from the link's box
+FAR = 0.5  # share of its diagonal; a centre of mass further out is a failure
+LIGHTEST, HEAVIEST = 0.5, 22_600.0  # [kg/m3] of the link's box: a frame of thin sheet; osmium
+SMALL, LARGE = 0.15, 1.1  # root mean square distance from the centre of mass, over the distance of the furthest corner
+COLLISION = "collision"
+OVERLAP = 0.01  # share of the object's diagonal; engines push apart links that overlap by more at rest
+GRID = 16  # points per side of the grid on which cavities are searched
+HOLLOW = 0.1  # minimum share of empty space in the convex hull of the visuals for a cavity
+FILLED = 0.5  # share of the empty space; collision shapes that fill more close the cavity
+FACES = 10_000  # maximum number of faces of the visible surface, for this check
+
+
+def check_inertia(content: Content) -> Iterator[Finding]:
+    """Check that masses are positive, tensors are possible, centres of mass are in the link, and magnitudes fit the shape."""
+    given = [(b, b.inertial) for b in content.robot.links if b.inertial is not None]
+    moved = {link for j in content.robot.moving for link in content.robot.carried(j.child)}
+    for link in content.robot.links:
+        shaped = bool(link.visuals or link.collisions)
+        if link.inertial is None and shaped and link.name in moved:
+            yield failure(INERTIA, link.name, "it moves and has no inertia; engines reject it or use their own")
+        elif link.inertial is None and shaped and content.robot.format == "URDF":  # in an MJCF it belongs to the world
+            yield warning(INERTIA, link.name, "it has no inertia; engines that let the base move need one")
+    groups = rigid_groups(content.robot)
+    masses = {link.name: i.mass for link, i in given}
+    for link, inertial in given:
+        if inertial.mass == 0 and (link.name not in moved or sum(masses.get(n, 0) for n in groups[link.name]) > 0):
+            yield warning(INERTIA, link.name, "its mass is 0 kg; engines that take links by themselves need one above 0")
+            continue
+        findings = tuple(_possible(link.name, inertial))
+        yield from findings
+        if not findings:
+            yield from _fitting(content, link, inertial)
+    yield from _placeholder(content, given)
+
+
+def _possible(link: str, inertial: Inertial) -> Iterator[Finding]:
+    if not inertial.mass > 0:
+        yield failure(INERTIA, link, f"its mass is {inertial.mass:.4g} kg; it must be above 0")
+        return
+    a, b, c = np.linalg.eigvalsh(inertial.tensor)
+    shown = f"its principal moments are {a:.4g}, {b:.4g} and {c:.4g} kg m2"
+    if not a > 0:
+        yield failure(INERTIA, link, f"{shown}; all must be above 0")
+    elif a + b < c * (1 - REL_TOLERANCE):
+        yield failure(INERTIA, link, f"{shown}; none may exceed the sum of the others")
+
+
+def _fitting(content: Content, link: RobotLink, inertial: Inertial) -> Iterator[Finding]:
+    points = content.shown(link.name).reshape(-1, 3)
+    if not len(points) or not np.isfinite(points).all():
+        return
+    low, high = points.min(0), points.max(0)
+    diagonal = float(np.linalg.norm(high - low))
+    outside = float(np.maximum(low - inertial.center, inertial.center - high).max())
+    if outside > GROWN * diagonal:
+        shown = ", ".join(f"{v:.4g}" for v in inertial.center)
+        problem = f"its centre of mass ({shown}) lies {outside:.3g} m outside of its box; valid is inside"
+        yield failure(INERTIA, link.name, problem) if outside > FAR * diagonal else warning(INERTIA, link.name, problem)
+        return
+    volume = float(np.prod(np.maximum(high - low, 0.01 * diagonal)))
+    density = inertial.mass / max(volume, 1e-300)
+    if not LIGHTEST <= density <= HEAVIEST:
+        problem = f"its mass of {inertial.mass:.4g} kg in its box is a density of {density:.3g} kg/m3"
+        yield warning(INERTIA, link.name, f"{problem}; plausible is {LIGHTEST:g} to {HEAVIEST:g}")
+    spread = float(np.sqrt(np.trace(inertial.tensor) / 2 / inertial.mass))
+    farthest = float(np.linalg.norm(np.maximum(high - inertial.center, inertial.center - low)))
+    if not SMALL <= spread / max(farthest, 1e-300) <= LARGE:
+        problem = (
+            f"its inertia corresponds to mass {spread:.3g} m from its centre; its farthest corner is {farthest:.3g} m away"
+        )
+        yield warning(INERTIA, link.name, f"{problem}; a ratio of {SMALL:g} to {LARGE:g} is plausible")
+
+
+def _placeholder(content: Content, given: list[tuple[RobotLink, Inertial]]) -> Iterator[Finding]:
+    """Detect placeholder tensors: one tensor for boxes of several sizes, or tensors of balls for boxes that are not cubes."""
+    known = [(i.tensor, np.ptp(content.shown(b.name).reshape(-1, 3), axis=0)) for b, i in given if len(content.shown(b.name))]
+    if len(known) < 2:
+        return
+    tensors, sizes = (np.array(values) for values in zip(*known, strict=True))
+    size = float(np.abs(tensors[0]).max())
+    alike = np.allclose(sizes, sizes[0], rtol=LIKE)
+    cubes = all(np.ptp(s) <= LIKE * s.max() for s in sizes)
+    same = np.allclose(tensors, tensors[0], rtol=REL_TOLERANCE, atol=0)
+    balls = all(np.allclose(t, t[0, 0] * np.eye(3), rtol=REL_TOLERANCE, atol=REL_TOLERANCE * abs(t[0, 0])) for t in tensors)
+    if (same and not alike) or (balls and not cubes):
+        problem = (
+            f"all {len(tensors)} links have the tensor of a sphere" if balls else f"all {len(tensors)} links have one tensor"
+        )
+        yield warning(
+            INERTIA, "", f"{problem} (such as {size:.3g} kg m2): placeholders; valid is each link's own, from its shape"
+        )
+
+
+def check_collision(content: Content, contacts: Mapping[tuple[str, str], float] | None) -> Iterator[Finding]:
+    """Check collision shapes. contacts: depth of each pair of links in contact at rest [m], None if unknown."""
+    robot = content.robot
+    groups = rigid_groups(robot)
+    for joint in robot.moving:
+        body = groups[joint.child]
+        if any(content.visuals[name] for name in body) and not any(content.collisions[name] for name in body):
+            yield failure(COLLISION, joint.child, "it moves and has no collision shape; nothing can touch it")
+    for link in robot.links:
+        yield from _cavity(content, link.name)
+    adjacent = joined(robot)
+    for (a, b), depth in (contacts or {}).items():
+        pair = frozenset((a, b))
+        if depth <= OVERLAP * content.diagonal or pair in robot.excluded:
+            continue
+        problem = f"at rest it penetrates {a!r} by {depth:.3g} m (convex collision shapes)"
+        if pair in adjacent or len(pair & set(groups)) < 2:
+            yield warning(COLLISION, b, f"{problem}; engines that test contacts between joined links push them apart")
+        else:
+            yield failure(
+                COLLISION, b, f"{problem}; they are pushed apart, at most {OVERLAP * content.diagonal:.2g} m is valid"
+            )
+
+
+def _cavity(content: Content, link: str) -> Iterator[Finding]:
+    seen = content.shown(link)
+    shapes = [s.triangles for s in content.collisions[link]]
+    if not content.visuals[link] or not shapes or not np.isfinite(seen).all():
+        return
+    points = seen.reshape(-1, 3)
+    low, high = points.min(0), points.max(0)
+    steps = (high - low) / GRID
+    axes = [low[k] + steps[k] * (np.arange(GRID) + 0.5) for k in range(3)]
+    grid = np.stack(np.meshgrid(*axes, indexing="ij"), -1).reshape(-1, 3)
+    inside = _in_hull(points, grid)
+    if not inside.any():
+        return
+    surface = simplify(seen, FACES)
+    empty = grid[inside]
+    empty = empty[distance_to_triangles(empty, surface) > 0.5 * float(np.linalg.norm(steps))]
+    corners = surface.reshape(-1, 3)
+    empty = empty[winding_number(empty, corners, np.arange(len(corners)).reshape(-1, 3)) < 0.5] if len(empty) else empty
+    if len(empty) < HOLLOW * inside.sum():
+        return
+    taken = np.zeros(len(empty), bool)
+    for shape in shapes:
+        taken |= _in_hull(shape.reshape(-1, 3), empty)
+    if taken.mean() > FILLED:
+        volume = float(taken.sum() * np.prod(steps))
+        count = "one convex shape" if len(shapes) == 1 else f"{len(shapes)} convex shapes"
+        problem = f"its collision ({count}) fills {taken.mean():.0%} of the empty space in it, {volume:.3g} m3"
+        yield warning(COLLISION, link, f"{problem}; use convex shapes that leave the cavity open")
+
+
+def _in_hull(points: Float[np.ndarray, "n 3"], asked: Float[np.ndarray, "m 3"]) -> Bool[np.ndarray, " m"]:
+    """Return which query points lie in the convex hull; none if the hull is flat."""
+    try:
+        planes = ConvexHull(points).equations
+    except QhullError:
+        return np.zeros(len(asked), bool)
+    return (asked @ planes[:, :3].T + planes[:, 3] <= 0).all(1)
