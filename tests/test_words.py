@@ -25,7 +25,7 @@ NAMES = frozenset(
     ).split()
 )
 # One adapter per engine or format, each private to its file.
-SAME_NAME = frozenset("_World _Reader _Embedding".split())
+SAME_NAME = frozenset("World _Reader _Embedding".split())
 # Names that saved files hold, by file.
 KEPT = {
     "config.py": frozenset(["support"]),  # in the key of saved stages

@@ -110,14 +110,17 @@ def _inertia(robot: Robot, joint: RobotJoint, at: Mapping[str, np.ndarray]) -> f
     carried, T = robot.carried(joint.child), at[joint.child]
     axis = T[:3, :3] @ joint.axis / np.linalg.norm(joint.axis)
     total = 0.0
-    for link in (b for b in robot.links if b.name in carried and b.inertial is not None):
+    for link in robot.links:
+        inertial = link.inertial if link.name in carried else None
+        if inertial is None:
+            continue
         if joint.type == "prismatic":
-            total += link.inertial.mass
+            total += inertial.mass
             continue
         turn, place = at[link.name][:3, :3], at[link.name][:3, 3]
-        arm = np.cross(axis, turn @ link.inertial.center + place - T[:3, 3])
-        own = axis @ turn @ link.inertial.tensor @ turn.T @ axis
-        total += float(own + link.inertial.mass * arm @ arm)
+        arm = np.cross(axis, turn @ inertial.center + place - T[:3, 3])
+        own = axis @ turn @ inertial.tensor @ turn.T @ axis
+        total += float(own + inertial.mass * arm @ arm)
     return total
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Generator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -35,7 +35,7 @@ LIGHT = 1e-9  # [kg, kg m2] for links without inertia in the file, where only th
 
 
 @contextmanager
-def load_errors(mujoco: Any, path: Path) -> Iterator[None]:
+def load_errors(mujoco: Any, path: Path) -> Generator[None]:
     """Turn MuJoCo's errors about a file into InputError."""
     try:
         yield
