@@ -21,7 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.ground_truth import prepared
 from anymesh.export.links import Link, split_links
 from anymesh.geometry.topology import weld
 from anymesh.physics.clear import ComponentShapes, ContactScene, LinkSurface

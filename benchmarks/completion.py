@@ -20,10 +20,9 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.evaluation.changes import changed
-from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
-from anymesh.evaluation.executability import drive
-from anymesh.evaluation.ground_truth import GroundTruth, example_truths
-from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.datasets.urdf_ import CLASSES, synthesize
+from anymesh.evaluation.evaluate_sample import drive
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepared
 from anymesh.finishing.complete import complete_shapes
 from anymesh.types import JointType
 from benchmarks.completion_figures import cavity, grid_of, iou, moved, open_parts, picture

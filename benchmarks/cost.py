@@ -15,10 +15,8 @@ import time
 from pathlib import Path
 
 from anymesh.evaluation.changes import CHANGES, changed
-from anymesh.evaluation.ground_truth import GroundTruth, example_truths
-from anymesh.evaluation.oracle import oracle
-from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.simulated_vlm import SimulatedVlm
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepared
+from anymesh.evaluation.oracle import SimulatedVlm, oracle
 from anymesh.export.asset_json import usage
 from anymesh.pipeline.solving import Solver
 

@@ -24,8 +24,7 @@ import numpy as np
 from anymesh.applications.generate import generate
 from anymesh.checking import check_asset
 from anymesh.evaluation.changes import changed, moved
-from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, example_truths
-from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, example_truths, prepared
 from anymesh.evaluation.score import ObjectScore, score
 from anymesh.finishing.scene_glb import Y_UP, scene_glb
 from anymesh.types import Asset, Segmentation

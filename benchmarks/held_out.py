@@ -16,8 +16,7 @@ from pathlib import Path
 from anymesh.evaluation.evaluating import evaluate
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.report import markdown
-from anymesh.evaluation.summary import Summary, summarize
-from anymesh.evaluation.tables import group_table
+from anymesh.evaluation.summary import Summary, group_table, summarize
 from training.error_sources import causes_table, proposed_parts
 from training.kinds import registry as kinds
 

@@ -17,14 +17,13 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.config import Config
-from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
-from anymesh.evaluation.ground_truth import GroundTruth, example_truths
-from anymesh.evaluation.oracle import Noisy
-from anymesh.evaluation.protocols import evaluate
+from anymesh.evaluation.datasets.urdf_ import CLASSES, synthesize
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepared
+from anymesh.evaluation.oracle import Noisy, oracle
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.report import markdown
-from anymesh.evaluation.score import JointScore, ObjectScore
-from anymesh.evaluation.tables import group_table
+from anymesh.evaluation.score import JointScore, ObjectScore, score
+from anymesh.evaluation.summary import group_table
 from anymesh.pipeline.solving import solve
 
 HEAD = """# The oracle
@@ -43,10 +42,13 @@ COLORS = {"motion": "#0a6", "free": "#26c", "off": "#c33"}
 def run(truths: Sequence[GroundTruth], verify: str, *, given: bool, wrong: float = 0.0) -> list[ObjectScore]:
     rng = np.random.default_rng(0)
     solver = partial(solve, config=Config(verify=verify))
-    return [
-        evaluate(t, solver, given=given, reference=lambda answerer: Noisy(answerer, wrong, rng) if wrong else answerer)
-        for t in truths
-    ]
+    scores = []
+    for sample in map(prepared, truths):
+        answerer = Noisy(oracle(sample), wrong, rng) if wrong else oracle(sample)
+        given_parts = sample.segmentation() if given else None
+        found = solver(sample.mesh, given_parts, answerer_factory=lambda _, answerer=answerer: answerer)
+        scores.append(score(sample, *found))
+    return scores
 
 
 def right(j: JointScore) -> bool:

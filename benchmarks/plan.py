@@ -34,9 +34,8 @@ from anymesh.applications.plan.replay_ import Physics, replay
 from anymesh.config import Config
 from anymesh.correcting import FlipSign, HistoryEntry, Opened, open_asset, save_asset
 from anymesh.errors import AnymeshError
-from anymesh.evaluation.ground_truth import EvalSample
+from anymesh.evaluation.ground_truth import EvalSample, prepared
 from anymesh.evaluation.oracle import oracle
-from anymesh.evaluation.protocols import prepared
 from anymesh.export import write_asset
 from anymesh.pipeline import articulate
 from anymesh.pipeline.solving import solve

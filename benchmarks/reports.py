@@ -17,7 +17,7 @@ from pathlib import Path
 from anymesh.cli import run
 from anymesh.evaluation.record import Record, record_of
 from anymesh.evaluation.report import markdown
-from anymesh.evaluation.tables import group_table
+from anymesh.evaluation.summary import group_table
 
 REPORTS = Path(__file__).parent / "reports"
 SETS = ("examples", "scene-synthesizer", "sweethome3d", "metaworld", "libero")

@@ -26,8 +26,7 @@ from anymesh.applications.scan import render_frames, scan
 from anymesh.applications.scan.output import TO_GLTF
 from anymesh.applications.scan.reading import read_frames
 from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, read_ground_truth
-from anymesh.evaluation.metrics import same_motion
-from anymesh.evaluation.score import score
+from anymesh.evaluation.score import same_motion, score
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.triangle_set import sample_surface

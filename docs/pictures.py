@@ -17,10 +17,8 @@ from anymesh.articulation.estimate import motion_questions
 from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.rank_motions import motion_scores
 from anymesh.config import Config
-from anymesh.evaluation.ground_truth import example_truths
-from anymesh.evaluation.oracle import oracle
-from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.simulated_vlm import SimulatedVlm
+from anymesh.evaluation.ground_truth import example_truths, prepared
+from anymesh.evaluation.oracle import SimulatedVlm, oracle
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline import articulate
 from anymesh.pipeline.solving import Solver

@@ -6,8 +6,7 @@ import contract
 import pytest
 
 from anymesh.checking.engines.mujoco_ import sweep_joints
-from anymesh.evaluation.ground_truth import example_truths
-from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.ground_truth import example_truths, prepared
 from anymesh.evaluation.score import score
 from anymesh.pipeline import articulate
 from anymesh.types import JointType

@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, synthesize
-from anymesh.evaluation.ground_truth import GroundTruth
-from anymesh.evaluation.metrics import same_motion
-from anymesh.evaluation.protocols import evaluate
+from anymesh.evaluation.datasets.urdf_ import CLASSES, synthesize
+from anymesh.evaluation.ground_truth import GroundTruth, prepared
+from anymesh.evaluation.score import ObjectScore, same_motion, score
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline.solving import solve
 
@@ -25,9 +24,14 @@ def test_truth_is_of_the_mesh(truths: list[GroundTruth]) -> None:
     assert sum(len(t.joints) for t in truths) >= 30
 
 
+def scored(truth: GroundTruth, *, given: bool) -> ObjectScore:
+    sample = prepared(truth)
+    return score(sample, *solve(sample.mesh, sample.segmentation() if given else None))
+
+
 @pytest.mark.slow
 def test_parts_given(truths: list[GroundTruth]) -> None:
-    joints = [j for t in truths for j in evaluate(t, solve, given=True).joints]
+    joints = [j for t in truths for j in scored(t, given=True).joints]
     right = [j.type_found is not None and same_motion(j.type_true, j.type_found) for j in joints]
     assert np.mean(right) >= 0.9
     assert np.mean([j.angle for j in joints]) <= 4
@@ -37,7 +41,7 @@ def test_parts_given(truths: list[GroundTruth]) -> None:
 
 @pytest.mark.slow
 def test_end_to_end(truths: list[GroundTruth]) -> None:
-    scores = [evaluate(t, solve) for t in truths]
+    scores = [scored(t, given=False) for t in truths]
     matched, true, predicted = (sum(getattr(s, k) for s in scores) for k in ("matched", "true", "predicted"))
     assert 2 * matched / (true + predicted) >= 0.7
     assert np.mean([s.f1 for s in scores]) >= 0.7

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 import trimesh
 
-from anymesh.evaluation.ground_truth import GroundTruth, example_truths
-from anymesh.evaluation.metrics import same_motion
-from anymesh.evaluation.protocols import evaluate
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepared
+from anymesh.evaluation.score import same_motion, score
 from anymesh.loading import load_mesh
 from anymesh.pipeline.solving import solve
 
@@ -32,7 +31,8 @@ def softened(truth: GroundTruth, path: Path) -> GroundTruth:
 @pytest.mark.slow
 def test_a_cabinet_without_a_sharp_edge(tmp_path: Path) -> None:
     truth = softened(next(t for t in example_truths(EXAMPLES) if t.name == "cabinet_fused"), tmp_path / "soft.glb")
-    result = evaluate(truth, solve)
+    sample = prepared(truth)
+    result = score(sample, *solve(sample.mesh))
     assert result.f1 >= 0.9
     for joint in result.joints:
         assert joint.iou >= 0.8

@@ -15,8 +15,7 @@ import numpy as np
 
 from anymesh.evaluation.changes import changed, moved
 from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.evaluation.ground_truth import EvalSample
-from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.ground_truth import EvalSample, prepared
 from anymesh.geometry.boxes import straightening
 
 WriteRows = Callable[[Path, EvalSample, str, str], None]  # file, object, source, form

@@ -20,11 +20,10 @@ from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_question import Candidate
 from anymesh.config import Config
 from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.evaluation.ground_truth import EvalSample
+from anymesh.evaluation.ground_truth import EvalSample, prepared
 from anymesh.evaluation.oracle import Noisy, Random, oracle
-from anymesh.evaluation.protocols import prepared
 from anymesh.evaluation.score import score
-from anymesh.evaluation.success import right
+from anymesh.evaluation.summary import right
 from anymesh.prompted.motions import offers
 from anymesh.prompted.motions.prompted import Questions, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts

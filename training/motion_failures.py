@@ -19,8 +19,8 @@ from anymesh.articulation.estimate import estimate_joints, motion_questions
 from anymesh.config import Config
 from anymesh.evaluation.drawing import contact_sheet, draw_joint
 from anymesh.evaluation.ground_truth import EvalSample
+from anymesh.evaluation.record import what_is_off
 from anymesh.evaluation.score import score
-from anymesh.evaluation.worst import what_is_off
 from anymesh.segmentation.divide import object_shape
 from training.boosting import held_out, leave_kinds_out
 from training.collect_rows import called

@@ -22,7 +22,7 @@ from anymesh.articulation.rank_motions import same_joints
 from anymesh.articulation.repeated_parts import in_a_row, same_size
 from anymesh.config import ArticulationConfig, Config
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
-from anymesh.evaluation.metrics import angle_error, distance_at, opening_side, opens_both_ways
+from anymesh.evaluation.score import angle_error, distance_at, opening_side, opens_both_ways
 from anymesh.geometry.patches import ObjectShape
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion

@@ -29,9 +29,8 @@ from mcp.client.stdio import StdioServerParameters, stdio_client
 from anymesh.agents.server_ import make_server
 from anymesh.cli import run
 from anymesh.errors import InputError
-from anymesh.evaluation.ground_truth import example_truths
+from anymesh.evaluation.ground_truth import example_truths, prepared
 from anymesh.evaluation.oracle import oracle
-from anymesh.evaluation.protocols import prepared
 from anymesh.prompted.answerers.question_files import find_questions
 from anymesh.prompted.questions.answer_json import answer_object
 from anymesh.prompted.questions.saved_question import unpack_question

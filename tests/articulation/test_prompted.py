@@ -9,7 +9,7 @@ from assets import box
 from known import KNOWN, QUICK, Watched, known, prompted, ready, row_of, the_case, true_answers, visual_prompts
 from scenes import Scene
 
-from anymesh.evaluation.metrics import angle_error, line_distance, opens_both_ways
+from anymesh.evaluation.score import angle_error, line_distance, opens_both_ways
 from anymesh.prompted.motions.cases import ask_each
 from anymesh.prompted.motions.prompted import Questions, prompt_joints
 from anymesh.prompted.questions.motion_choice import MotionPick, WhichMotions

@@ -13,11 +13,9 @@ from assets import cabinet, joint
 from hypothesis import given
 from hypothesis import strategies as st
 
-from anymesh.evaluation.displacement import TURNED, displacement
 from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
-from anymesh.evaluation.metrics import angle_error, line_distance, range_iou
-from anymesh.evaluation.score import JointScore, score
-from anymesh.evaluation.success import articulate_anything, opd, s2o
+from anymesh.evaluation.score import TURNED, JointScore, angle_error, displacement, line_distance, range_iou, score
+from anymesh.evaluation.summary import articulate_anything, opd, s2o
 from anymesh.export import write_asset
 from anymesh.types import Asset, Joint, JointType
 

@@ -17,8 +17,7 @@ from anymesh.evaluation.details import (
     SIDES,
     UNEVEN,
 )
-from anymesh.evaluation.ground_truth import EvalSample, example_truths
-from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.ground_truth import EvalSample, example_truths, prepared
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.topology import components

@@ -1,33 +1,46 @@
 """`anymesh eval`: every protocol on a small object, what is kept, what is refused, what is a failure."""
 
 import json
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
+import numpy as np
 import pytest
+from assets import box, cabinet, joint, mesh_of
 
 from anymesh.cli import run
 from anymesh.errors import InputError, ModelError, OptionError, OutputError
 from anymesh.evaluation import evaluating
+from anymesh.evaluation.datasets.dataset import Dataset
+from anymesh.evaluation.evaluate_sample import drive, executability
 from anymesh.evaluation.evaluating import evaluate
-from anymesh.evaluation.ground_truth import GroundTruth, example_truths
+from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint, example_truths
+from anymesh.evaluation.score import ObjectScore
+from anymesh.types import Part, Segmentation
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 SET = f"examples:{EXAMPLES}"
 TRUTHS = {t.name: t for t in example_truths(EXAMPLES)}
+CABINET = cabinet()
+MESH, LABELS = mesh_of(
+    [box((0, 0, -0.2), (2, 0.4, -0.1)), box((0.1, 0, 0), (0.4, 0.4, 0.2)), box((0.7, 0, 0), (0.9, 0.4, 0.2))]
+)
+POST = joint("stop", "fixed", "base", "post", (0.7, 0, 0), (0, 0, 1), None)
+PARTS = tuple(Part(n, n) for n in ("base", "slider", "post"))
+SLIDE = joint("slide", "prismatic", "base", "slider", (0.1, 0, 0), (1, 0, 0), (0.0, 0.5))
+NOTHING = ObjectScore("block", (), 0, 0, 0)
+TRUE = TrueJoint(SLIDE.type, SLIDE.origin, SLIDE.axis, (0.0, 0.25), child="slider", parent="base")
 
 
 @dataclass(frozen=True)
-class Shelf:
+class Shelf(Dataset):
     """A data set of examples by their names; "broken" cannot be read."""
 
     names: tuple[str, ...]
     name: str = "shelf"
-    splits: tuple[str, ...] = ()
 
-    def objects(self, split: str | None = None) -> Sequence[str]:
-        return self.names
+    def _names(self) -> list[str]:
+        return list(self.names)
 
     def truth(self, name: str, folder: Path) -> GroundTruth:
         if name == "broken":
@@ -159,3 +172,40 @@ def test_the_command_line_names_objects_that_failed(tmp_path: Path, capsys, monk
     assert "warning: 2 more objects failed; the report lists all of them\n" in told
     assert run(["eval", "shelf", "-o", str(tmp_path / "out"), "--jobs", "1", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["errors"] == {name: f"{name} has no faces" for name in names}
+
+
+pytest.importorskip("mujoco")
+
+
+def sample(*joints: TrueJoint) -> EvalSample:
+    return EvalSample(GroundTruth("block", Path("x"), PARTS, LABELS, joints), MESH, LABELS, np.eye(4))
+
+
+def test_a_good_asset_has_no_faults() -> None:
+    assert drive(CABINET.mesh, CABINET.segmentation, CABINET.joints) == ()
+
+
+def test_a_joint_that_runs_into_another_part_is_told_by_name() -> None:
+    found = executability(sample(TRUE), Segmentation(LABELS, PARTS), (SLIDE, POST), NOTHING)
+    assert found.executable is False
+    assert any(f.startswith("slide: ") and "'post'" in f for f in found.faults)
+    free = replace(SLIDE, limits=(0.0, 0.25))
+    found = executability(sample(TRUE), Segmentation(LABELS, PARTS), (free, POST), NOTHING)
+    assert (found.executable, found.faults) == (True, ())
+
+
+def test_nothing_that_moves_is_executable_only_where_nothing_should() -> None:
+    whole, rigid = Segmentation(np.zeros_like(LABELS), PARTS[:1]), Segmentation(LABELS, PARTS)
+    fixed = replace(POST, name="also", child="slider")
+    for segmentation, joints in ((whole, ()), (rigid, (POST, fixed))):
+        missing = executability(sample(TRUE), segmentation, joints, NOTHING)
+        assert missing.executable is False
+        assert len(missing.faults) == 1
+        assert executability(sample(), segmentation, joints, NOTHING).executable is True
+
+
+def test_the_rest_of_the_score_is_kept() -> None:
+    given = ObjectScore("x", (), 3, 2, 1)
+    assert (
+        replace(executability(sample(), Segmentation(LABELS, PARTS), (POST, SLIDE), given), executable=None, faults=()) == given
+    )

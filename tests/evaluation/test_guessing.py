@@ -9,11 +9,11 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
-from anymesh.evaluation.guessing import Guesser
 from anymesh.pipeline.solving import solve
 from anymesh.prompted.questions.asking import VisualAnswerer
 from anymesh.prompted.questions.grounding import WhichMarks, WhichViews
 from anymesh.prompted.questions.recognition import Recognize
+from benchmarks.guesses import Guesser
 
 ROOT = Path(__file__).parents[2]
 QUICK = Config(views=ViewsConfig(size=160, around="3@15,1@50+30"), grounding=GroundingConfig(points=3_000))

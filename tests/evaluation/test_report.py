@@ -13,12 +13,11 @@ from PIL import Image
 from records import ALIKE, DOOR, DRAWER, KNOB, MISSING, record
 
 from anymesh.errors import OutputError
-from anymesh.evaluation.charts import cumulative, error_charts
 from anymesh.evaluation.drawing import captioned, contact_sheet, without_caption
-from anymesh.evaluation.report import joint_rows, markdown, write_report
+from anymesh.evaluation.record import worst
+from anymesh.evaluation.report import cumulative, error_charts, joint_rows, markdown, write_report
 from anymesh.evaluation.score import JointScore
-from anymesh.evaluation.tables import Cell, Table, report_tables
-from anymesh.evaluation.worst import worst
+from anymesh.evaluation.summary import Cell, Table, report_tables
 
 SETTINGS = {"dataset": "examples", "answerer": "geometry", "seed": "0"}
 WEIRD = '<script>&"|a_b*'

@@ -1,17 +1,25 @@
 """An asset against the truth: the truth is perfect, nothing is worth nothing, and each fault is told as itself."""
 
+import itertools
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from assets import cabinet
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra.numpy import arrays
 
 from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
-from anymesh.evaluation.score import ObjectScore, failed, score
+from anymesh.evaluation.score import ObjectScore, failed, match_parts, part_ious, score
 from anymesh.types import Asset, Joint, JointType, Part, Segmentation
 
 ASSET = cabinet()
+SHRUNK_AND_TURNED = np.array([[0, -0.01, 0, 1], [0.01, 0, 0, 2], [0, 0, 0.01, 3], [0, 0, 0, 1]])
+tables = st.tuples(st.integers(1, 5), st.integers(1, 5)).flatmap(
+    lambda shape: arrays(float, shape, elements=st.floats(0, 1).map(lambda v: round(v, 3)))
+)
 
 
 def truth_of(asset: Asset, T_asset_source: np.ndarray) -> GroundTruth:
@@ -42,9 +50,6 @@ def changed(child: str, **changes) -> ObjectScore:
 
 def of(result: ObjectScore, part: str):
     return next(j for j in result.joints if j.part == part)
-
-
-SHRUNK_AND_TURNED = np.array([[0, -0.01, 0, 1], [0.01, 0, 0, 2], [0, 0, 0.01, 3], [0, 0, 0, 1]])
 
 
 @pytest.mark.parametrize("T", [np.eye(4), SHRUNK_AND_TURNED], ids=["same frame", "other frame and unit"])
@@ -190,3 +195,30 @@ def test_opening_both_ways_is_right_either_way() -> None:
         joints = [replace(j, limits=limits) if j.child == "door" else j for j in ASSET.joints]
         found = of(scored(joints, truth=swing), "door")
         assert (found.opens_right, found.displacement) == (True, pytest.approx(0, abs=1e-9))
+
+
+def test_overlap_is_weighed_by_area() -> None:
+    predicted, true = np.array([0, 1, 1, 2]), np.array([0, 1, 2, 2])
+    ious = part_ious(predicted, true, np.array([5.0, 3.0, 1.0, 1.0]))
+    assert ious == pytest.approx(np.array([[1, 0, 0], [0, 3 / 4, 1 / 5], [0, 0, 1 / 2]]))
+
+
+@given(tables)
+def test_matching_is_one_to_one_and_no_other_is_better(ious) -> None:
+    pairs = match_parts(ious)
+    rows, columns, values = zip(*pairs, strict=True) if pairs else ((), (), ())
+    assert len(set(rows)) == len(rows)
+    assert len(set(columns)) == len(columns)
+    assert 0 not in rows  # the bases are not matched
+    assert 0 not in columns
+    assert list(values) == [ious[r, c] for r, c in zip(rows, columns, strict=True)]
+    assert all(v > 0 for v in values)
+    inner = ious[1:, 1:] if ious.shape[0] <= ious.shape[1] else ious[1:, 1:].T
+    best = max(sum(inner[i, j] for i, j in enumerate(p)) for p in itertools.permutations(range(inner.shape[1]), len(inner)))
+    assert sum(values) == pytest.approx(best)
+
+
+def test_greed_is_not_enough() -> None:
+    ious = np.zeros((3, 3))
+    ious[1:, 1:] = [[0.9, 0.8], [0.8, 0.1]]
+    assert [(r, c) for r, c, _ in match_parts(ious)] == [(1, 2), (2, 1)]

@@ -9,7 +9,7 @@ from assets import box, mesh_of
 from anymesh.errors import OptionError
 from anymesh.evaluation.changes import changed, rotation
 from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.ground_truth import prepared
 from anymesh.loading import LoadedMesh, place_mesh
 from anymesh.loading.upright import Stander, distinct, infer_up, read_up, up_candidates, up_classifier, up_features, up_of
 from anymesh.types import Mesh

@@ -6,8 +6,7 @@ import mujoco
 import numpy as np
 import pytest
 
-from anymesh.evaluation.ground_truth import read_ground_truth
-from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.ground_truth import prepared, read_ground_truth
 from anymesh.export import write_asset
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.types import Asset, JointType

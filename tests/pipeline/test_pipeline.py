@@ -11,8 +11,7 @@ from assets import CABINET, mesh_of
 import anymesh
 from anymesh.config import Config
 from anymesh.errors import OptionError
-from anymesh.evaluation.ground_truth import example_truths
-from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.ground_truth import example_truths, prepared
 from anymesh.pipeline.solving import Solver
 from anymesh.prompted.answerers import answering
 from anymesh.types import Mesh

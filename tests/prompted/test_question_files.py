@@ -14,9 +14,8 @@ from anymesh.cli import run
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.errors import OpenQuestionError, OptionError
 from anymesh.evaluation.evaluating import evaluate
-from anymesh.evaluation.ground_truth import example_truths
+from anymesh.evaluation.ground_truth import example_truths, prepared
 from anymesh.evaluation.oracle import oracle
-from anymesh.evaluation.protocols import prepared
 from anymesh.prompted.answerers import answering
 from anymesh.prompted.answerers import file_answerer as files
 from anymesh.prompted.answerers.answers import open_in, record_answer

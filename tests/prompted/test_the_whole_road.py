@@ -12,10 +12,8 @@ from wire import SECRET, Service
 
 from anymesh.cli import run
 from anymesh.config import Config, GroundingConfig, ViewsConfig
-from anymesh.evaluation.ground_truth import GroundTruth, example_truths
-from anymesh.evaluation.oracle import oracle
-from anymesh.evaluation.protocols import prepared
-from anymesh.evaluation.simulated_vlm import SimulatedVlm
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepared
+from anymesh.evaluation.oracle import SimulatedVlm, oracle
 from anymesh.export.asset_json import schema
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline.solving import Solver

@@ -27,8 +27,7 @@ from anymesh.applications.policy.settings import SETTINGS
 from anymesh.applications.policy.tasks import PolicyTask
 from anymesh.applications.policy.training_ import Episode, evaluate_policy, train
 from anymesh.errors import AnymeshError
-from anymesh.evaluation.ground_truth import GroundTruth
-from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.ground_truth import GroundTruth, prepared
 from anymesh.export import write_asset
 from training.policy.objects import write_object
 from training.policy.report import TEST_SEED, write_report

@@ -78,8 +78,7 @@ def evaluate(
         return
     from anymesh.evaluation import evaluating
     from anymesh.evaluation.changes import CHANGES
-    from anymesh.evaluation.summary import summarize
-    from anymesh.evaluation.tables import group_table, grouped
+    from anymesh.evaluation.summary import group_table, grouped, summarize
 
     chosen = tuple(CHANGES) if changes == "all" else _names(changes)
     with Shown(quiet or json_) as progress:

@@ -10,9 +10,8 @@ from jaxtyping import Bool, Float, UInt8
 from PIL import Image, ImageDraw
 
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
-from anymesh.evaluation.matching import part_ious
-from anymesh.evaluation.score import JointScore
-from anymesh.evaluation.worst import what_is_off
+from anymesh.evaluation.record import what_is_off
+from anymesh.evaluation.score import JointScore, part_ious
 from anymesh.geometry.kinematics import joint_motion
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.marks import Color, axis_line, blend, draw_arrow, font, lighten, rim, ring

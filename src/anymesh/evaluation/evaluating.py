@@ -17,16 +17,14 @@ import numpy as np
 
 from anymesh import __version__
 from anymesh.errors import OpenQuestionError, OptionError
-from anymesh.evaluation.changes import CHANGES
+from anymesh.evaluation.changes import CHANGES, UpSource
 from anymesh.evaluation.datasets.dataset import Dataset
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, SampleAnswerer, evaluate_sample
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.oracle import Noisy, oracle
-from anymesh.evaluation.placing import UpSource
-from anymesh.evaluation.record import Record
+from anymesh.evaluation.record import Record, ResultsFolder
 from anymesh.evaluation.report import write_report
-from anymesh.evaluation.results import ResultsFolder
 from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.training import trained_note
 from anymesh.isolation.pool import worker_processes

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Int
 
+from anymesh.loading import load_mesh, place_mesh
 from anymesh.types import Asset, Joint, JointType, KnownJoint, Mesh, Part, Segmentation, Source
 
 
@@ -115,3 +116,9 @@ def example_truths(folder: Path) -> list[GroundTruth]:
     """Read all objects of the folder `examples/`."""
     paths = sorted((folder / "truth").glob("*.json"))
     return [read_ground_truth(path, folder / "meshes" / f"{path.stem}.glb") for path in paths]
+
+
+def prepared(truth: GroundTruth) -> EvalSample:
+    """Load the truth's mesh and place it."""
+    placed = place_mesh(load_mesh(truth.mesh))
+    return EvalSample(truth, placed.mesh, truth.labels, placed.T_asset_source)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import Any, TypeVar, cast
 
 import numpy as np
@@ -11,6 +13,11 @@ import numpy as np
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.prompted.answerers.reference import Reference
 from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
+from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer
+from anymesh.prompted.models.cache import Cached
+from anymesh.prompted.models.prices import cost_of, max_picture_tokens
+from anymesh.prompted.models.vision import Reply, Request
+from anymesh.prompted.questions.answer_json import answer_object
 from anymesh.prompted.questions.asking import Answer, Question, VisualAnswerer
 from anymesh.prompted.questions.grounding import WhichMarks
 from anymesh.prompted.questions.motion_choice import MotionPick, WhichMotions
@@ -27,6 +34,7 @@ from anymesh.types import Exchange, KnownJoint
 from anymesh.vocabulary import recognize
 
 Item = TypeVar("Item")
+LETTERS = 4  # approximate letters per token of English and JSON
 
 
 def oracle(sample: EvalSample) -> ReferenceAnswerer:
@@ -137,3 +145,35 @@ class Random:
     def _points(self, table: PointTable) -> tuple[int, ...]:
         count = int(self._rng.integers(table.min_points, table.max_points + 1))
         return tuple(int(k) for k in self._rng.permutation(len(table.points))[:count])
+
+
+class SimulatedModel:
+    """The simulated model. `question` is that of the next request. Tokens are estimated with the prices of model `like`."""
+
+    def __init__(self, answerer: VisualAnswerer, like: str) -> None:
+        self.name, self._answerer = like, answerer
+        self.question: Question[Any] | None = None
+
+    def ask(self, request: Request) -> Reply:
+        if self.question is None:
+            raise ValueError("a simulated model is asked through `SimulatedVlm`, which holds the question")
+        text = json.dumps(answer_object(self.question, self._answerer.ask(self.question)))
+        words = len(request.system) + len(request.text) + len(json.dumps(request.schema))
+        provider, _, model = self.name.partition(":")
+        shown = sum(max_picture_tokens(provider, model, *p.size) + len(p.caption) // LETTERS for p in request.pictures)
+        tokens = words // LETTERS + shown, len(text) // LETTERS
+        return Reply(text, self.name, *tokens, cost=cost_of(self.name, *tokens))
+
+
+class SimulatedVlm(VlmAnswerer):
+    """VLM answerer whose model returns the answers of another answerer."""
+
+    def __init__(
+        self, answerer: VisualAnswerer, fallback: VisualAnswerer, like: str = "openai:gpt-4o", cache: Path | None = None
+    ) -> None:
+        self._simulated = SimulatedModel(answerer, like)
+        super().__init__(Cached(self._simulated, cache) if cache else self._simulated, fallback)
+
+    def ask(self, question: Question[Answer]) -> Answer:
+        self._simulated.question = question
+        return super().ask(question)

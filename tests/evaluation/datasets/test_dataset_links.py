@@ -8,7 +8,7 @@ from assets import box, checker, mesh_of
 from small_sets import loaded, part_box
 
 from anymesh.errors import InputError
-from anymesh.evaluation.datasets.dataset_links import DatasetLink, assemble
+from anymesh.evaluation.datasets.links import DatasetLink, assemble
 from anymesh.loading import load_mesh
 from anymesh.types import JointType, KnownJoint, Material, Mesh, Texture
 

@@ -11,7 +11,7 @@ from assets import box, mesh_of
 
 from anymesh.errors import InputError
 from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.ground_truth import prepared
 from anymesh.types import JointType
 
 

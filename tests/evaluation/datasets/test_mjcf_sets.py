@@ -10,8 +10,8 @@ from assets import checker
 from small_sets import displaced, loaded, part_box
 
 from anymesh.errors import InputError
-from anymesh.evaluation.datasets.dataset_links import Y_UP
-from anymesh.evaluation.datasets.mjcf_sets import MjcfFolder, libero, metaworld
+from anymesh.evaluation.datasets.links import Y_UP
+from anymesh.evaluation.datasets.mjcf_ import MjcfFolder, libero, metaworld
 from anymesh.types import JointType
 from anymesh.types.mesh import to_linear
 

@@ -7,10 +7,11 @@ import pytest
 from small_sets import loaded, write_partnet
 
 from anymesh.errors import InputError, MissingExtraError, OptionError
-from anymesh.evaluation.datasets import mjcf_sets, named
+from anymesh.evaluation.datasets import mjcf_ as mjcf_sets
+from anymesh.evaluation.datasets import named
 from anymesh.evaluation.datasets.dataset import Dataset
 from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.evaluation.datasets.scene_synthesizer_ import CLASSES, VARIED
+from anymesh.evaluation.datasets.urdf_ import CLASSES, VARIED
 from anymesh.types import JointType
 
 EXAMPLES = Path(__file__).parents[3] / "examples"

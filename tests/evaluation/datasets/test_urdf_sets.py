@@ -8,7 +8,7 @@ from small_sets import displaced, loaded, part_box, write_obj
 from yourdfpy import URDF
 
 from anymesh.errors import InputError, OptionError
-from anymesh.evaluation.datasets.dataset_links import Y_UP
+from anymesh.evaluation.datasets.links import Y_UP
 from anymesh.evaluation.datasets.urdf_ import UrdfFolder, flatten_urdf
 from anymesh.types import JointType
 

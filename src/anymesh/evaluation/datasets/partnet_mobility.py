@@ -20,10 +20,30 @@ from functools import cached_property
 from pathlib import Path
 
 from anymesh.errors import InputError
-from anymesh.evaluation.datasets.cage import CAGE_CATEGORIES, CAGE_TEST
-from anymesh.evaluation.datasets.splits import check_split, chosen, listed
+from anymesh.evaluation.datasets.dataset import FolderDataset
 from anymesh.evaluation.datasets.urdf_ import flatten_urdf
 from anymesh.evaluation.ground_truth import GroundTruth
+
+_TEST = {
+    "Table":
+    "19855 22241 23807 25144 25959 26503 30238 31601 32566 33914",
+    "StorageFurniture":
+    "35059 41086 44826 45135 45162 45173 45219 45235 45323 45415 45423 45573 45575 45600 45612 45620 45661 45662 "
+    "45696 45699 45717 45908 45915 46002 46029 46045 46107 46108 46179 46439 46480 46549 46655 46787 46896 46955 "
+    "46981 47168 47180 47185 47227 47233 47315 47648 47701 47747 48023 48167 48177 48513 48721 48740 48797 49038 "
+    "49133",
+    "WashingMachine":
+    "103425",
+    "Safe":
+    "101594 102309 102311 102318 102380",
+    "Dishwasher":
+    "12414 12562 12578 12587 12592",
+    "Refrigerator":
+    "10347 10685 11231 11846 12252",
+}  # fmt: skip
+CAGE_CATEGORIES = frozenset(_TEST) | {"Oven", "Microwave"}
+CAGE_TEST = frozenset(number for ids in _TEST.values() for number in ids.split())
+
 
 URDFORMER = frozenset({"Oven", "Refrigerator", "StorageFurniture", "WashingMachine", "Dishwasher"})  # in-domain, section 4.1
 MOVING = frozenset({"hinge", "slider", "slider+"})
@@ -44,24 +64,22 @@ class ObjectInfo:
 
 
 @dataclass(frozen=True)
-class PartNetMobility:
+class PartNetMobility(FolderDataset):
     """PartNet-Mobility data set. folder: holds the objects' folders, each named by its id."""
 
-    folder: Path
     name: str = "partnet-mobility"
 
     @property
     def splits(self) -> tuple[str, ...]:
-        return tuple(dict.fromkeys([*SPLITS, *listed(self.folder)]))
+        return tuple(dict.fromkeys([*SPLITS, *self.listed]))
 
-    def objects(self, split: str | None = None) -> list[str]:
+    def _names(self) -> list[str]:
         """Return the ids of the objects with a rotating or sliding part."""
-        check_split(self.name, split, self.splits)
-        names = sorted(self._entries)
-        if split is None:
-            return names
-        if split in listed(self.folder):
-            return chosen(self.folder, split, names)
+        return sorted(self._entries)
+
+    def _members(self, split: str, names: list[str]) -> list[str]:
+        if split in self.listed:
+            return super()._members(split, names)
         return [name for name in names if _belongs(split, name, self._entries[name])]
 
     def truth(self, name: str, folder: Path) -> GroundTruth:

@@ -12,8 +12,10 @@ arcs give the side and the angle of their opening.
 
 from __future__ import annotations
 
+import io
 import math
 import re
+import tarfile
 import zipfile
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -22,20 +24,48 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.errors import InputError, MissingExtraError
-from anymesh.evaluation.datasets.dataset_links import DatasetLink, assemble
-from anymesh.evaluation.datasets.debian import member
-from anymesh.evaluation.datasets.splits import check_split
+from anymesh.evaluation.datasets.dataset import Dataset
+from anymesh.evaluation.datasets.links import DatasetLink, assemble
 from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.loading.files import Folder
 from anymesh.loading.obj import read_obj
 from anymesh.types import JointType, KnownJoint, Mesh
 
+MAGIC = b"!<arch>\n"
+HEADER = 60  # bytes before each member of the archive
 INSTALLED = Path("/usr/share/sweethome3d/sweethome3d.jar")
 CATALOG = "com/eteks/sweethome3d/io/DefaultFurnitureCatalog.properties"
 ON = re.compile(r"sweethome3d_(?:opening|window_pane|mirror)_on_(hinge|rail)_([^_]+)")
 MARKER = re.compile(r"sweethome3d_(?:unique_(rail)|(hinge|rail)_([^_]+))")
 TYPES = {"hinge": JointType.REVOLUTE, "rail": JointType.PRISMATIC}
 CLOSED = 10.0  # [deg] a sash nearer than this to an end of its arc is at rest there
+
+
+def member(package: Path, name: str) -> io.BytesIO:
+    """Return the first file of that name in the .deb. Raise InputError if it cannot be read."""
+    archive = package.read_bytes()
+    if not archive.startswith(MAGIC):
+        raise InputError(f"{package.name} is not a Debian package file; it must start with {MAGIC!r}")
+    at = len(MAGIC)
+    while at + HEADER <= len(archive):
+        header = archive[at : at + HEADER]
+        size = int(header[48:58])
+        if header[:16].strip().rstrip(b"/").startswith(b"data.tar"):
+            return _from_tar(package.name, archive[at + HEADER : at + HEADER + size], name)
+        at += HEADER + size + size % 2
+    raise InputError(f"{package.name} holds no data.tar; it is broken or truncated")
+
+
+def _from_tar(package: str, data: bytes, name: str) -> io.BytesIO:
+    try:
+        with tarfile.open(fileobj=io.BytesIO(data)) as tar:
+            tar_member = next((m for m in tar if m.isfile() and m.name.rsplit("/", 1)[-1] == name), None)
+            opened = None if tar_member is None else tar.extractfile(tar_member)
+            if opened is not None:
+                return io.BytesIO(opened.read())
+    except (tarfile.TarError, EOFError, OSError) as error:
+        raise InputError(f"{package}: its data cannot be read ({error}); valid are packages packed with xz or gzip") from None
+    raise InputError(f"{package}: found no file {name} in the package")
 
 
 @dataclass(frozen=True)
@@ -50,12 +80,11 @@ class Sash:
 
 
 @dataclass(frozen=True)
-class SweetHome3D:
+class SweetHome3D(Dataset):
     """Sweet Home 3D data set. source: the .deb, the .jar, or a folder that contains the jar."""
 
     source: Path = INSTALLED
     name: str = "sweethome3d"
-    splits: tuple[str, ...] = ()
 
     @cached_property
     def _jar(self) -> zipfile.ZipFile:
@@ -75,9 +104,8 @@ class SweetHome3D:
     def _model(self, entry: dict[str, str]) -> bytes:
         return self._jar.read(entry["model"].lstrip("/"))
 
-    def objects(self, split: str | None = None) -> list[str]:
+    def _names(self) -> list[str]:
         """Return the models with at least one moving part."""
-        check_split(self.name, split, self.splits)
         return sorted(name for name, entry in self._catalog.items() if ON.search(self._model(entry).decode("latin-1")))
 
     def truth(self, name: str, folder: Path) -> GroundTruth:

@@ -6,7 +6,10 @@ lie between two parts, so that a part has several degrees of freedom, the joint 
 
 from __future__ import annotations
 
+import contextlib
+import io
 import re
+import warnings
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -16,42 +19,40 @@ from yourdfpy import URDF
 from yourdfpy import urdf as parsed
 
 from anymesh.errors import InputError
-from anymesh.evaluation.datasets.dataset_links import Y_UP, DatasetLink, assemble, moved
-from anymesh.evaluation.datasets.shapes_ import box, cylinder, ellipsoid
-from anymesh.evaluation.datasets.splits import check_split, chosen, listed
-from anymesh.evaluation.datasets.visuals import find_mesh, read_visual
+from anymesh.evaluation.datasets.dataset import Dataset, FolderDataset
+from anymesh.evaluation.datasets.links import Y_UP, DatasetLink, assemble, moved
+from anymesh.evaluation.datasets.meshes_ import box, cylinder, ellipsoid, find_mesh, read_visual
 from anymesh.evaluation.ground_truth import GroundTruth
 from anymesh.types import JointType, KnownJoint, Material, Mesh
 from anymesh.types.mesh import to_linear
 
 MOVING = {"revolute", "continuous", "prismatic"}
 JOINT = re.compile(r"""<joint[^>]*type\s*=\s*["'](revolute|continuous|prismatic)["']""")
+CLASSES = (
+    "BaseCabinet", "WallCabinet", "SinkCabinet", "KitchenIsland", "Dishwasher", "Range", "Refrigerator", "Microwave",
+    "HandWheel", "CNCMachine",
+)  # fmt: skip
+VARIED = ("BaseCabinet", "WallCabinet", "SinkCabinet", "Dishwasher", "Range", "Refrigerator")  # classes with random variants
+VARIANTS = 7  # per class, in the subset "random"
 
 
 @dataclass(frozen=True)
-class UrdfFolder:
+class UrdfFolder(FolderDataset):
     """Every *.urdf below a folder with a moving joint; with `static`, those without one, so that every found part is wrong.
 
-    Files split_NAME.txt in it list subsets, one name per line.
+    Their names are the paths without suffix, with - between folders.
     """
 
-    folder: Path
     name: str = "urdf"
     static: bool = False
 
-    @property
-    def splits(self) -> tuple[str, ...]:
-        return tuple(listed(self.folder))
-
-    def objects(self, split: str | None = None) -> list[str]:
-        """Return the paths without suffix, with - between folders."""
-        check_split(self.name, split, self.splits)
+    def _names(self) -> list[str]:
         moving = {name: bool(JOINT.search(path.read_text(errors="replace"))) for name, path in self._files().items()}
         names = sorted(name for name, moves in moving.items() if moves is not self.static)
         if not names:
             wanted = "without" if self.static else "with"
             raise InputError(f"{self.folder}: found no .urdf file {wanted} a joint that moves; at least one is needed")
-        return names if split is None else chosen(self.folder, split, names)
+        return names
 
     def truth(self, name: str, folder: Path) -> GroundTruth:
         path = self._files().get(name)
@@ -157,3 +158,51 @@ def _visual(visual: parsed.Visual, folder: Path, root: Path, colors: Mapping) ->
     if material is not None and not mesh.materials:
         mesh = replace(mesh, face_material=np.zeros(len(mesh.faces), np.int64), materials=(material,))
     return mesh.transformed(T @ np.diag([*scale, 1.0]))
+
+
+@dataclass(frozen=True)
+class SceneSynthesizer(Dataset):
+    """The classes in their default form; CLASS-SEED is a random variant.
+
+    HandWheel has no visible base, so no visible part moves against another: a mesh in which no joint should be found.
+    """
+
+    name: str = "scene-synthesizer"
+
+    @property
+    def splits(self) -> tuple[str, ...]:
+        return ("default", "random")
+
+    def _names(self) -> list[str]:
+        return sorted(CLASSES)
+
+    def _members(self, split: str, names: list[str]) -> list[str]:
+        return sorted(f"{c}-{k}" for c in VARIED for k in range(1, VARIANTS + 1)) if split == "random" else names
+
+    def truth(self, name: str, folder: Path) -> GroundTruth:
+        return synthesize(name, folder)
+
+
+def synthesize(name: str, folder: Path) -> GroundTruth:
+    """Build CLASS (its default form) or CLASS-SEED and write it to `folder`: NAME/NAME.urdf and NAME.glb, flattened."""
+    from scene_synthesizer import procedural_assets
+
+    kind, _, seed = name.partition("-")
+    valid = VARIED if seed else CLASSES
+    if kind not in valid or not (seed.isdecimal() or name == kind):
+        raise InputError(
+            f"scene-synthesizer: found no object {name!r}; valid are {', '.join(CLASSES)}, {', '.join(VARIED)}-SEED"
+        )
+    urdf = folder / name / f"{name}.urdf"
+    urdf.parent.mkdir(parents=True, exist_ok=True)
+    with warnings.catch_warnings(), contextlib.redirect_stdout(io.StringIO()):
+        warnings.simplefilter("ignore")
+        make = getattr(procedural_assets, f"{kind}Asset")
+        asset = make.random(seed=int(seed)) if seed else make()
+        asset.scene(kind).export(str(urdf))
+        truth = flatten_urdf(urdf, folder / f"{name}.glb", category=_words(kind))
+    return replace(truth, name=name)
+
+
+def _words(kind: str) -> str:
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", kind).lower()
