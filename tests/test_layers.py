@@ -42,7 +42,7 @@ MAX_LINES, MAX_FUNCTION_LINES, MAX_PARAMETERS = 400, 50, 7
 LONG_FUNCTIONS = {"agents/server_.py:_making", "physics/collision.py:collision_shapes"}
 MANY_PARAMETERS = {
     # public functions, whose options are keyword arguments
-    "agents/server_.py:articulate", "agents/tools.py:articulate", "applications/generate/explain.py:explain_generation",
+    "agents/server_.py:articulate", "agents/tools.py:articulate", "applications/generate/run.py:explain_generation",
     "applications/generate/run.py:generate", "applications/plan/planner.py:plan", "applications/plan/replay_.py:replay",
     "applications/policy/env_.py:make_env", "applications/policy/training_.py:train",
     "applications/scan/rendered.py:render_frames", "evaluation/evaluating.py:evaluate", "export/__init__.py:write_asset",

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 from meshy_wire import MeshyServer, serving
 
-from anymesh.applications.generate.meshy_generate import Meshy3D
+from anymesh.applications.generate.meshy import Meshy3D
 
 GLB = b"glTF" + (2).to_bytes(4, "little") + (20).to_bytes(4, "little") + b"12345678"
 PROMPT = "a retro fridge"

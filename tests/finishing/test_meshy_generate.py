@@ -95,7 +95,7 @@ def test_pictures_that_the_service_does_not_take_are_refused_at_home(model_serve
     with pytest.raises(InputError, match=r"neither PNG nor JPEG: it starts with b'GIF89a'"):
         generator().from_image(path)
     path.write_bytes(PNG)
-    monkeypatch.setattr("anymesh.applications.generate.meshy_generate.LARGEST_IMAGE", 10)
+    monkeypatch.setattr("anymesh.applications.generate.meshy.LARGEST_IMAGE", 10)
     with pytest.raises(InputError, match="has 15 bytes; meshy takes at most 10"):
         generator().from_image(path)
     for prompt in (" ", "x" * 801):

@@ -75,7 +75,7 @@ def generate(
         asset = run(prompt, out, progress=progress, **options)
     print_asset(asset, out, json_, quiet)
     if not (json_ or quiet):
-        from anymesh.applications.generate.record import read_record
+        from anymesh.applications.generate.work import read_record
 
         record = read_record(out) or {}
         typer.echo(f"generation.json: {len(record.get('tasks', ()))} paid tasks, {record.get('credits', 0):g} credits in all")

@@ -8,9 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from anymesh.applications.generate.choose import open_generator
-from anymesh.applications.generate.command import CommandGenerator
-from anymesh.applications.generate.program import log_tail
+from anymesh.applications.generate.generators import CommandGenerator, log_tail, open_generator
 from anymesh.applications.generate.protocol import MeshRequest
 from anymesh.errors import ModelError, OptionError
 from anymesh.loading import load_mesh

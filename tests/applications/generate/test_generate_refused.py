@@ -9,8 +9,7 @@ from meshy_wire import KEY, cuts, refuses
 
 from anymesh import pipeline
 from anymesh.applications.generate import explain_generation, generate
-from anymesh.applications.generate.record import STILL
-from anymesh.applications.generate.work import WorkFolder
+from anymesh.applications.generate.work import STILL, WorkFolder
 from anymesh.errors import AnymeshError, BudgetError, InputError, ModelError, OptionError, OutputError
 from anymesh.finishing.retexture import Remote
 from anymesh.pipeline.storage.atomic_folder import locked

@@ -2,8 +2,8 @@
 
 import pytest
 
+from anymesh.applications.generate.job import choose_size
 from anymesh.applications.generate.protocol import Unit
-from anymesh.applications.generate.size import choose_size
 
 
 @pytest.mark.parametrize("unit", Unit)

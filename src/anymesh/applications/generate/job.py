@@ -12,15 +12,13 @@ from typing import Any
 import numpy as np
 
 from anymesh import __version__
-from anymesh.applications.generate.choose import open_generator
-from anymesh.applications.generate.given import GivenMesh
-from anymesh.applications.generate.protocol import Generator3D, MeshRequest
-from anymesh.applications.generate.size import Size, choose_size
+from anymesh.applications.generate.generators import GivenMesh, open_generator
+from anymesh.applications.generate.protocol import Generator3D, MeshRequest, Unit
 from anymesh.errors import OptionError, OutputError
 from anymesh.export.options import ExportOptions
 from anymesh.finishing.finishing import open_completer, open_retexturer
 from anymesh.loading import place_mesh
-from anymesh.loading.load import LoadedMesh
+from anymesh.loading.load import LoadedMesh, usual_size
 from anymesh.pipeline.options import (
     AnswererOptions,
     Answering,
@@ -36,6 +34,7 @@ from anymesh.prompted.answerers.answering import FILES, choose_answerer
 from anymesh.runtime import Deadline
 from anymesh.types import Mesh, Node
 
+ADVICE = "give --scale METRES:AXIS, such as 0.9:z"
 FREE = ("max_calls", "max_cost", "cache", "timeout", "wait", "suggest", "spent", "limiter")  # options that affect no result
 DEFAULTS = {
     name: value
@@ -150,6 +149,40 @@ def open_job(
     name = request.name if mesh is None else Path(mesh).stem
     size = choose_size(chosen["scale"], chosen["category"], prompt, name, who.unit)
     return GenerationJob(request, who, Path(out).resolve(), chosen, size)
+
+
+@dataclass(frozen=True)
+class Size:
+    """Values of --scale and --category for the pipeline, with the reason in words; warning: if the size is unknown."""
+
+    scale: str
+    category: str | None
+    reason: str
+    warning: str = ""
+
+
+def choose_size(scale: str, category: str | None, prompt: str | None, name: str, unit: Unit) -> Size:
+    """Return the given size, else the usual size of the kind of object named by the category, the prompt or the file name.
+
+    Units that are stated or estimated are kept if they suit the kind (within a factor of 3) or no kind is known.
+    """
+    kind = usual_size(category or prompt or name)
+    known = category or prompt or (None if kind is None else kind[0].replace("_", " "))
+    if unit is Unit.STATED:
+        known = category or prompt  # a unit in the file takes precedence over the file's name
+    if scale != "auto":
+        return Size(scale, known, f"given as {scale}")
+    if kind is not None:
+        usual = f"a {kind[0].replace('_', ' ')} is about {kind[1]:g} m long"
+        if unit is Unit.ARBITRARY:
+            return Size(f"{kind[1]:g}:longest", known, f"{usual}; the generator gives no size")
+        if known is None:
+            return Size("auto", None, "as the mesh file states it")
+        source = "the generator estimates" if unit is Unit.ESTIMATED else "the mesh file states"
+        return Size("auto", known, f"as {source} it, where that suits the kind ({usual})")
+    if unit is Unit.ESTIMATED:
+        return Size("auto", known, "as the generator estimated it")
+    return Size("auto", known, "as the mesh file states it", f"the size of the object is not known; {ADVICE}")
 
 
 def _cube() -> LoadedMesh:
