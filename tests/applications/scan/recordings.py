@@ -11,7 +11,7 @@ from assets import box
 from PIL import Image
 
 from anymesh.applications.scan.frames import FLIPPED, Frames
-from anymesh.applications.scan.lzfse_ import pack
+from anymesh.applications.scan.read_record3d_ import pack
 from anymesh.types import Mesh, Node
 
 SIZE = (160, 120)

@@ -4,12 +4,19 @@ import numpy as np
 import pytest
 import trimesh
 
-from anymesh.applications.scan.cleaning import Surface, close_small, cut_floor, drop_bits, loops
-from anymesh.applications.scan.decimate_ import decimate
+from anymesh.applications.scan.cleaning_ import (
+    Surface,
+    border_vertices,
+    close_small,
+    cut_floor,
+    decimate,
+    drop_bits,
+    loops,
+    neighbours,
+    smooth,
+)
 from anymesh.applications.scan.frames import Frames, Observation, Pinhole, RgbdFrame
-from anymesh.applications.scan.fusion import fuse, place_blocks
-from anymesh.applications.scan.smoothing import border_vertices, neighbours, smooth
-from anymesh.applications.scan.surface_ import extract
+from anymesh.applications.scan.fusion_ import extract, fuse, place_blocks
 from anymesh.errors import InputError, OptionError
 from anymesh.geometry.topology import components
 from anymesh.runtime import silent

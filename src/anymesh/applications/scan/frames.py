@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -136,6 +136,16 @@ class Frames:
     has_depth: bool = True
     up: tuple[float, float, float] | None = None
     warnings: tuple[str, ...] = ()
+
+    @classmethod
+    def read(
+        cls, frames: Sequence[tuple[RgbdFrame, bool]], layout: str, up: tuple[float, float, float] | None, *warnings: str
+    ) -> Frames:
+        """Return the recording of frames, each with whether it has depth; if some have, those without are left out."""
+        deep = [frame for frame, has_depth in frames if has_depth]
+        if deep and len(deep) < len(frames):
+            warnings = (*warnings, f"{len(frames) - len(deep)} of {len(frames)} frames have no depth and are left out")
+        return cls(tuple(deep or [frame for frame, _ in frames]), layout, bool(deep), up, warnings)
 
     def __len__(self) -> int:
         return len(self.frames)

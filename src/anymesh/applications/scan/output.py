@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Int, UInt8
 
-from anymesh.applications.scan.cleaning import Hole
+from anymesh.applications.scan.cleaning_ import Hole
 from anymesh.errors import OutputError
 from anymesh.export.glb_buffer import INDICES, VERTICES, GlbBuffer
 from anymesh.types.mesh import to_linear

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import json
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -41,26 +43,28 @@ def within(folder: Path, name: object) -> Path:
     return path
 
 
-def picture_size(path: Path) -> tuple[int, int]:
-    """Return width and height [px] from the file's header. Raise InputError if the file is no picture."""
+@contextmanager
+def _opened(source: Path | io.BytesIO, name: object) -> Generator[Any]:
+    """Open a picture with Pillow. Raise InputError if it cannot be decoded."""
     from PIL import Image
 
     try:
-        with Image.open(path) as image:
-            return image.size
-    except (OSError, Image.DecompressionBombError) as error:
-        raise InputError(f"{path} is not a readable picture: {error}") from None
+        with Image.open(source) as image:
+            yield image
+    except (OSError, SyntaxError, Image.DecompressionBombError) as error:
+        raise InputError(f"{name} is not a readable picture: {error}") from None
+
+
+def picture_size(path: Path) -> tuple[int, int]:
+    """Return width and height [px] from the file's header. Raise InputError if the file is no picture."""
+    with _opened(path, path) as image:
+        return image.size
 
 
 def read_color(source: Path | bytes, name: str) -> UInt8[np.ndarray, "H W 3"]:
     """Read a picture as sRGB bytes. Raise InputError if it cannot be decoded."""
-    from PIL import Image
-
-    try:
-        with Image.open(source if isinstance(source, Path) else io.BytesIO(source)) as image:
-            return np.asarray(image.convert("RGB"))
-    except (OSError, SyntaxError, Image.DecompressionBombError) as error:
-        raise InputError(f"{name} is not a readable picture: {error}") from None
+    with _opened(source if isinstance(source, Path) else io.BytesIO(source), name) as image:
+        return np.asarray(image.convert("RGB"))
 
 
 def read_depth(path: Path, scale: float) -> Float32[np.ndarray, "h w"]:
@@ -70,15 +74,10 @@ def read_depth(path: Path, scale: float) -> Float32[np.ndarray, "h w"]:
             return clean_depth(np.load(path, allow_pickle=False), path.name, scale)
         except (OSError, ValueError) as error:
             raise InputError(f"{path} cannot be read as a depth map: {error}") from None
-    from PIL import Image
-
-    try:
-        with Image.open(path) as image:
-            if image.mode not in ("I;16", "I;16B", "I", "F"):
-                raise InputError(f"{path}: depth must be a picture of 16 bits and one channel, found mode {image.mode}")
-            return clean_depth(np.asarray(image), path.name, scale)
-    except (OSError, SyntaxError, Image.DecompressionBombError) as error:
-        raise InputError(f"{path} is not a readable picture: {error}") from None
+    with _opened(path, path) as image:
+        if image.mode not in ("I;16", "I;16B", "I", "F"):
+            raise InputError(f"{path}: depth must be a picture of 16 bits and one channel, found mode {image.mode}")
+        return clean_depth(np.asarray(image), path.name, scale)
 
 
 def clean_depth(raw: np.ndarray, name: str, scale: float = 1.0) -> Float32[np.ndarray, "h w"]:
@@ -94,13 +93,8 @@ def read_mask(path: Path | None) -> Bool[np.ndarray, "h w"] | None:
     """Return where a mask or confidence map is not 0; None without a file."""
     if path is None:
         return None
-    from PIL import Image
-
-    try:
-        with Image.open(path) as image:
-            pixels = np.asarray(image)
-    except (OSError, SyntaxError, Image.DecompressionBombError) as error:
-        raise InputError(f"{path} is not a readable picture: {error}") from None
+    with _opened(path, path) as image:
+        pixels = np.asarray(image)
     return (pixels if pixels.ndim == 2 else pixels.max(2)) >= CONFIDENT
 
 

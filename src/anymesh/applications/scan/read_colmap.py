@@ -48,7 +48,7 @@ def read_colmap(folder: Path, depth_scale: float | None, scale: float | None) ->
         raise OptionError("a COLMAP model has no unit of length: --scale METRES_PER_UNIT is needed (measure one known length)")
     binary = (model / "cameras.bin").is_file()
     cameras, warnings = _cameras(_binary_cameras(model) if binary else _text_cameras(model))
-    frames, deep = [], []
+    frames = []
     for image in sorted(_binary_images(model) if binary else _text_images(model), key=lambda i: i.name):
         if image.camera not in cameras:
             raise InputError(f"{model}: image {image.name} has camera {image.camera}, which is missing")
@@ -57,12 +57,8 @@ def read_colmap(folder: Path, depth_scale: float | None, scale: float | None) ->
         T = np.linalg.inv(image.T_camera_world)
         T[:3, 3] *= scale
         depth = _depth(folder, image.name)
-        frames.append(RgbdFrame(image.name, camera, T, _reader(color, depth, depth_scale, scale)))
-        deep.append(depth is not None)
-    kept = [frame for frame, d in zip(frames, deep, strict=True) if d or not any(deep)]
-    if len(kept) < len(frames):
-        warnings.append(f"{len(frames) - len(kept)} of {len(frames)} images have no depth and are left out")
-    return Frames(tuple(kept), "COLMAP", any(deep), None, tuple(warnings))
+        frames.append((RgbdFrame(image.name, camera, T, _reader(color, depth, depth_scale, scale)), depth is not None))
+    return Frames.read(frames, "COLMAP", None, *warnings)
 
 
 def _picture(folder: Path, name: str) -> Path:

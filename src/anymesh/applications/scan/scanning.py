@@ -4,31 +4,75 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Unpack
+from typing import TypedDict, Unpack
 
 import numpy as np
 
 from anymesh.applications.scan.agreement import agreement, check_convention, check_depth_unit, glimpse, without_drifted
-from anymesh.applications.scan.cleaning import Hole, Surface, close_small, cut_floor, drop_bits
-from anymesh.applications.scan.coloring import vertex_colors
-from anymesh.applications.scan.config import Options, ScanConfig
-from anymesh.applications.scan.decimate_ import decimate
+from anymesh.applications.scan.cleaning_ import Hole, Surface, close_small, cut_floor, decimate, drop_bits, smooth
 from anymesh.applications.scan.frames import Frames, cropped
-from anymesh.applications.scan.fusion import Field, fuse, place_blocks
+from anymesh.applications.scan.fusion_ import Field, extract, fuse, place_blocks, vertex_colors
 from anymesh.applications.scan.output import ScanReport, check_output, write_scan
 from anymesh.applications.scan.reading import FEWEST, read_frames
 from anymesh.applications.scan.scene import Scene, find_scene
-from anymesh.applications.scan.smoothing import smooth
-from anymesh.applications.scan.surface_ import extract
-from anymesh.errors import InputError
+from anymesh.errors import InputError, OptionError
 from anymesh.runtime import Progress, silent
 
+FINEST = 0.0002  # [m] smallest voxel; finer than any depth camera resolves
 FINE = 400  # voxels along the object's diagonal, unless limited by `PIXELS`
 PIXELS = 0.75  # [px] smallest voxel, projected on the object
 TRUNCATION = 4.0  # [voxels] smallest truncation
 NOISES = 3.0  # [standard deviations of depth] smallest truncation
 SEEN = 0.3  # lowest weight of a voxel that counts; a frontal view from the usual distance has weight 1
 MOVED = 2.0  # [voxels] largest displacement of a vertex by smoothing
+
+
+class Options(TypedDict, total=False):
+    """Options of `scan`; see `ScanConfig`."""
+
+    voxel: float | None
+    scale: float | None
+    depth_scale: float | None
+    depth_max: float
+    crop: tuple[float, ...] | None
+    keep_floor: bool
+    faces: int
+    seed: int
+
+
+@dataclass(frozen=True)
+class ScanConfig:
+    """Options of a scan.
+
+    voxel: [m], None for automatic; scale: metres per unit of the poses; depth_scale: metres per unit of the depth maps (both
+    None: as defined by the layout); depth_max: [m], larger depth is ignored; crop: x0, y0, z0, x1, y1, z1 [m] in the world of
+    the recording; keep_floor: do not detect and cut off the floor; faces: approximate number of faces after simplification;
+    seed: of the floor detection. Raise OptionError for a value that is not valid.
+    """
+
+    voxel: float | None = None
+    scale: float | None = None
+    depth_scale: float | None = None
+    depth_max: float = 5.0
+    crop: tuple[float, ...] | None = None
+    keep_floor: bool = False
+    faces: int = 100_000
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        for name, value in (("voxel", self.voxel), ("scale", self.scale), ("depth-scale", self.depth_scale)):
+            if value is not None and not (np.isfinite(value) and value > 0):
+                raise OptionError(f"--{name}: found {value}; valid are numbers above 0")
+        if self.voxel is not None and self.voxel < FINEST:
+            raise OptionError(f"--voxel: found {self.voxel} m; valid are {FINEST} m and more")
+        if not self.depth_max > 0:
+            raise OptionError(f"--depth-max: found {self.depth_max}; valid are metres above 0")
+        if self.faces < 1000:
+            raise OptionError(f"--faces: found {self.faces}; valid are 1000 and more")
+        if self.seed < 0:
+            raise OptionError(f"--seed: found {self.seed}; valid are integers from 0 up")
+        if self.crop is not None and len(self.crop) != 6:
+            raise OptionError(f"--crop: found {len(self.crop)} numbers; valid are six: x0,y0,z0,x1,y1,z1 [m]")
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import json
 import re
 import zipfile
@@ -14,13 +15,61 @@ from typing import Any
 import numpy as np
 
 from anymesh.applications.scan.frames import FLIPPED, Frames, Observation, Pinhole, RgbdFrame
-from anymesh.applications.scan.lzfse_ import unpack
 from anymesh.applications.scan.pictures import clean_depth, observed, read_color
 from anymesh.applications.scan.poses import quaternion_pose
-from anymesh.errors import InputError
+from anymesh.errors import InputError, MissingExtraError
 
 METADATA = ("metadata", "metadata.json")
 MOST_BYTES = 1 << 28  # [bytes] limit of one file in the archive
+
+
+def is_record3d(path: Path) -> bool:
+    """Return whether a folder or file holds a recording of Record3D."""
+    if path.is_file():
+        return path.suffix.lower() in (".r3d", ".zip")
+    return (path / "rgbd").is_dir() and any((path / name).is_file() for name in METADATA)
+
+
+def read_record3d(path: Path, depth_scale: float | None, scale: float | None) -> Frames:
+    """Read a recording: poses are camera-to-world with OpenGL axes (ARKit), depth is float32 in metres, y is up."""
+    home = _Home(path)
+    names = home.names()
+    metadata = _metadata(home, names)
+    numbers = sorted(int(m[1]) for name in names if (m := re.fullmatch(r"rgbd/(\d+)\.(?:jpg|png)", name)))
+    if not numbers:
+        raise InputError(f"{path}: found no rgbd/NUMBER.jpg; an export as .r3d has them")
+    stated = metadata.get("poses")
+    poses = stated if isinstance(stated, list) else []
+    if len(poses) <= max(numbers):
+        raise InputError(f"{path}: metadata has {len(poses)} poses for pictures up to number {max(numbers)}")
+    factor = depth_scale or 1.0
+    frames = []
+    for n in numbers:
+        row = [float(v) for v in poses[n]]
+        T = quaternion_pose(row[:4], [v * (scale or 1.0) for v in row[4:7]], str(n)) @ FLIPPED
+        frame = RgbdFrame(str(n), _camera(metadata, n, path), T, _reader(home, names, n, metadata, factor))
+        frames.append((frame, f"rgbd/{n}.depth" in names))
+    return Frames.read(frames, "Record3D", (0.0, 1.0, 0.0))
+
+
+def unpack(data: bytes, name: str) -> bytes:
+    """Decompress bytes. Raise InputError if they are damaged, MissingExtraError if the library is not installed."""
+    try:
+        lzfse: Any = importlib.import_module("lzfse")  # a compiled module without types
+    except ImportError:
+        raise MissingExtraError(
+            "depth of Record3D is compressed with LZFSE; pip install 'articulate-anymesh[scan]' brings what reads it"
+        ) from None
+    try:
+        return lzfse.decompress(data)
+    except lzfse.error as error:
+        raise InputError(f"{name} is not LZFSE data: {error}") from None
+
+
+def pack(data: bytes) -> bytes:
+    """Compress bytes, for writing recordings."""
+    lzfse: Any = importlib.import_module("lzfse")
+    return lzfse.compress(data)
 
 
 @dataclass(frozen=True)
@@ -49,36 +98,6 @@ def _opened(path: Path) -> zipfile.ZipFile:
         return zipfile.ZipFile(path)
     except (OSError, zipfile.BadZipFile) as error:
         raise InputError(f"{path} is not an archive of Record3D: {error}") from None
-
-
-def is_record3d(path: Path) -> bool:
-    """Return whether a folder or file holds a recording of Record3D."""
-    if path.is_file():
-        return path.suffix.lower() in (".r3d", ".zip")
-    return (path / "rgbd").is_dir() and any((path / name).is_file() for name in METADATA)
-
-
-def read_record3d(path: Path, depth_scale: float | None, scale: float | None) -> Frames:
-    """Read a recording: poses are camera-to-world with OpenGL axes (ARKit), depth is float32 in metres, y is up."""
-    home = _Home(path)
-    names = home.names()
-    metadata = _metadata(home, names)
-    numbers = sorted(int(m[1]) for name in names if (m := re.fullmatch(r"rgbd/(\d+)\.(?:jpg|png)", name)))
-    deep = [n for n in numbers if f"rgbd/{n}.depth" in names]
-    if not numbers:
-        raise InputError(f"{path}: found no rgbd/NUMBER.jpg; an export as .r3d has them")
-    stated = metadata.get("poses")
-    poses = stated if isinstance(stated, list) else []
-    if len(poses) <= max(numbers):
-        raise InputError(f"{path}: metadata has {len(poses)} poses for pictures up to number {max(numbers)}")
-    factor = depth_scale or 1.0
-    frames = []
-    for n in deep or numbers:
-        row = [float(v) for v in poses[n]]
-        T = quaternion_pose(row[:4], [v * (scale or 1.0) for v in row[4:7]], str(n)) @ FLIPPED
-        frames.append(RgbdFrame(str(n), _camera(metadata, n, path), T, _reader(home, names, n, metadata, factor)))
-    warnings = () if len(frames) == len(numbers) else (f"{len(numbers) - len(frames)} frames have no depth and are left out",)
-    return Frames(tuple(frames), "Record3D", bool(deep), (0.0, 1.0, 0.0), warnings)
 
 
 def _metadata(home: _Home, names: set[str]) -> dict[str, Any]:

@@ -1,16 +1,20 @@
-"""Fusion of depth maps into a truncated signed distance field on blocks of voxels near the surface (Curless and Levoy 1996)."""
+"""Fusion of depth maps into a truncated signed distance field on blocks of voxels near the surface (Curless and Levoy 1996).
+
+libigl extracts the surface by marching cubes; the pictures that see it best give its colours.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Float, Float32, Int, Int32
+from jaxtyping import Bool, Float, Float32, Int, Int32, UInt8
 from scipy import ndimage
 
 from anymesh.applications.scan.frames import Frames, Pinhole
 from anymesh.errors import InputError, OptionError
 from anymesh.runtime import Progress
+from anymesh.types.triangles import face_cross
 
 SIDE = 8  # voxels along the edge of a block
 CHUNK = 1024  # blocks projected at a time
@@ -21,6 +25,10 @@ FADE = 0.9  # share of its weight that a view has lost there
 FELLOWS, DEPTH_TOLERANCE_RATIO = 4, 0.015  # neighbouring pixels that must differ by less than this share of the depth
 STEEP = 0.15  # cosine of the viewing angle below which depth is ignored
 _LOCAL = np.stack(np.meshgrid(*[np.arange(SIDE)] * 3, indexing="ij"), -1).reshape(-1, 3)
+_CUBE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]])  # in libigl's order
+SEEN = 0.012  # share of the depth; largest difference between a visible vertex and the depth map
+SHARP = 4  # exponent of a view's weight; emphasizes frontal, near views
+UNSEEN = 150  # grey value where no picture shows the surface
 
 
 @dataclass(frozen=True, eq=False)
@@ -197,3 +205,92 @@ def _add(total: np.ndarray, weight: np.ndarray, rows: np.ndarray, grid: Grid, vi
     frame_weight = np.where(use, frame_weight * fade, 0)
     total[rows] += frame_weight * np.minimum(sdf, 1)
     weight[rows] += frame_weight
+
+
+def extract(field: Field, least: float) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "F 3"]]:
+    """Return vertices [m] and outward faces, open where the surface was not observed. least: smallest weight of voxels used.
+
+    Raise InputError if there is no surface.
+    """
+    import igl
+
+    grid = field.grid
+    value, weight = field.distance.reshape(-1), field.weight.reshape(-1)
+    candidates = np.flatnonzero((weight >= least) & (np.abs(value) < 1))  # suffices: a truncation exceeds a cube's diagonal
+    block, local = np.divmod(candidates, SIDE**3)
+    at = grid.blocks[block] * SIDE + np.stack(np.unravel_index(local, (SIDE,) * 3), 1)
+    index = np.stack([_index(grid.table, at + corner) for corner in _CUBE], 1)
+    index = index[(index >= 0).all(1)]
+    index = index[(weight[index] >= least).all(1)]
+    inside = (value[index] < 0).sum(1)
+    index = index[(inside > 0) & (inside < 8)]
+    if len(index) == 0:
+        raise InputError("frames were fused, but no surface came out: too few views of the same place, or depth too noisy")
+    used, cubes = np.unique(index, return_inverse=True)
+    block, local = np.divmod(used, SIDE**3)
+    nodes = (grid.blocks[block] * SIDE + np.stack(np.unravel_index(local, (SIDE,) * 3), 1)) * grid.voxel + grid.origin
+    level = value[used].astype(np.float64)
+    level[np.abs(level) < 1e-3] = -1e-3  # keeps the surface away from the corners of cubes
+    vertices, faces = igl.marching_cubes(level, nodes, cubes.reshape(-1, 8).astype(np.int64), 0.0)[:2]
+    return np.asarray(vertices, np.float64), np.asarray(faces).astype(np.int64)
+
+
+def _index(table: np.ndarray, at: Int[np.ndarray, "n 3"]) -> Int[np.ndarray, " n"]:
+    """Return the flat index of each voxel, -1 if it is not allocated."""
+    block, local = np.divmod(at, SIDE)
+    inside = ((block >= 0) & (block < table.shape)).all(1)
+    row = np.full(len(at), -1, np.int64)
+    row[inside] = table[tuple(block[inside].T)]
+    return np.where(row >= 0, row * SIDE**3 + np.ravel_multi_index(tuple(local.T), (SIDE,) * 3), -1)
+
+
+def vertex_colors(
+    vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], frames: Frames, T: Float[np.ndarray, "4 4"],
+    progress: Progress,
+) -> UInt8[np.ndarray, "V 3"]:  # fmt: skip
+    """Return sRGB colours, averaged over the frames that see a vertex, weighted by viewing angle and distance.
+
+    T: from the world to the vertices' frame.
+    """
+    cross = face_cross(vertices[faces])
+    normal = np.stack([np.bincount(faces.reshape(-1), np.repeat(c, 3), len(vertices)) for c in cross.T], 1)
+    normal = normal / np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-30)
+    total, weight = np.zeros((len(vertices), 3)), np.zeros(len(vertices))
+    for number, frame in enumerate(frames.frames):
+        progress("color", frame.name, number, len(frames))
+        observation = frame.observe()
+        T_camera = np.linalg.inv(T @ frame.T_world_camera)
+        p = vertices @ T_camera[:3, :3].T + T_camera[:3, 3]
+        facing = -np.einsum("ij,ij->i", normal @ T_camera[:3, :3].T, p) / np.maximum(np.linalg.norm(p, axis=1), 1e-9)
+        column, row = frame.depth_camera(observation.depth).pixels(p)
+        depth = np.where(column >= 0, observation.depth[row, column], 0)
+        rows = np.flatnonzero((depth > 0) & (np.abs(depth - p[:, 2]) < SEEN * p[:, 2]) & (facing > 0.1))
+        if len(rows) == 0:
+            continue
+        height, width = observation.color.shape[:2]
+        column, row = frame.camera.resized(width, height).pixels(p[rows])
+        rows, column, row = rows[column >= 0], column[column >= 0], row[column >= 0]
+        w = (facing[rows] / p[rows, 2]) ** SHARP
+        total[rows] += w[:, None] * observation.color[row, column]
+        weight[rows] += w
+    known = weight > 0
+    colors = np.full((len(vertices), 3), float(UNSEEN))
+    colors[known] = total[known] / weight[known, None]
+    return _spread(colors, known, faces)
+
+
+def _spread(colors: np.ndarray, known: np.ndarray, faces: np.ndarray) -> UInt8[np.ndarray, "V 3"]:
+    """Fill the colours of unseen vertices with the mean of their neighbours, starting from the seen ones."""
+    ends = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    ends = np.concatenate([ends, ends[:, ::-1]])
+    for _ in range(30):
+        use = known[ends[:, 0]] & ~known[ends[:, 1]]
+        if not use.any():
+            break
+        source, target = ends[use].T
+        count = np.bincount(target, minlength=len(colors))
+        mean = np.stack([np.bincount(target, colors[source, k], len(colors)) for k in range(3)], 1)
+        new = count > 0
+        colors[new] = mean[new] / count[new, None]
+        known = known | new
+    return np.clip(np.rint(colors), 0, 255).astype(np.uint8)
