@@ -137,8 +137,8 @@ def smooth(
 ) -> Float[np.ndarray, "V 3"]:  # fmt: skip
     """Return the vertices of the denoised surface; border vertices are fixed. most: largest displacement of a vertex [m].
 
-    Bilateral filtering of face normals (Zheng, Fu, Au and Tai 2011: local, iterative), then vertex updates by Sun, Rosin, Martin
-    and Langbein 2007. Creases are preserved.
+    Bilateral filtering of face normals (Zheng, Fu, Au and Tai 2011: local, iterative), then vertex updates (Sun, Rosin, Martin
+    and Langbein 2007). Creases are preserved.
     """
     pairs = neighbours(faces)
     cross = face_cross(vertices[faces])
