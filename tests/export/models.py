@@ -12,8 +12,7 @@ from scipy.spatial import ConvexHull
 
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.meshes import write_meshes
-from anymesh.export.model import Base, Driven, Exclusion, ExportLink, Model
-from anymesh.export.settings import ExportConfig
+from anymesh.export.model import Base, Driven, Exclusion, ExportConfig, ExportLink, Model
 from anymesh.physics.inertia import link_inertia
 from anymesh.types import Asset, Box, Cylinder, Hull, Material, Part, Segmentation, Shape, Texture
 from anymesh.types.mesh import TEXTURE_SLOTS

@@ -7,8 +7,16 @@ from assets import cabinet
 from models import CONFIG, model_of, with_meshes
 
 from anymesh.errors import MissingExtraError, OptionError
-from anymesh.export.formats import DEFAULT, WRITERS, Format, load_libraries, main_file, parse_formats, write_formats
-from anymesh.export.options import ExportOptions
+from anymesh.export.formats import (
+    DEFAULT,
+    WRITERS,
+    ExportOptions,
+    Format,
+    load_libraries,
+    main_file,
+    parse_formats,
+    write_formats,
+)
 
 
 def test_formats_are_read_once_each_in_the_order_of_the_set():

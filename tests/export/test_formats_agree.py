@@ -9,9 +9,8 @@ from assets import cabinet, poses, slanted, within_limits
 from models import CONFIG, desk, model_of, with_meshes
 from readers import READERS
 
-from anymesh.export.drives import drives
 from anymesh.export.formats import Format, write_formats
-from anymesh.export.model import Base, Exclusion
+from anymesh.export.model import Base, Exclusion, drives
 from anymesh.export.sdf import joint_names
 from anymesh.types import Box, Cylinder, JointType
 

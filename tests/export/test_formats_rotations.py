@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from anymesh.export.rotations import principal, quaternion, rpy, turning_x_to
+from anymesh.export.notation import principal, quaternion, rpy, turning_x_to
 
 POLES = [Rotation.from_euler("xyz", (0.3, sign * np.pi / 2, -0.7)).as_matrix() for sign in (1, -1)]
 HALF_TURNS = [Rotation.from_rotvec(np.pi * axis).as_matrix() for axis in np.eye(3)]

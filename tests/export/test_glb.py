@@ -9,10 +9,9 @@ import trimesh
 from assets import cabinet, posed_triangles, slanted
 from scipy.spatial.transform import Rotation, Slerp
 
-from anymesh.export.animation import tracks
-from anymesh.export.glb import glb_bytes
+from anymesh.export.glb import glb_bytes, tracks
 from anymesh.export.links import split_links
-from anymesh.export.settings import ExportConfig
+from anymesh.export.model import ExportConfig
 from anymesh.loading import load_mesh
 from anymesh.types import JointType
 

@@ -6,7 +6,7 @@ import numpy as np
 from assets import cabinet
 
 from anymesh.export.links import split_links, unique_rows
-from anymesh.export.settings import ExportConfig
+from anymesh.export.model import ExportConfig
 
 CONFIG = ExportConfig()
 

@@ -11,9 +11,8 @@ from assets import cabinet, slanted
 from models import CONFIG, desk, model_of, with_meshes
 
 from anymesh.errors import OutputError
-from anymesh.export.drives import WITHIN, drives
 from anymesh.export.mjcf_ import write_mjcf
-from anymesh.export.model import Base, Driven, Exclusion
+from anymesh.export.model import WITHIN, Base, Driven, Exclusion, drives
 from anymesh.types import Hull, Material
 
 

@@ -9,10 +9,9 @@ import yourdfpy
 from models import CONFIG, desk, model_of, with_meshes
 
 from anymesh.errors import InputError, OutputError
-from anymesh.export.archive import check_zip, write_zip
 from anymesh.export.formats import DEFAULT, write_formats
 from anymesh.export.model import Base
-from anymesh.export.package import write_package
+from anymesh.export.package import check_zip, write_package, write_zip
 
 
 @pytest.fixture

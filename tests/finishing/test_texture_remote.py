@@ -10,7 +10,7 @@ from assets import box, cabinet, mesh_of
 from finished import with_wall
 
 from anymesh.errors import ModelError, OptionError
-from anymesh.export.glb_buffer import GlbBuffer
+from anymesh.export.glb import GlbBuffer
 from anymesh.finishing.bake import png
 from anymesh.finishing.finishing import open_completer, open_retexturer
 from anymesh.finishing.holopart import HoloPart

@@ -5,7 +5,7 @@ import pytest
 import trimesh
 from assets import CUBE_FACES, box
 
-from anymesh.export.settings import ExportConfig
+from anymesh.export.model import ExportConfig
 from anymesh.physics.inertia import SUBSTANCES, Inertia, link_inertia, physical, raw_inertia, substance_of
 
 CONFIG = ExportConfig()

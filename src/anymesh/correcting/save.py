@@ -9,7 +9,7 @@ from anymesh.correcting.history import History
 from anymesh.correcting.log import pack_log, unpack_log
 from anymesh.errors import OutputError
 from anymesh.export import write_asset
-from anymesh.export.options import ExportOptions
+from anymesh.export.formats import ExportOptions
 from anymesh.pipeline.results import CorrectionResult
 from anymesh.pipeline.storage.atomic_folder import locked
 from anymesh.pipeline.storage.outputs import CORRECTIONS

@@ -6,11 +6,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from anymesh.export.asset_json import TIMING_FILE, asset_record, json_text
-from anymesh.export.build import build_model
 from anymesh.export.formats import DEFAULT, Format, load_libraries, parse_formats, write_formats
 from anymesh.export.meshes import write_meshes
-from anymesh.export.model import Base, Driven, Model
-from anymesh.export.settings import ExportConfig
+from anymesh.export.model import Base, Driven, ExportConfig, Model, build_model
 from anymesh.prompted.answerers.transcript import write_transcript
 from anymesh.runtime import Deadline
 from anymesh.types import Asset

@@ -1,21 +1,30 @@
-"""GLB: one animated glTF 2.0 file, Y up, with a node per link in the kinematic tree, materials and textures inside."""
+"""GLB: one animated glTF 2.0 file, Y up, with a node per link in the kinematic tree, materials and textures inside.
+
+The animation moves all joints at once through their whole range and back, in a loop.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from jaxtyping import Float, Float32
 
 import anymesh
-from anymesh.export.animation import tracks
-from anymesh.export.glb_buffer import INDICES, VERTICES, GlbBuffer
 from anymesh.export.links import Link, Primitive
-from anymesh.export.settings import ExportConfig
+from anymesh.export.model import ExportConfig
 from anymesh.names import legal_names
-from anymesh.types import Asset, Joint, Material, Texture
+from anymesh.types import Asset, Joint, JointType, Material, Texture
 from anymesh.types.mesh import to_linear
 
+FLOAT, UBYTE, USHORT, UINT = 5126, 5121, 5123, 5125
+VERTICES, INDICES = 34962, 34963  # bufferView targets
+KINDS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
+COMPONENTS = {"float32": FLOAT, "uint8": UBYTE, "uint16": USHORT, "uint32": UINT}
 Y_UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # rotates +Z to +Y
 DEFAULT_SAMPLER = {"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}
 TEXTURE_KEYS = {"normal": "normalTexture", "occlusion": "occlusionTexture", "emissive": "emissiveTexture"}
@@ -159,3 +168,120 @@ class _Materials:
             self._entries["images"].append(({"name": texture.name} if texture.name else {}) | image)
             self._entries["textures"].append({"sampler": 0, "source": self._textures[key]})
         return self._textures[key]
+
+
+class GlbBuffer:
+    """Collects accessors and images; equal arrays for the same use are stored once."""
+
+    def __init__(self) -> None:
+        self._chunks: list[bytes] = []
+        self._length = 0
+        self._known: dict[tuple[Any, ...], int] = {}
+        self.views: list[dict[str, Any]] = []
+        self.accessors: list[dict[str, Any]] = []
+
+    def view(self, data: bytes, target: int | None = None) -> int:
+        """Add a buffer view of some bytes, starting at a multiple of 4."""
+        view: dict[str, Any] = {"buffer": 0, "byteOffset": self._length, "byteLength": len(data)}
+        if target is not None:
+            view["target"] = target
+        padded = data + b"\0" * (-len(data) % 4)
+        self._chunks.append(padded)
+        self._length += len(padded)
+        self.views.append(view)
+        return len(self.views) - 1
+
+    def accessor(self, array: np.ndarray, *, target: int | None = None, bounds: bool = False, normalized: bool = False) -> int:
+        """Add an accessor of a (n,) or (n, k) array; `bounds` adds its minimum and maximum, as positions and times need."""
+        array = np.ascontiguousarray(array)
+        data = array.tobytes()
+        key = (hashlib.sha256(data).digest(), array.shape, array.dtype.str, target, bounds, normalized)
+        if key in self._known:
+            return self._known[key]
+        columns = array.reshape(len(array), -1)
+        accessor: dict[str, Any] = {
+            "bufferView": self.view(data, target),
+            "componentType": COMPONENTS[array.dtype.name],
+            "count": len(array),
+            "type": KINDS[columns.shape[1]],
+        }
+        if bounds:
+            accessor |= {"min": columns.min(0).tolist(), "max": columns.max(0).tolist()}
+        if normalized:
+            accessor["normalized"] = True
+        self.accessors.append(accessor)
+        self._known[key] = len(self.accessors) - 1
+        return self._known[key]
+
+    def encode(self, document: Mapping[str, Any]) -> bytes:
+        """Return the GLB file: header, JSON chunk padded with spaces, binary chunk padded with zeros."""
+        whole = {
+            **document,
+            "accessors": self.accessors,
+            "bufferViews": self.views,
+            "buffers": [{"byteLength": self._length}],
+        }
+        text = json.dumps(whole, separators=(",", ":"), allow_nan=False).encode("ascii")
+        text += b" " * (-len(text) % 4)
+        total = 12 + 8 + len(text) + 8 + self._length
+        head = b"glTF" + np.array([2, total, len(text)], "<u4").tobytes() + b"JSON"
+        return b"".join([head, text, np.array([self._length], "<u4").tobytes(), b"BIN\0", *self._chunks])
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """Keys of one joint.
+
+    times: ascending [s]; amounts: at these times [rad or m].
+    """
+
+    joint: Joint
+    times: Float32[np.ndarray, " n"]
+    amounts: Float[np.ndarray, " n"]
+
+    def values(self, rest: Float[np.ndarray, " 3"]) -> tuple[str, Float32[np.ndarray, "n k"]]:
+        """Return the glTF path and its keys: quaternions xyzw without sign changes, or translations from `rest` [m]."""
+        if self.joint.type is JointType.PRISMATIC:
+            return "translation", (rest + self.amounts[:, None] * self.joint.axis).astype(np.float32)
+        half = self.amounts[:, None] / 2
+        quaternion = np.hstack([np.sin(half) * self.joint.axis, np.cos(half)])
+        return "rotation", (quaternion / np.linalg.norm(quaternion, axis=1, keepdims=True)).astype(np.float32)
+
+
+def tracks(joints: Sequence[Joint], config: ExportConfig) -> tuple[Track, ...]:
+    """Return keys of all moving joints: first up to the upper limits and back, then down to the lower ones and back.
+
+    A direction that no joint has is left out. A joint without it rests in the meantime. Continuous joints rotate once, at
+    constant speed.
+    """
+    moving = [j for j in joints if j.type is not JointType.FIXED]
+    up = any(j.limits is None or j.limits[1] > 0 for j in moving)
+    down = any(j.limits is not None and j.limits[0] < 0 for j in moving)
+    length = config.seconds_a_way * (up + down)
+    return tuple(_track(j, up, length, config) for j in moving)
+
+
+def _track(joint: Joint, up: bool, length: float, config: ExportConfig) -> Track:
+    turns = joint.type is not JointType.PRISMATIC
+    step = np.deg2rad(config.degrees_a_key)
+    if joint.limits is None:
+        count = int(np.ceil(2 * np.pi / step))
+        whole = np.linspace(0, 1, count + 1)
+        return Track(joint, (length * whole).astype(np.float32), 2 * np.pi * whole)
+    times, amounts = [0.0], [0.0]
+    for limit, begin in ((joint.limits[1], 0.0), (joint.limits[0], config.seconds_a_way * up)):
+        if limit == 0:
+            continue
+        half = int(np.ceil(abs(limit) * np.pi / 2 / step)) if turns else 0  # the steepest step of the cosine
+        count = 2 * max(12, half)
+        share = np.linspace(0, 1, count + 1)
+        if begin > times[-1]:
+            times.append(begin)
+            amounts.append(0.0)
+        times += (begin + config.seconds_a_way * share[1:]).tolist()
+        amounts += (limit * (1 - np.cos(2 * np.pi * share[1:])) / 2).tolist()
+    amounts[-1] = 0.0
+    if times[-1] < length:
+        times.append(length)
+        amounts.append(0.0)
+    return Track(joint, np.array(times, np.float32), np.array(amounts))

@@ -1,23 +1,27 @@
-"""The meshes folder: a visual OBJ per link with materials and textures, and an OBJ per convex hull of its collision."""
+"""The meshes folder: a visual OBJ per link with materials and textures, and an OBJ per convex hull of its collision.
+
+Flat meshes and points, which engines refuse, get a volume. Formats without more get a single colour per primitive.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from jaxtyping import Float, Int
 
-from anymesh.export.flat import flat_normal, small_box
 from anymesh.export.links import Link, Primitive
-from anymesh.export.materials import write_textures
-from anymesh.export.model import FOLDER, ExportLink, Model
-from anymesh.export.settings import ExportConfig
+from anymesh.export.model import FOLDER, ExportConfig, ExportLink, Model
 from anymesh.names import legal_names
-from anymesh.types import Hull, Material
-from anymesh.types.mesh import to_srgb
+from anymesh.types import Hull, Material, Mesh
+from anymesh.types.mesh import TEXTURE_SLOTS, to_srgb
 from anymesh.types.triangles import face_cross
 
+POINT = 1e-4  # [m] side of a link without any extent
+GREY = (0.7, 0.7, 0.7, 1.0)
+SUFFIXES = {"image/png": ".png", "image/jpeg": ".jpg"}
 MIN_AREA = 1e-12  # [m^2] minimum area of a visible primitive; MuJoCo refuses smaller meshes
 MIN_AREA_SHARE = 1e-9  # of the squared diagonal: the area of thinner needles is lost in float32
 SHEET = 1e-5  # of the diagonal: a thinner visual gets a back sheet, since MuJoCo refuses flat meshes
@@ -175,3 +179,71 @@ def _rows(pattern: str, rows: np.ndarray) -> Iterator[str]:
 def _write_lines(path: Path, lines: Iterator[str]) -> None:
     with path.open("w", encoding="ascii", newline="\n") as file:
         file.writelines(lines)
+
+
+def flat_normal(points: Float[np.ndarray, "n 3"], *, share: float) -> Float[np.ndarray, " 3"] | None:
+    """Return the unit normal of points within `share` of their diagonal of a plane, None if they are not plane."""
+    spread = points - points.mean(0)
+    normal = np.linalg.eigh(spread.T @ spread)[1][:, 0]
+    if float(np.ptp(spread @ normal)) > share * float(np.linalg.norm(np.ptp(points, axis=0))):
+        return None
+    return normal if normal[np.abs(normal).argmax()] > 0 else -normal
+
+
+def small_box(
+    triangles: Float[np.ndarray, "n 3 3"], config: ExportConfig
+) -> tuple[Float[np.ndarray, "8 3"], Int[np.ndarray, "12 3"]]:
+    """Return the bounding box of points without area, with sides of at least the wall thickness and POINT."""
+    corners = triangles.reshape(-1, 3)
+    side = max(config.wall(float(np.linalg.norm(np.ptp(corners, axis=0)))), POINT)
+    center = (corners.min(0) + corners.max(0)) / 2
+    half = np.maximum(np.ptp(corners, axis=0), side) / 2
+    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
+    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    return center + signs * half, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
+
+
+def painted(mesh: Mesh, p: Primitive) -> bool:
+    """Return whether a primitive is coloured by its corners, which requires that its material has no texture."""
+    return p.colors is not None and (p.material < 0 or not mesh.materials[p.material].textures)
+
+
+def display_color(mesh: Mesh, p: Primitive) -> tuple[float, ...]:
+    """Return one colour (sRGB and alpha, 0..1) for a primitive; a texture multiplies it."""
+    if p.colors is not None and painted(mesh, p):
+        return tuple(float(c) for c in p.colors.mean(0) / 255)
+    if p.material < 0:
+        return GREY
+    *color, alpha = mesh.materials[p.material].base_color
+    return (*to_srgb(color).tolist(), alpha)
+
+
+def widest(link: Link) -> Primitive:
+    """Return the primitive that covers most of the link."""
+    return max(link.primitives, key=lambda p: float(np.linalg.norm(face_cross(p.positions[p.triangles]), axis=1).sum()))
+
+
+def texture_files(mesh: Mesh) -> dict[bytes, str]:
+    """Return the file name of each image in use, by its bytes; stems are unique regardless of the suffix."""
+    textures = {}
+    for index in sorted(set(mesh.face_material.tolist()) - {-1}) if mesh.corner_uv is not None else []:
+        material = mesh.materials[index]
+        for slot in TEXTURE_SLOTS:
+            texture = material.textures.get(slot)
+            if texture is not None:
+                textures.setdefault(texture.data, (texture, Path(texture.name).stem or f"{material.name}_{slot}"))
+    names = legal_names([stem for _, stem in textures.values()], fallback="texture")
+    return {
+        data: name + SUFFIXES.get(texture.mime, ".png")
+        for (data, (texture, _)), name in zip(textures.items(), names, strict=True)
+    }
+
+
+def write_textures(mesh: Mesh, folder: Path, slots: Collection[str]) -> Mapping[bytes, str]:
+    """Write the images of some slots unchanged; return the file names by their bytes."""
+    files = texture_files(mesh)
+    for index in sorted(set(mesh.face_material.tolist()) - {-1}):
+        for slot, texture in mesh.materials[index].textures.items():
+            if slot in slots and texture.data in files:
+                (folder / files[texture.data]).write_bytes(texture.data)
+    return files

@@ -1,24 +1,29 @@
-"""MJCF: a MuJoCo model built with MuJoCo's own spec, compiled before it is written."""
+"""MJCF: a MuJoCo model built with MuJoCo's own spec, compiled before it is written.
+
+MuJoCo reads one material per mesh, and PNG only. Its XML is written again with ten digits instead of six, and with position
+actuators in a form that all versions read.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import io
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, assert_never
+from xml.etree import ElementTree
 
 import numpy as np
+from PIL import Image
 
 from anymesh.errors import OutputError
-from anymesh.export.drives import Drive, drives
-from anymesh.export.meshes import material_names
-from anymesh.export.mjcf_digits import with_digits
-from anymesh.export.mjcf_materials import GeomMaterial, geom_materials, png_textures
-from anymesh.export.model import Base, Driven, ExportLink, Model
-from anymesh.export.rotations import quaternion
-from anymesh.export.settings import ExportConfig
+from anymesh.export.meshes import display_color, material_names, painted, texture_files, visible, with_four_corners, write_obj
+from anymesh.export.model import FOLDER, Base, Drive, Driven, ExportConfig, ExportLink, Model, drives
+from anymesh.export.notation import moments, number, quaternion, vector
 from anymesh.mujoco_ import load_mujoco
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
+PIECES = f"{FOLDER}/mjcf"  # separate folder: `door_2.obj` in it is the second material of door, not a link door_2
 VISUAL, COLLISION = "visual", "collision"
 DRIVES = 1  # group of the actuators: `actuatorgroupdisable="1"` makes the asset passive
 
@@ -137,8 +142,8 @@ def _add_geoms(
             geom.rgba = look.rgba
         else:
             geom.material = names[look.material]
-    for number, (shape, path) in enumerate(zip(body.shapes, body.hull_paths(), strict=True)):
-        geom = frame.add_geom(spec.find_default(COLLISION), name=f"{body.name}_collision_{number}")
+    for k, (shape, path) in enumerate(zip(body.shapes, body.hull_paths(), strict=True)):
+        geom = frame.add_geom(spec.find_default(COLLISION), name=f"{body.name}_collision_{k}")
         _shape(mujoco, spec, geom, shape, path)
 
 
@@ -168,3 +173,137 @@ def _add_drive(mujoco: Any, spec: Any, model: Model, name: str, drive: Drive) ->
     motor.set_to_position(kp=drive.stiffness, kv=drive.damping)
     if joint.limits is not None:
         motor.ctrllimited, motor.ctrlrange = 1, joint.limits
+
+
+@dataclass(frozen=True)
+class GeomMaterial:
+    """A visual geom.
+
+    path: relative to the asset folder; material: into the mesh's, None for a colour only; rgba: sRGB.
+    """
+
+    name: str
+    path: str
+    material: int | None
+    rgba: tuple[float, ...]
+
+
+def geom_materials(mesh: Mesh, body: ExportLink, folder: Path, config: ExportConfig) -> list[GeomMaterial]:
+    """Return the visual geoms of a body: its visual OBJ, or one OBJ per material, written here, if it has several."""
+    primitives = visible(body.link, config)
+    names = material_names(mesh.materials)
+    geoms = []
+    for k, p in enumerate(primitives):
+        path = body.visual_path()
+        if len(primitives) > 1:
+            (folder / PIECES).mkdir(exist_ok=True)
+            path = f"{PIECES}/{body.name}_{k}.obj"
+            write_obj(folder / path, body.name, None, [replace(with_four_corners(p), material=-1)], names)
+        material = None if p.material < 0 or painted(mesh, p) else p.material
+        geoms.append(GeomMaterial(f"{body.name}_visual_{k}", path, material, display_color(mesh, p)))
+    return geoms
+
+
+def png_textures(mesh: Mesh, folder: Path, used: Collection[int], slots: Collection[str]) -> dict[tuple[int, str], str]:
+    """Write the textures of some materials and slots as PNG beside the others; return their paths by material and slot."""
+    files = texture_files(mesh)
+    paths: dict[tuple[int, str], str] = {}
+    for index in sorted(used):
+        for slot, texture in mesh.materials[index].textures.items():
+            if slot not in slots or texture.data not in files:
+                continue
+            path = f"{FOLDER}/{Path(files[texture.data]).stem}.png"
+            (folder / path).write_bytes(_png(texture.data))
+            paths[index, slot] = path
+    return paths
+
+
+def _png(data: bytes) -> bytes:
+    """Return the bytes of a PNG unchanged, and another image converted."""
+    if data.startswith(b"\x89PNG"):
+        return data
+    file = io.BytesIO()
+    Image.open(io.BytesIO(data)).convert("RGB").save(file, "PNG")
+    return file.getvalue()
+
+
+def with_digits(text: str, model: Model, motors: Mapping[str, Drive]) -> str:
+    """Return the MJCF of a model with its numbers at full precision; elements are found by name."""
+    root = ElementTree.fromstring(text)
+    origins = {link.name: link.origin for link in model.links}
+    bodies = {element.get("name"): element for element in root.iter("body")}
+    for body in model.bodies:
+        joint = body.link.joint
+        element = bodies[body.name]
+        if joint is not None:
+            element.set("pos", vector(body.link.origin - origins[joint.parent]))
+        _inertial(element, body)
+        _geoms(element, body)
+    joints = {element.get("name"): element for element in root.iter("joint")}
+    for joint in model.asset.joints:
+        if joint.name in joints:
+            _joint(joints[joint.name], joint)
+    for element in root.iter("texture"):
+        element.attrib.pop("colorspace", None)  # inferred at compile time; older versions do not know the attribute
+    actuators = root.find("actuator")
+    if actuators is not None:
+        _actuators(actuators, model, motors)
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, encoding="unicode") + "\n"
+
+
+def _inertial(element: ElementTree.Element, body: ExportLink) -> None:
+    inertial = element.find("inertial")
+    if inertial is None:
+        raise ValueError(f"body {body.name!r} was written without its inertia")
+    entries = moments(body.inertia.tensor)
+    inertial.attrib.clear()
+    inertial.set("pos", vector(body.inertia.center))
+    inertial.set("mass", number(body.inertia.mass))
+    inertial.set("fullinertia", " ".join(entries[key] for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")))
+
+
+def _joint(element: ElementTree.Element, joint: Joint) -> None:
+    element.set("axis", vector(joint.axis / np.linalg.norm(joint.axis)))
+    element.set("damping", number(joint.damping))
+    element.set("frictionloss", number(joint.friction))
+    element.set("actuatorfrcrange", vector((-joint.effort, joint.effort)))
+    if joint.limits is not None:
+        element.set("range", vector(joint.limits))
+
+
+def _geoms(element: ElementTree.Element, body: ExportLink) -> None:
+    """Set positions and sizes of primitives; meshes are placed by their files."""
+    shapes = {f"{body.name}_collision_{i}": shape for i, shape in enumerate(body.shapes)}
+    for geom in element.findall("geom"):
+        shape = shapes.get(str(geom.get("name")))
+        if shape is None or isinstance(shape, Hull):
+            geom.attrib.pop("pos", None)  # the compiler's recentering of a mesh and its inverse, with rounding
+            geom.attrib.pop("quat", None)
+            continue
+        geom.set("pos", vector(shape.center))
+        geom.set("quat", vector(quaternion(shape.rotation)))
+        match shape:
+            case Box():
+                geom.set("size", vector(shape.size / 2))
+            case Cylinder():
+                geom.set("size", vector((shape.radius, shape.length / 2)))
+
+
+def _actuators(actuators: ElementTree.Element, model: Model, motors: Mapping[str, Drive]) -> None:
+    """Replace `general` and its parameters by the equivalent `motor` or `position`."""
+    passive = model.driven is Driven.PASSIVE
+    joints = {j.name: j for j in model.asset.joints}
+    for element in list(actuators):
+        name = str(element.get("name"))
+        limits, drive = joints[name].limits, motors[name]
+        span = vector((-drive.effort, drive.effort))
+        words = {"name": name, "joint": name, "group": str(element.get("group")), "forcerange": span, "forcelimited": "true"}
+        if passive:
+            words |= {"ctrlrange": span, "ctrllimited": "true"}
+        else:
+            words |= {"kp": number(drive.stiffness), "kv": number(drive.damping)}
+            words |= {} if limits is None else {"ctrlrange": vector(limits), "ctrllimited": "true"}
+        element.tag = "motor" if passive else "position"
+        element.attrib.clear()
+        element.attrib.update(words)

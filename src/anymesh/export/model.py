@@ -1,19 +1,31 @@
-"""Input of all format writers: links with inertia and collision shapes, joints, and a base."""
+"""Input of all format writers: links with inertia and collision shapes, joints, a base, and drives.
+
+A drive is a spring and a damper towards a commanded position, with the same values in every format.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from pathlib import Path
 
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.export.links import Link
-from anymesh.physics.inertia import Inertia
-from anymesh.types import Asset, Hull, Shape
+from anymesh.export.links import Link, split_links, with_legal_names
+from anymesh.geometry.surface import plain_triangles
+from anymesh.physics.collision import Collision, CollisionConfig, collision_shapes
+from anymesh.physics.inertia import Inertia, InertiaConfig, Substance, link_inertia, substance_of
+from anymesh.runtime import Deadline
+from anymesh.types import Asset, Hull, Joint, JointType, Mesh, Shape
 
 FOLDER = "meshes"
+OVERLAP = "their surfaces overlap at rest"
+TIGHT = "their collision shapes touch where the surfaces do not"
+GRAVITY = 9.81  # [m/s^2]
+WITHIN = 0.02  # of a joint's range: maximum steady-state error of a drive under its load
+UPRIGHT = 0.999  # minimum cosine to the vertical of an upright joint, which tilts nothing that it carries
 
 
 class Base(StrEnum):
@@ -95,3 +107,123 @@ class Model:
     @property
     def links(self) -> Sequence[Link]:
         return tuple(body.link for body in self.bodies)
+
+
+@dataclass(frozen=True)
+class ExportConfig(InertiaConfig):
+    """Physical properties that a mesh does not state, and sizes in the output."""
+
+    collision: CollisionConfig = field(default_factory=CollisionConfig)
+    seconds_a_way: float = 2.0  # [s] of the animation: from rest to one limit and back
+    degrees_a_key: float = 15.0  # [deg] maximum angle between two rotation keys; slerp is unique below 180
+
+
+@dataclass(frozen=True, eq=False)
+class Built:
+    """A model, and the collision result of its shapes."""
+
+    model: Model
+    collision: Collision
+
+
+def build_model(
+    asset: Asset, *, base: Base, driven: Driven, config: ExportConfig, cache: Path | None, deadline: Deadline | None = None
+) -> Built:
+    """Build the model of an asset, with legal names and the warnings of its collision shapes.
+
+    cache: folder of decompositions, None for none.
+    """
+    asset = with_legal_names(asset)
+    links = split_links(asset)
+    plain = {link.name: plain_triangles(link.triangles, asset.mesh.diagonal) for link in links}
+    triangles = {name: surface for name, (surface, _) in plain.items()}
+    origins = {link.name: link.origin for link in links}
+    collision = collision_shapes(asset, triangles, origins, config.collision, cache, deadline=deadline)
+    asset = replace(asset, warnings=tuple(dict.fromkeys((*asset.warnings, *collision.warnings))))
+    bodies = tuple(
+        ExportLink(
+            link,
+            link_inertia(triangles[link.name], config, _made_of(asset.mesh, link, plain[link.name][1])),
+            collision.shapes[link.name],
+        )
+        for link in links
+    )
+    excluded = [Exclusion(a, b, OVERLAP) for a, b in collision.overlapping]
+    excluded += [Exclusion(a, b, TIGHT) for a, b in collision.tight]
+    return Built(Model(asset, bodies, base, tuple(excluded), driven), collision)
+
+
+def _made_of(mesh: Mesh, link: Link, kept: Int[np.ndarray, " K"]) -> list[Substance | None]:
+    """Return the substance of some triangles of a link, by the names of their materials."""
+    named = {p.material: None if p.material < 0 else substance_of(mesh.materials[p.material].name) for p in link.primitives}
+    all_ = [named[p.material] for p in link.primitives for _ in range(len(p.triangles))]
+    return [all_[k] for k in kept]
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Gains of a drive.
+
+    stiffness [N m/rad or N/m]; damping [N m s/rad or N s/m]; effort: maximum [N m or N].
+    """
+
+    stiffness: float
+    damping: float
+    effort: float
+
+
+def drives(model: Model) -> Mapping[str, Drive]:
+    """Return a drive for each moving joint, by name. A passive one has neither stiffness nor damping.
+
+    Damping over stiffness is the time in which the joint crosses its range at its velocity, which limits the speed of a drive.
+    The stiffness keeps the error due to friction and weight within a share of the range. It is at least that of critical
+    damping, so that no drive oscillates or overshoots.
+    """
+    moving = [j for j in model.asset.joints if j.type is not JointType.FIXED]
+    if model.driven is Driven.PASSIVE:
+        return {j.name: Drive(0.0, 0.0, j.effort) for j in moving}
+    return {j.name: _drive(model, j) for j in moving}
+
+
+def _drive(model: Model, joint: Joint) -> Drive:
+    span = 2 * np.pi if joint.limits is None else joint.limits[1] - joint.limits[0]
+    seconds = span / joint.velocity
+    inertia, load = _carried(model, joint)
+    stiffness = max(4 * inertia / seconds**2, (joint.friction + load) / (WITHIN * span))
+    return Drive(float(stiffness), float(stiffness * seconds), joint.effort)
+
+
+def _carried(model: Model, joint: Joint) -> tuple[float, float]:
+    """Return the inertia that the joint moves at rest [kg m^2 or kg], and the maximum load from gravity [N m or N]."""
+    bodies = _subtree(model, joint.child)
+    masses = np.array([b.inertia.mass for b in bodies])
+    along, tilt = (1.0, 1.0) if _is_tilted(model, joint) else (abs(joint.axis[2]), float(np.linalg.norm(joint.axis[:2])))
+    if joint.type is JointType.PRISMATIC:
+        return float(masses.sum()), float(masses.sum() * GRAVITY * along)
+    levers = np.array([b.link.origin + b.inertia.center - joint.origin for b in bodies])
+    levers -= np.outer(levers @ joint.axis, joint.axis)
+    own = sum(float(joint.axis @ b.inertia.tensor @ joint.axis) for b in bodies)
+    return own + float(masses @ (levers**2).sum(1)), float(np.linalg.norm(masses @ levers)) * GRAVITY * tilt
+
+
+def _is_tilted(model: Model, joint: Joint) -> bool:
+    """Return whether a joint before this one can tilt its axis."""
+    carriers = {j.child: j for j in model.asset.joints}
+    at = carriers.get(joint.parent)
+    while at is not None:
+        if at.type in (JointType.REVOLUTE, JointType.CONTINUOUS) and abs(at.axis[2]) < UPRIGHT:
+            return True
+        at = carriers.get(at.parent)
+    return False
+
+
+def _subtree(model: Model, name: str) -> list[ExportLink]:
+    """Return a link and all links that it carries."""
+    names = {name}
+    waiting = [name]
+    while waiting:
+        at = waiting.pop()
+        children = {j.child for j in model.asset.joints if j.parent == at}
+        names |= children
+        waiting += sorted(children)
+    return [b for b in model.bodies if b.name in names]

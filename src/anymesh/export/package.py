@@ -1,16 +1,21 @@
-"""A ROS 2 package of an asset folder: package.xml, CMakeLists.txt, urdf/ with package:// paths, meshes/."""
+"""An asset folder in one piece: as a ROS 2 package, and as a zip whose bytes depend on its content only.
+
+A package has package.xml, CMakeLists.txt, urdf/ with package:// paths, and meshes/.
+"""
 
 from __future__ import annotations
 
+import io
 import re
 import shutil
+import zipfile
 from pathlib import Path
 from xml.etree import ElementTree
 
 import anymesh
 from anymesh.errors import InputError, OutputError
 from anymesh.export.model import FOLDER, Base
-from anymesh.export.xml_text import document
+from anymesh.export.notation import document
 from anymesh.names import legal_names
 
 CMAKE = """cmake_minimum_required(VERSION 3.8)
@@ -20,6 +25,8 @@ install(DIRECTORY urdf meshes DESTINATION share/${{PROJECT_NAME}})
 ament_package()
 """
 SUFFIXES = {".obj", ".mtl", ".png", ".jpg"}  # files used by a URDF's meshes; face indices are left out
+EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date that a zip can hold
+PLAIN_FILE = 0o100644 << 16  # a file readable by all and writable by its owner
 
 
 def write_package(folder: Path, into: Path, *, base: Base) -> Path:
@@ -83,3 +90,38 @@ def _packaged(text: str, name: str, base: Base) -> str:
         ElementTree.SubElement(joint, "child", link=root)
         robot[:0] = [ElementTree.Element("link", name="world"), joint]
     return document(robot)
+
+
+def check_zip(path: Path) -> None:
+    """Raise OutputError if no zip can be written there."""
+    if path.suffix.lower() != ".zip" or path.is_dir() or not path.parent.is_dir():
+        raise OutputError(f"--zip: found {str(path)!r}; valid is the path of a file that ends in .zip, in an existing folder")
+
+
+def write_zip(folder: Path, path: Path) -> None:
+    """Zip an asset folder under its own name, with files sorted by name and fixed dates and permissions.
+
+    Hidden files and saved stages, which no simulator needs, are left out.
+    """
+    partial = path.with_name(f".{path.name}.partial")
+    with partial.open("wb") as sink:
+        _zip(folder, sink, without=path)
+    partial.replace(path)
+
+
+def zip_bytes(folder: Path) -> bytes:
+    """Return the zip of an asset folder, as `write_zip` writes it."""
+    sink = io.BytesIO()
+    _zip(folder, sink)
+    return sink.getvalue()
+
+
+def _zip(folder: Path, sink: io.BufferedIOBase, without: Path | None = None) -> None:
+    with zipfile.ZipFile(sink, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as archive:
+        for file in sorted(p for p in folder.rglob("*") if p.is_file()):
+            inside = file.relative_to(folder)
+            if file == without or inside.parts[0] == "stages" or any(part.startswith(".") for part in inside.parts):
+                continue
+            entry = zipfile.ZipInfo(f"{folder.name}/{inside.as_posix()}", EPOCH)
+            entry.compress_type, entry.external_attr, entry.create_system = zipfile.ZIP_DEFLATED, PLAIN_FILE, 3
+            archive.writestr(entry, file.read_bytes())

@@ -9,11 +9,9 @@ from xml.etree import ElementTree
 
 import numpy as np
 
-from anymesh.export.materials import display_color, painted, widest
-from anymesh.export.model import Base, ExportLink, Model
-from anymesh.export.rotations import rpy
-from anymesh.export.settings import ExportConfig
-from anymesh.export.xml_text import document, moments, number, vector
+from anymesh.export.meshes import display_color, painted, widest
+from anymesh.export.model import Base, ExportConfig, ExportLink, Model
+from anymesh.export.notation import document, moments, number, rpy, vector
 from anymesh.names import legal_names
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 

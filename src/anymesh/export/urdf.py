@@ -9,11 +9,9 @@ from xml.etree import ElementTree
 import numpy as np
 
 from anymesh.export.links import Link
-from anymesh.export.materials import display_color, painted, widest
-from anymesh.export.meshes import material_names
+from anymesh.export.meshes import display_color, material_names, painted, widest
 from anymesh.export.model import ExportLink, Model
-from anymesh.export.rotations import rpy
-from anymesh.export.xml_text import document, moments, number, vector
+from anymesh.export.notation import document, moments, number, rpy, vector
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
 # By default, MuJoCo drops visuals and folders of mesh names, and fuses static links.

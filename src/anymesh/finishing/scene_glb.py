@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.errors import InputError
-from anymesh.export.glb_buffer import INDICES, VERTICES, GlbBuffer
+from anymesh.export.glb import INDICES, VERTICES, GlbBuffer
 from anymesh.export.links import unique_rows
 from anymesh.loading.files import Folder
 from anymesh.loading.gltf import read_gltf

@@ -21,95 +21,6 @@ READ = ("KHR_texture_transform", "KHR_mesh_quantization", "EXT_texture_webp")
 LEFT_OUT = {0: "points", 1: "lines", 2: "lines", 3: "lines"}
 
 
-@dataclass(frozen=True)
-class GltfMaterial:
-    """A material, and the texture coordinates of its pictures."""
-
-    material: Material
-    uv_set: int = 0
-    transform: dict[str, Any] | None = None  # KHR_texture_transform of the base colour
-
-    def place(self, uv: np.ndarray) -> Float32[np.ndarray, "n 2"]:
-        """Return texture coordinates with the picture's transform applied and v upwards as in OBJ."""
-        uv = np.nan_to_num(np.asarray(uv, np.float64)[:, :2])
-        if self.transform:
-            angle = float(self.transform.get("rotation", 0.0))
-            c, s = np.cos(angle), np.sin(angle)
-            uv = (uv * self.transform.get("scale", (1, 1))) @ np.array([[c, -s], [s, c]]) + self.transform.get("offset", (0, 0))
-        return np.stack([uv[:, 0], 1 - uv[:, 1]], 1).astype(np.float32)
-
-
-def read_materials(tree: dict[str, Any], buffers: Buffers, folder: Folder) -> list[GltfMaterial]:
-    """Return the materials in the order of the file; a missing or broken picture gives a warning."""
-    images = [_image(k, image, buffers, folder) for k, image in enumerate(tree.get("images", []))]
-    return [_material(k, m, tree.get("textures", []), images) for k, m in enumerate(tree.get("materials", []))]
-
-
-def _image(number: int, image: dict[str, Any], buffers: Buffers, folder: Folder) -> Texture | None:
-    uri, name = image.get("uri"), str(image.get("name") or f"image_{number}")
-    if uri is not None and not uri.startswith("data:"):
-        return picture_file(folder, uri)
-    try:
-        data = buffers.view(image["bufferView"]) if uri is None else from_uri(uri, folder)
-    except (InputError, LookupError, TypeError) as error:  # a picture is optional
-        warn_unreadable(folder, name, error)
-        return None
-    return picture(folder, data, name)
-
-
-def _material(number: int, m: dict[str, Any], textures: list[dict[str, Any]], images: list[Texture | None]) -> GltfMaterial:
-    pbr, extensions = m.get("pbrMetallicRoughness", {}), m.get("extensions", {})
-    color, base = pbr.get("baseColorFactor"), pbr.get("baseColorTexture")
-    metallic, roughness = pbr.get("metallicFactor", 1.0), pbr.get("roughnessFactor", 1.0)
-    old = extensions.get("KHR_materials_pbrSpecularGlossiness")
-    if old is not None:  # an archived extension; its colour and gloss have counterparts
-        color, base = old.get("diffuseFactor", color), old.get("diffuseTexture", base)
-        metallic, roughness = 0.0, 1.0 - float(old.get("glossinessFactor", 1.0))
-    named = {
-        "base_color": base,
-        "metallic_roughness": pbr.get("metallicRoughnessTexture"),
-        "normal": m.get("normalTexture"),
-        "occlusion": m.get("occlusionTexture"),
-        "emissive": m.get("emissiveTexture"),
-    }
-    slot_textures = {slot: _texture(info, textures, images) for slot, info in named.items() if info is not None}
-    mode = m.get("alphaMode", "OPAQUE")
-    material = Material(
-        name=str(m.get("name") or f"material_{number}"),
-        base_color=_factor(color, 4),
-        metallic=_factor([metallic], 1)[0],
-        roughness=_factor([roughness], 1)[0],
-        emissive=_factor(m.get("emissiveFactor", (0.0, 0.0, 0.0)), 3),
-        double_sided=bool(m.get("doubleSided", False)),
-        alpha_mode=mode if mode in ("OPAQUE", "MASK", "BLEND") else "OPAQUE",
-        alpha_cutoff=_cutoff(m.get("alphaCutoff", 0.5)),
-        textures={slot: t for slot, t in slot_textures.items() if t is not None},
-    )
-    main = base or next((info for info in named.values() if info is not None), {})
-    moved = main.get("extensions", {}).get("KHR_texture_transform")
-    return GltfMaterial(material, (moved or {}).get("texCoord", main.get("texCoord", 0)), moved)
-
-
-def _texture(info: dict[str, Any], textures: list[dict[str, Any]], images: list[Texture | None]) -> Texture | None:
-    texture = textures[info["index"]]
-    extended = [e["source"] for e in texture.get("extensions", {}).values() if isinstance(e, dict) and "source" in e]
-    sources = [texture["source"]] if "source" in texture else []
-    return next((images[s] for s in (*extended, *sources) if images[s] is not None), None)
-
-
-def _cutoff(value: Any) -> float:
-    """Return a number, the default of the specification in place of one that is not finite."""
-    return float(value) if np.isfinite(float(value)) else 0.5
-
-
-def _factor(values: Any, width: int) -> Any:
-    """Return numbers clipped to 0..1; 1 if there are none."""
-    if values is None:
-        return (1.0,) * width
-    v = np.nan_to_num(np.asarray(values, np.float64).reshape(width), nan=1.0)
-    return tuple(float(x) for x in np.clip(v, 0, 1))
-
-
 def read_gltf(data: bytes, folder: Folder) -> Mesh:
     """Return the default scene in file coordinates.
 
@@ -266,3 +177,92 @@ def _faces(where: str, mode: int, index: np.ndarray) -> np.ndarray:
             return np.stack([index[1:-1], index[2:], np.full(max(len(index) - 2, 0), index[0])], 1)
         case _:
             raise InputError(f"{where}: found the primitive mode {mode}; valid are 4, 5 and 6 (triangles)")
+
+
+@dataclass(frozen=True)
+class GltfMaterial:
+    """A material, and the texture coordinates of its pictures."""
+
+    material: Material
+    uv_set: int = 0
+    transform: dict[str, Any] | None = None  # KHR_texture_transform of the base colour
+
+    def place(self, uv: np.ndarray) -> Float32[np.ndarray, "n 2"]:
+        """Return texture coordinates with the picture's transform applied and v upwards as in OBJ."""
+        uv = np.nan_to_num(np.asarray(uv, np.float64)[:, :2])
+        if self.transform:
+            angle = float(self.transform.get("rotation", 0.0))
+            c, s = np.cos(angle), np.sin(angle)
+            uv = (uv * self.transform.get("scale", (1, 1))) @ np.array([[c, -s], [s, c]]) + self.transform.get("offset", (0, 0))
+        return np.stack([uv[:, 0], 1 - uv[:, 1]], 1).astype(np.float32)
+
+
+def read_materials(tree: dict[str, Any], buffers: Buffers, folder: Folder) -> list[GltfMaterial]:
+    """Return the materials in the order of the file; a missing or broken picture gives a warning."""
+    images = [_image(k, image, buffers, folder) for k, image in enumerate(tree.get("images", []))]
+    return [_material(k, m, tree.get("textures", []), images) for k, m in enumerate(tree.get("materials", []))]
+
+
+def _image(number: int, image: dict[str, Any], buffers: Buffers, folder: Folder) -> Texture | None:
+    uri, name = image.get("uri"), str(image.get("name") or f"image_{number}")
+    if uri is not None and not uri.startswith("data:"):
+        return picture_file(folder, uri)
+    try:
+        data = buffers.view(image["bufferView"]) if uri is None else from_uri(uri, folder)
+    except (InputError, LookupError, TypeError) as error:  # a picture is optional
+        warn_unreadable(folder, name, error)
+        return None
+    return picture(folder, data, name)
+
+
+def _material(number: int, m: dict[str, Any], textures: list[dict[str, Any]], images: list[Texture | None]) -> GltfMaterial:
+    pbr, extensions = m.get("pbrMetallicRoughness", {}), m.get("extensions", {})
+    color, base = pbr.get("baseColorFactor"), pbr.get("baseColorTexture")
+    metallic, roughness = pbr.get("metallicFactor", 1.0), pbr.get("roughnessFactor", 1.0)
+    old = extensions.get("KHR_materials_pbrSpecularGlossiness")
+    if old is not None:  # an archived extension; its colour and gloss have counterparts
+        color, base = old.get("diffuseFactor", color), old.get("diffuseTexture", base)
+        metallic, roughness = 0.0, 1.0 - float(old.get("glossinessFactor", 1.0))
+    named = {
+        "base_color": base,
+        "metallic_roughness": pbr.get("metallicRoughnessTexture"),
+        "normal": m.get("normalTexture"),
+        "occlusion": m.get("occlusionTexture"),
+        "emissive": m.get("emissiveTexture"),
+    }
+    slot_textures = {slot: _texture(info, textures, images) for slot, info in named.items() if info is not None}
+    mode = m.get("alphaMode", "OPAQUE")
+    material = Material(
+        name=str(m.get("name") or f"material_{number}"),
+        base_color=_factor(color, 4),
+        metallic=_factor([metallic], 1)[0],
+        roughness=_factor([roughness], 1)[0],
+        emissive=_factor(m.get("emissiveFactor", (0.0, 0.0, 0.0)), 3),
+        double_sided=bool(m.get("doubleSided", False)),
+        alpha_mode=mode if mode in ("OPAQUE", "MASK", "BLEND") else "OPAQUE",
+        alpha_cutoff=_cutoff(m.get("alphaCutoff", 0.5)),
+        textures={slot: t for slot, t in slot_textures.items() if t is not None},
+    )
+    main = base or next((info for info in named.values() if info is not None), {})
+    moved = main.get("extensions", {}).get("KHR_texture_transform")
+    return GltfMaterial(material, (moved or {}).get("texCoord", main.get("texCoord", 0)), moved)
+
+
+def _texture(info: dict[str, Any], textures: list[dict[str, Any]], images: list[Texture | None]) -> Texture | None:
+    texture = textures[info["index"]]
+    extended = [e["source"] for e in texture.get("extensions", {}).values() if isinstance(e, dict) and "source" in e]
+    sources = [texture["source"]] if "source" in texture else []
+    return next((images[s] for s in (*extended, *sources) if images[s] is not None), None)
+
+
+def _cutoff(value: Any) -> float:
+    """Return a number, the default of the specification in place of one that is not finite."""
+    return float(value) if np.isfinite(float(value)) else 0.5
+
+
+def _factor(values: Any, width: int) -> Any:
+    """Return numbers clipped to 0..1; 1 if there are none."""
+    if values is None:
+        return (1.0,) * width
+    v = np.nan_to_num(np.asarray(values, np.float64).reshape(width), nan=1.0)
+    return tuple(float(x) for x in np.clip(v, 0, 1))

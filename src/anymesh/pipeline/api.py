@@ -9,10 +9,8 @@ from typing import Unpack
 
 from anymesh.errors import OptionError, OutputError
 from anymesh.export import Base, Driven, Format
-from anymesh.export.archive import check_zip, write_zip
-from anymesh.export.formats import DEFAULT
-from anymesh.export.options import ExportOptions
-from anymesh.export.package import write_package
+from anymesh.export.formats import DEFAULT, ExportOptions
+from anymesh.export.package import check_zip, write_package, write_zip
 from anymesh.isolation import AHEAD, shared_pool
 from anymesh.pipeline.options import Answering, PlacementOptions
 from anymesh.pipeline.stages import Keyed, Run, estimate_joints, load, recognize, segment_parts, write_files

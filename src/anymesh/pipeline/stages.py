@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Generic, TypeVar
 
 from anymesh.export import load_libraries, write_asset
-from anymesh.export.options import ExportOptions
+from anymesh.export.formats import ExportOptions
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline.options import PlacementOptions
 from anymesh.pipeline.results import JointResult, LoadResult, RecognitionResult, SegmentationResult

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from anymesh.export.rotations import quaternion
+from anymesh.export.notation import quaternion
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.types import Mesh
 from anymesh.viewer.ask_forms import ArrowsForm, Form, MotionsForm, PartsForm, PointsForm

@@ -9,8 +9,8 @@ import numpy as np
 from jaxtyping import UInt8
 from PIL import Image, ImageDraw
 
-from anymesh.export.animation import tracks
-from anymesh.export.settings import ExportConfig
+from anymesh.export.glb import tracks
+from anymesh.export.model import ExportConfig
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.drawing import smoothed

@@ -12,7 +12,7 @@ import numpy as np
 
 from anymesh.correcting import Correction
 from anymesh.errors import AnymeshError, MissingExtraError
-from anymesh.export.archive import zip_bytes
+from anymesh.export.package import zip_bytes
 from anymesh.types import Asset
 from anymesh.viewer.bench_ import Workbench, WorkbenchFolders
 from anymesh.viewer.gallery_ import ReviewPanel

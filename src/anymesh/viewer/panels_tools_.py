@@ -10,7 +10,7 @@ import numpy as np
 from anymesh.correcting import FaceSet, MoveFaces, SetAxis, SplitPart
 from anymesh.correcting.corrections import vector
 from anymesh.correcting.picking import Line, PickedPart
-from anymesh.export.rotations import quaternion, turning_x_to
+from anymesh.export.notation import quaternion, turning_x_to
 from anymesh.types import Joint
 from anymesh.viewer.live import Hit, Session
 from anymesh.viewer.panels_correct_ import NONE

@@ -12,7 +12,7 @@ from PIL import Image
 
 from anymesh.export.glb import glb_bytes
 from anymesh.export.links import split_links
-from anymesh.export.settings import ExportConfig
+from anymesh.export.model import ExportConfig
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.simplify_ import simplify
 from anymesh.rendering.render import face_colors

@@ -10,10 +10,8 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.correcting.corrections import Vector, vector
-from anymesh.export.build import build_model
-from anymesh.export.model import Base, Driven, Model
-from anymesh.export.rotations import quaternion
-from anymesh.export.settings import ExportConfig
+from anymesh.export.model import Base, Driven, ExportConfig, Model, build_model
+from anymesh.export.notation import quaternion
 from anymesh.prompted.models.cache import cache_folder
 from anymesh.rendering.viewpoints import away
 from anymesh.types import Asset, JointType, Mesh, Segmentation

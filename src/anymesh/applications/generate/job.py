@@ -15,7 +15,7 @@ from anymesh import __version__
 from anymesh.applications.generate.generators import GivenMesh, open_generator
 from anymesh.applications.generate.protocol import Generator3D, MeshRequest, Unit
 from anymesh.errors import OptionError, OutputError
-from anymesh.export.options import ExportOptions
+from anymesh.export.formats import ExportOptions
 from anymesh.finishing.finishing import open_completer, open_retexturer
 from anymesh.loading import place_mesh
 from anymesh.loading.load import LoadedMesh, usual_size

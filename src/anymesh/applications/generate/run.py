@@ -24,7 +24,7 @@ from anymesh.applications.generate.work import (
     retexture_task,
 )
 from anymesh.errors import ModelError, OutputError, note_stage
-from anymesh.export.options import ExportOptions
+from anymesh.export.formats import ExportOptions
 from anymesh.finishing.meshy_api import RETEXTURE
 from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.storage.run_folder import RunFolder

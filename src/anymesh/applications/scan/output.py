@@ -12,7 +12,7 @@ from jaxtyping import Float, Int, UInt8
 
 from anymesh.applications.scan.cleaning_ import Hole
 from anymesh.errors import OutputError
-from anymesh.export.glb_buffer import INDICES, VERTICES, GlbBuffer
+from anymesh.export.glb import INDICES, VERTICES, GlbBuffer
 from anymesh.types.mesh import to_linear
 
 TO_GLTF = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # z up to y up

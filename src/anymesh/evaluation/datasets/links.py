@@ -13,7 +13,7 @@ from anymesh.errors import InputError
 from anymesh.evaluation.ground_truth import GroundTruth, TrueJoint
 from anymesh.export.glb import glb_bytes
 from anymesh.export.links import Link, Primitive, split_links
-from anymesh.export.settings import ExportConfig
+from anymesh.export.model import ExportConfig
 from anymesh.loading.join import join
 from anymesh.names import legal_names
 from anymesh.types import Asset, Joint, JointType, KnownJoint, Material, Mesh, Part, Segmentation
