@@ -23,7 +23,6 @@ from anymesh.evaluation.score import JointScore
 from anymesh.evaluation.summary import RULES, Cell, Table, report_tables
 from anymesh.rendering.render import encode
 from anymesh.types import JointType
-from anymesh.viewer.report_html import html_report
 
 QUALITY = 82  # JPEG quality: a report with two dozen pictures has about a megabyte
 SHOWN = 40  # number of rows above which a table is collapsed
