@@ -10,7 +10,7 @@ lint:
 	$(PYTHON) -m ruff format --check
 	$(PYTHON) -m ty check -q --python $$($(PYTHON) -c 'import sys; print(sys.prefix)')
 	$(PYTHON) -m codespell_lib
-	$(PYTHON) -m codespell_lib --dictionary .ci/glossary.txt src docs tests benchmarks training examples *.md
+	$(PYTHON) -m codespell_lib --dictionary .ci/glossary.txt src docs tests benchmarks training examples findings *.md
 
 test:
 	$(PYTHON) -m pytest -n $(JOBS) tests/test_layers.py tests/test_words.py $(wildcard $(CORE:%=tests/%)) $(ARGS)

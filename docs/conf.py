@@ -30,6 +30,7 @@ include_patterns = [
     "CONTRIBUTING.md",
     "SECURITY.md",
     "examples/README.md",
+    "findings/README.md",
     "training/README.md",
 ]
 exclude_patterns = ["README.md", "**/.venv", "out", "**/.*"]
