@@ -5,7 +5,6 @@ import base64
 import json
 import os
 import threading
-import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -34,15 +33,13 @@ class RefusedError(Exception):
 @dataclass
 class MeshyServer:
     """Tasks run through `steps`. `texture` makes the result of the GLB that was sent; `model` is what is generated; `ends` says
-    how tasks of a type end instead. Faults are used up in their order, by what is asked: "create", "look", "list" or "file".
-    `clock` [s]: added to when tasks were made."""
+    how tasks of a type end instead. Faults are used up in their order, by what is asked: "create", "look" or "file"."""
 
     steps: list[dict[str, Any]] = field(default_factory=lambda: [{"status": "PENDING"}, {"status": "IN_PROGRESS"}])
     last: dict[str, Any] = field(default_factory=lambda: {"status": "SUCCEEDED", "progress": 100, "consumed_credits": 10})
     texture: Callable[[bytes], bytes] = lambda glb: glb
     model: bytes = b""
     ends: dict[str, dict[str, Any]] = field(default_factory=dict)
-    clock: float = 0.0
     tasks: dict[str, dict[str, Any]] = field(default_factory=dict)
     faults: dict[str, list[Fault]] = field(default_factory=dict)
     asked: list[str] = field(default_factory=list)
@@ -59,7 +56,7 @@ class MeshyServer:
     def create(self, body: dict[str, Any], path: str = PATH) -> str:
         task = f"018a210d-8ba4-705c-b111-{len(self.tasks):012d}"
         made = {PATH: self._retexture, TEXT: self._text, IMAGE: self._image}[path](body)
-        self.tasks[task] = {**body, **made, "path": path, "looked": 0, "made": time.time() + self.clock}
+        self.tasks[task] = {**body, **made, "path": path, "looked": 0}
         return task
 
     def _retexture(self, body: dict[str, Any]) -> dict[str, Any]:
@@ -106,15 +103,8 @@ class MeshyServer:
         done = now["status"] == "SUCCEEDED"
         urls = {"glb": f"{self.url}/files/{task}.glb?Expires=1&{SIGNATURE}", "fbx": f"{self.url}/x.fbx"} if done else {}
         spent = {"consumed_credits": held["credits"]} if done and "credits" in held else {}
-        return {**self.listed(task), "progress": 0, "task_error": {"message": ""}, "model_urls": urls, **now, **spent}
-
-    def listed(self, task: str) -> dict[str, Any]:
-        """A task as a list shows it."""
-        held = self.tasks[task]
-        frame = {"id": task, "type": held["type"], "created_at": round(1000 * held["made"]), "texture_urls": []}
-        if held["type"] == "retexture":
-            return {**frame, "text_style_prompt": held["text_style_prompt"]}
-        return {**frame, "prompt": held["prompt"], **({"seed": held["seed"]} if "seed" in held else {})}
+        told = {k: held[k] for k in ("type", "prompt", "text_style_prompt", "seed") if k in held}
+        return {"id": task, **told, "progress": 0, "task_error": {"message": ""}, "model_urls": urls, **now, **spent}
 
     def start(self) -> ThreadingHTTPServer:
         server = ThreadingHTTPServer(("127.0.0.1", 0), _handler(self))
@@ -147,8 +137,7 @@ def _handler(service: MeshyServer) -> type[BaseHTTPRequestHandler]:
             self._answer("create")
 
         def do_GET(self) -> None:
-            path = self.path.partition("?")[0]
-            self._answer("list" if path in (PATH, TEXT, IMAGE) else "file" if path.startswith("/files/") else "look")
+            self._answer("file" if self.path.startswith("/files/") else "look")
 
         def _answer(self, what: str) -> None:
             service.asked.append(what)
@@ -160,9 +149,6 @@ def _handler(service: MeshyServer) -> type[BaseHTTPRequestHandler]:
                 says(self, {"message": f"Invalid API key {self.headers['authorization']}"}, 401)
             elif what == "create":
                 self._create()
-            elif what == "list":
-                path = self.path.partition("?")[0]
-                says(self, [service.listed(t) for t, h in service.tasks.items() if h["path"] == path][::-1])
             else:
                 self._of_task(what, self.path.partition("?")[0].rpartition("/")[2].removesuffix(".glb"))
 

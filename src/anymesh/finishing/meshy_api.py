@@ -59,20 +59,16 @@ class Task:
     """State of a task.
 
     status: PENDING, IN_PROGRESS, SUCCEEDED, FAILED, EXPIRED or CANCELED; error: message of a failure with secrets removed; url:
-    of the GLB, signed, hence in no message; type: empty if not stated; seed: drawn by the service; created: creation time
-    [s since 1970], 0 if not stated.
+    of the GLB, signed, hence in no message; seed: drawn by the service.
     """
 
     id: str
     status: str
     progress: int
-    prompt: str
     error: str
     credits: float
     url: str | None
-    type: str = ""
     seed: int | None = None
-    created: float = 0.0
 
     def __repr__(self) -> str:
         return f"Task({self.id!r}, {self.status!r})"
@@ -97,13 +93,6 @@ def create_task(kind: TaskKind, body: bytes, timeout: float) -> str:
 def get_task(kind: TaskKind, task: str, timeout: float) -> Task:
     """Return the state of a task. Raise RefusedError with status 404 if there is none of that id."""
     return _task(_mapping(_call(kind, "GET", f"/{task}", timeout)), task)
-
-
-def list_tasks(kind: TaskKind, timeout: float) -> list[Task]:
-    """Return the latest tasks of an endpoint, the newest first."""
-    listed = _call(kind, "GET", "?page_num=1&page_size=50&sort_by=-created_at", timeout)
-    rows = [row for row in listed if isinstance(row, dict)] if isinstance(listed, list) else []
-    return [_task(row, row["id"]) for row in rows if TASK_ID.fullmatch(str(row.get("id")))]
 
 
 def download_glb(url: str, timeout: float) -> bytes:
@@ -155,18 +144,15 @@ def safe(words: object) -> str:
 
 def _task(record: dict[str, Any], task: str) -> Task:
     progress, spent, url = record.get("progress"), record.get("consumed_credits"), _mapping(record.get("model_urls")).get("glb")
-    seed, created = record.get("seed"), record.get("created_at")
+    seed = record.get("seed")
     return Task(
         id=task,
         status=str(record.get("status"))[:40],
         progress=progress if isinstance(progress, int) else 0,
-        prompt=str(record.get("text_style_prompt") or record.get("prompt") or ""),
         error=safe(_mapping(record.get("task_error")).get("message")),
         credits=float(spent) if isinstance(spent, int | float) else 0.0,
         url=url if isinstance(url, str) else None,
-        type=str(record.get("type") or "")[:40],
         seed=seed if isinstance(seed, int) else None,
-        created=created / 1000 if isinstance(created, int | float) else 0.0,  # the service states milliseconds
     )
 
 

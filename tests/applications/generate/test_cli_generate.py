@@ -57,7 +57,7 @@ def test_what_goes_wrong_has_an_exit_code(server, quick, tmp_path, capsys) -> No
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "mine").write_text("")
     assert run(["generate", "a box", "-o", str(tmp_path / "full")]) == 4
-    server.fails("list", refuses(401))
+    server.fails("create", refuses(401))
     assert run(["generate", "a box", *out]) == 6
     assert run(["generate", "a box", *out, "--max-calls", "1", "--json"]) == 7
     assert json.loads(capsys.readouterr().out)["kind"] == "BudgetError"

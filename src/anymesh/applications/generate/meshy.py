@@ -85,14 +85,14 @@ class Meshy3D(PaidTasks):
         if not self.textured:
             bought = self.run(first)
             return Generated(self.fetch(first, bought.task), ((PREVIEW, bought),))
-        held = self.held(first)
+        held = first.started()
         preview = held.bought if held else None
-        second = None if preview is None else self._refinement(prompt, preview)
-        if second is None or self.held(second) is None:
+        second = None if preview is None else self._refinement(preview)
+        if second is None or second.started() is None:
             self.check_budget(*((PREVIEW,) if held is None else ()), REFINE)
         if preview is None or second is None:
             preview = self.run(first)
-            second = self._refinement(prompt, preview)
+            second = self._refinement(preview)
         refined = self._refined(first, preview, second)
         return Generated(self.fetch(second, refined.task), ((PREVIEW, preview), (REFINE, refined)))
 
@@ -111,18 +111,18 @@ class Meshy3D(PaidTasks):
 
     def _preview(self, prompt: str) -> Order:
         body = {"mode": "preview", "prompt": prompt, "ai_model": self.model, **self._shape()}
-        return Order(PREVIEW, _packed(body if self.textured else {**body, **SIZED}), self._state("preview"), prompt)
+        return Order(PREVIEW, _packed(body if self.textured else {**body, **SIZED}), self._state("preview"))
 
-    def _refinement(self, prompt: str, preview: Bought) -> Order:
+    def _refinement(self, preview: Bought) -> Order:
         body = {"mode": "refine", "preview_task_id": preview.task, "enable_pbr": True, "target_formats": ["glb"], **SIZED}
-        return Order(REFINE, _packed(body), self._state("refine"), prompt, preview.seed)
+        return Order(REFINE, _packed(body), self._state("refine"))
 
     def _refined(self, first: Order, preview: Bought, second: Order) -> Bought:
         try:
             return self.run(second)
         except RefusedError as error:
             if error.status in GONE:
-                self._look(first, preview.task)  # raises and discards the preview if the service no longer has it
+                self.look(first, preview.task)  # raises and discards the preview if the service no longer has it
             raise
 
     def _shape(self) -> dict[str, Any]:
