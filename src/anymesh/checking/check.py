@@ -23,7 +23,7 @@ from anymesh.errors import InputError, MissingExtraError
 def check_asset(path: str | Path, *, engines: Sequence[str] = ("mujoco",)) -> CheckReport:
     """Check an asset for everything that a simulator needs: an output folder, any URDF or MJCF, or a folder with one.
 
-    engines: names of `simulation.engines.ENGINES` in which every joint is driven; empty for static checks only. Problems of the
+    engines: names of `checking.engines.ENGINES` in which every joint is driven; empty for static checks only. Problems of the
     asset are findings.
     Raise InputError if there is nothing to check, OptionError for an unknown engine, MissingExtraError for an MJCF without
     MuJoCo.
