@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -25,7 +26,7 @@ ContactKind = Annotated[str, typer.Option("--contact", help="auto, grasp or push
 Tool = Annotated[str | None, typer.Option(help="Body of the hand, for a robot by path whose tree branches before the hand.")]
 Gripper = Annotated[str, typer.Option(help="Joints of the gripper of such a robot, comma-separated.")]
 Speed = Annotated[float, typer.Option(help="Share of the joints' limits of velocity and acceleration.")]
-Seconds = Annotated[float, typer.Option("--seconds", help="Time after which no further attempt is made.")]
+Seconds = Annotated[float | None, typer.Option("--seconds", help="Time after which no further attempt is made.")]
 Video = Annotated[
     Path | None,
     typer.Option(metavar="FILE", help="Replay it in MuJoCo on the asset itself: .mp4 (extra video) or .png, a contact sheet."),
@@ -45,7 +46,7 @@ def plan(
     tool: Tool = None,
     gripper: Gripper = "",
     speed: Speed = 0.3,
-    seconds: Seconds = 20.0,
+    seconds: Seconds = None,
     video: Video = None,
     seed: SeedNumber = 0,
     force: Force = False,
@@ -61,7 +62,7 @@ def plan(
     with Shown(quiet or json_) as progress:
         planned = find(
             asset, robot=robot, joint=joint, to=parse_value(to), base=base, contact=contact, tool=tool, gripper=joints,
-            seed=seed, speed=speed, seconds=seconds, progress=progress,
+            seed=seed, speed=speed, seconds=math.inf if seconds is None else seconds, progress=progress,
         )  # fmt: skip
         write_plan(planned, out, kind, force=force)
         shown = None if video is None else _film(planned, asset, robot, tool, joints, video)

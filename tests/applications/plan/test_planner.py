@@ -7,7 +7,6 @@ from anymesh.applications.plan.fitting_ import tool_pose
 from anymesh.applications.plan.planner import plan, plan_motion
 from anymesh.applications.plan.plans import BasePose, GripperContact, Phase, PlanError
 from anymesh.applications.plan.scene_ import CollisionWorld
-from anymesh.applications.plan.search import Settings
 from anymesh.errors import OptionError
 
 
@@ -105,6 +104,6 @@ def test_a_base_in_the_object_or_too_far_is_told_with_one_that_works(cupboard, a
     with pytest.raises(
         PlanError, match=r"cannot be brought to 40.1 deg from the base 0.000,2.500.*out of reach.*feasible base is"
     ):
-        plan_motion(cupboard, arm, 0.7, base=BasePose(0.0, 2.5, 0.0, -1.57), settings=Settings(seconds=10.0))
+        plan_motion(cupboard, arm, 0.7, base=BasePose(0.0, 2.5, 0.0, -1.57))
     with pytest.raises(PlanError, match="the robot collides there"):
-        plan_motion(cupboard, arm, 0.7, base=BasePose(0.0, -0.1, 0.0, 1.57), settings=Settings(seconds=10.0))
+        plan_motion(cupboard, arm, 0.7, base=BasePose(0.0, -0.1, 0.0, 1.57))

@@ -13,6 +13,7 @@ from anymesh.errors import MissingExtraError
 Valid = Callable[[Float[np.ndarray, " J"]], bool]
 STRIDE = 0.03  # [rad] between postures that are checked for collision
 SHORTCUTS = 120  # attempts to shorten the path
+CHECKS = 30_000  # postures that are checked for collision before the search gives up
 
 
 def free_path(
@@ -23,11 +24,11 @@ def free_path(
     valid: Valid,
     *,
     seed: int,
-    seconds: float = 3.0,
+    checks: int = CHECKS,
 ) -> Float[np.ndarray, "k J"] | None:
-    """Compute a collision-free path of straight segments from start to goal; None if none is found within `seconds`.
+    """Compute a collision-free path of straight segments from start to goal; None if `checks` postures do not give one.
 
-    low, high: (J,) limits [rad]. The path depends only on the seed unless time runs out.
+    low, high: (J,) limits [rad]. The path depends only on the seed.
     Raise MissingExtraError if OMPL is not installed.
     """
     if straight_is_free(start, goal, valid):
@@ -36,12 +37,12 @@ def free_path(
         from ompl import base, geometric, util
     except ImportError:
         raise MissingExtraError("ompl is missing; install it with `pip install 'articulate-anymesh[plan]'`") from None
-    path = _rrt(base, geometric, util, (start, goal, low, high), valid, seed, seconds)
+    path = _rrt(base, geometric, util, (start, goal, low, high), valid, seed, checks)
     return None if path is None else _shortcut(path, valid, np.random.default_rng(seed))
 
 
 def _rrt(
-    base: Any, geometric: Any, util: Any, problem: tuple[np.ndarray, ...], valid: Valid, seed: int, seconds: float
+    base: Any, geometric: Any, util: Any, problem: tuple[np.ndarray, ...], valid: Valid, seed: int, checks: int
 ) -> np.ndarray | None:
     start, goal, low, high = problem
     count = len(start)
@@ -54,7 +55,14 @@ def _rrt(
         bounds.setHigh(k, float(max(high[k], start[k], goal[k])))
     space.setBounds(bounds)
     setup = geometric.SimpleSetup(space)
-    setup.setStateValidityChecker(lambda state: bool(valid(np.array([state[k] for k in range(count)]))))
+    done = 0
+
+    def is_valid(state: Any) -> bool:
+        nonlocal done
+        done += 1
+        return bool(valid(np.array([state[k] for k in range(count)])))
+
+    setup.setStateValidityChecker(is_valid)
     information = setup.getSpaceInformation()
     information.setStateValidityCheckingResolution(STRIDE / space.getMaximumExtent())
     ends = [space.allocState(), space.allocState()]
@@ -65,7 +73,7 @@ def _rrt(
     planner = geometric.RRTConnect(information)
     planner.setRange(0.6)
     setup.setPlanner(planner)
-    setup.solve(seconds)
+    setup.solve(base.PlannerTerminationCondition(lambda: done >= checks))
     if not setup.haveExactSolutionPath():
         return None
     return np.array([[state[k] for k in range(count)] for state in setup.getSolutionPath().getStates()])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections.abc import Sequence
 from dataclasses import replace
@@ -47,7 +48,7 @@ def plan(
     gripper: Sequence[str] = (),
     seed: int = 0,
     speed: float = 0.3,
-    seconds: float = 20.0,
+    seconds: float = math.inf,
     progress: Progress = silent,
 ) -> MotionPlan:
     """Plan how a robot arm moves a joint of an asset from rest to a value (paper, 4.2).

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import time
 from collections import Counter
 from dataclasses import dataclass, replace
@@ -25,11 +26,14 @@ BASES = 6  # bases that are tried in full
 
 @dataclass(frozen=True)
 class Settings:
-    """Planning settings. speed: share of the robot's limits; seconds: after which no further target is tried."""
+    """Planning settings. speed: share of the robot's limits; seconds: after which no further target is tried.
+
+    The search is bounded by the number of bases, targets and checked postures; a limit of time only ends it earlier.
+    """
 
     seed: int = 0
     speed: float = 0.3
-    seconds: float = 20.0
+    seconds: float = math.inf
 
 
 @dataclass(frozen=True, eq=False)
