@@ -23,9 +23,8 @@ from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from anymesh.applications.policy.objects_ import find_assets, task_object
-from anymesh.applications.policy.settings import SETTINGS
 from anymesh.applications.policy.tasks import PolicyTask
-from anymesh.applications.policy.training_ import Episode, evaluate_policy, train
+from anymesh.applications.policy.training_ import SETTINGS, Episode, evaluate_policy, train
 from anymesh.errors import AnymeshError
 from anymesh.evaluation.ground_truth import GroundTruth, prepared
 from anymesh.export import write_asset

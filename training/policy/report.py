@@ -11,11 +11,11 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from anymesh.applications.plan.film_ import tiled
-from anymesh.applications.policy.randomization import DEXART, Randomization
-from anymesh.applications.policy.statistics import interval, paired_p
+from anymesh.applications.policy.tasks import DEXART, Randomization
 from anymesh.applications.policy.training_ import Episode, read_curve
 from anymesh.evaluation.ground_truth import prepared
 from anymesh.evaluation.report import COLORS
+from training.policy.statistics import interval, paired_p
 
 TEST_SEED = 7_000_000  # of the starts of evaluated episodes; trainings draw theirs from 0 up
 PAPER = {"laptop": (0.408, 0.513), "bucket": (0.339, 0.479)}

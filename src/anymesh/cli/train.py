@@ -36,8 +36,7 @@ def train(
 ) -> None:
     """Train a policy on assets with PPO (extra policy), and evaluate it on held-out ones."""
     from anymesh.applications.policy.objects_ import find_assets
-    from anymesh.applications.policy.settings import SETTINGS
-    from anymesh.applications.policy.training_ import evaluate_policy
+    from anymesh.applications.policy.training_ import SETTINGS, evaluate_policy
     from anymesh.applications.policy.training_ import train as run
     from anymesh.errors import OptionError
 

@@ -4,8 +4,7 @@ import math
 
 import pytest
 
-from anymesh.applications.plan.options import parse_value
-from anymesh.applications.plan.plans import BasePose
+from anymesh.applications.plan.plans import BasePose, parse_value
 from anymesh.errors import OptionError
 
 

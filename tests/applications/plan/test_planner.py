@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from anymesh.applications.plan.fitting_ import tool_pose
 from anymesh.applications.plan.planner import plan, plan_motion
 from anymesh.applications.plan.plans import BasePose, GripperContact, Phase, PlanError
-from anymesh.applications.plan.scene_ import CollisionWorld
+from anymesh.applications.plan.scene_ import CollisionWorld, tool_pose
 from anymesh.errors import OptionError
 
 

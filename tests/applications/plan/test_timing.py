@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from anymesh.applications.plan.timing import STEP, Curve, stand, time_curve
-from anymesh.applications.plan.trajectory import rounded
+from anymesh.applications.plan.trajectory import STEP, Curve, rounded, stand, time_curve
 
 FREE = 1e-9
 

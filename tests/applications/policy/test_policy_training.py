@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from anymesh.applications.policy.settings import SETTINGS
+from anymesh.applications.policy.training_ import SETTINGS
 from anymesh.errors import OutputError
 
 SMOKE = SETTINGS["smoke"]

@@ -5,11 +5,13 @@ from dataclasses import replace
 
 import pytest
 
-from anymesh.applications.policy.randomization import NO_RANDOMIZATION, NOMINAL, Randomization
 from anymesh.applications.policy.tasks import (
     AJAR,
+    NO_RANDOMIZATION,
+    NOMINAL,
     JointGoal,
     PolicyTask,
+    Randomization,
     Situation,
     joint_goal,
     reward,

@@ -11,12 +11,11 @@ from jaxtyping import Float
 
 from anymesh.applications.plan.approach_ import free_path
 from anymesh.applications.plan.asset_ import ArticulatedObject
-from anymesh.applications.plan.fitting_ import BACK, OPENING, tool_pose
 from anymesh.applications.plan.hand_ import Hand
 from anymesh.applications.plan.kinematics_ import Kinematics
 from anymesh.applications.plan.plans import BasePose, GripperContact, Target
 from anymesh.applications.plan.robot_ import RobotArm
-from anymesh.applications.plan.scene_ import CollisionWorld
+from anymesh.applications.plan.scene_ import BACK, OPENING, CollisionWorld, tool_pose
 
 BACK_LEAST = 0.03  # [m] shortest straight retreat
 LINE_STEP = 0.004  # [m] between postures on a straight line

@@ -11,12 +11,12 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.applications.plan.asset_ import ArticulatedObject, open_object
-from anymesh.applications.plan.fitting_ import HandWorld
 from anymesh.applications.plan.hand_ import measure_hand
 from anymesh.applications.plan.kinematics_ import Kinematics
 from anymesh.applications.plan.plans import BasePose, GripperContact, MotionPlan, PlanError, Target
 from anymesh.applications.plan.robot_ import load_robot
 from anymesh.applications.plan.robot_packages_ import find_robot
+from anymesh.applications.plan.scene_ import HandWorld
 from anymesh.applications.plan.search import Arm, Search, Settings
 from anymesh.applications.plan.targets import PartSurfaces, sample_targets, velocity
 from anymesh.applications.plan.trajectory import build_trajectory

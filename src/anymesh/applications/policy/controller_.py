@@ -10,11 +10,10 @@ from jaxtyping import Float
 
 from anymesh.applications.plan.plans import GripperContact, Target
 from anymesh.applications.plan.targets import PartSurfaces, sample_targets
-from anymesh.applications.policy.hands_ import PRESS, REACH, STROKE
 from anymesh.applications.policy.objects_ import TaskObject
-from anymesh.applications.policy.randomization import NOMINAL
+from anymesh.applications.policy.robots_ import PRESS, REACH, STROKE
 from anymesh.applications.policy.simulation_ import TaskSimulation
-from anymesh.applications.policy.tasks import PolicyTask
+from anymesh.applications.policy.tasks import NOMINAL, PolicyTask
 
 DONE = 0.9  # share of the motion that counts as done
 SHORT = 0.03  # [m] of a slide below which it is pushed first, as a button is

@@ -15,7 +15,7 @@ from anymesh import __version__
 from anymesh.applications.plan.film_ import tiled
 from anymesh.applications.policy.controller_ import TRIES, Attempt, move_joint
 from anymesh.applications.policy.objects_ import find_assets, moving_joints, object_at_rest
-from anymesh.applications.policy.pictures_ import ScenePicture
+from anymesh.applications.policy.simulation_ import ScenePicture
 from anymesh.checking.engines.files import find_description
 from anymesh.checking.engines.mujoco_ import sweep_joints
 from anymesh.errors import AnymeshError, OptionError

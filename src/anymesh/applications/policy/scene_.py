@@ -8,7 +8,7 @@ import numpy as np
 
 from anymesh.applications.plan.robot_ import without_visuals
 from anymesh.applications.policy.objects_ import TaskObject
-from anymesh.applications.policy.robot import TaskRobot
+from anymesh.applications.policy.robots_ import TaskRobot
 from anymesh.mujoco_ import load_mujoco
 
 OBJECT, ROBOT, STAND, FLOOR = "object/", "robot/", "stand", "floor"

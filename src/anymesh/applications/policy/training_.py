@@ -12,9 +12,7 @@ from typing import Any
 import numpy as np
 
 from anymesh.applications.policy.env_ import ArticulatedEnv, make_env
-from anymesh.applications.policy.randomization import DEXART, Randomization
-from anymesh.applications.policy.settings import TrainingSettings
-from anymesh.applications.policy.tasks import PolicyTask
+from anymesh.applications.policy.tasks import DEXART, PolicyTask, Randomization
 from anymesh.errors import MissingExtraError, OptionError, OutputError
 from anymesh.runtime import write_whole
 
@@ -32,6 +30,43 @@ class Episode:
     progress: float
     rise: float
     steps: int
+
+
+@dataclass(frozen=True)
+class TrainingSettings:
+    """Settings of PPO and of the environments.
+
+    dexart_poses: draw poses from DexArt's ranges instead of the default ones; envs: in parallel; processes: run each in its
+    own; rollout: steps of each between updates; batch, epochs: of an update; hidden: widths of the layers; log_std: of actions
+    at the start; saved: steps between checkpoints.
+    """
+
+    robot: str = "gripper"
+    observation: str = "box"
+    dexart_poses: bool = True
+    envs: int = 16
+    processes: bool = False
+    rollout: int = 128
+    batch: int = 256
+    epochs: int = 6
+    learning_rate: float = 5e-4
+    discount: float = 0.97
+    gae: float = 0.95
+    hidden: tuple[int, ...] = (64, 64)
+    log_std: float = -0.5
+    device: str = "cpu"
+    threads: int = 1
+    saved: int = 50_000
+
+
+SETTINGS = {
+    "cpu": TrainingSettings(),
+    "gpu": TrainingSettings(
+        robot="shadow", observation="points", envs=64, processes=True, rollout=64, batch=1024, epochs=8, learning_rate=3e-4,
+        discount=0.99, hidden=(256, 256), log_std=-1.0, device="auto", threads=4, saved=500_000,
+    ),
+    "smoke": TrainingSettings(envs=2, rollout=32, batch=32, epochs=2, saved=64),
+}  # fmt: skip
 
 
 def load_sb3() -> Any:
@@ -54,7 +89,7 @@ def train(
     steps: int,
     seed: int = 0,
     start: Path | None = None,
-    settings: TrainingSettings = TrainingSettings(),  # noqa: B008
+    settings: TrainingSettings = TrainingSettings(),
     progress: Progress = lambda *_: None,
 ) -> Path:
     """Train a policy on assets and return its file; resume from the last checkpoint in `out`, or return a finished policy.
@@ -175,7 +210,7 @@ def read_curve(out: Path) -> list[dict[str, float]]:
 
 def evaluate_policy(
     policy: Path, assets: Sequence[Path], task: str, *, episodes: int, seed: int = 0,
-    settings: TrainingSettings = TrainingSettings(),  # noqa: B008
+    settings: TrainingSettings = TrainingSettings(),
 ) -> list[Episode]:  # fmt: skip
     """Run a policy without exploration `episodes` times on each asset, in poses and physics drawn from the seed.
 

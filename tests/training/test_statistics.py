@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from anymesh.applications.policy.statistics import interval, paired_p
+from training.policy.statistics import interval, paired_p
 
 
 def test_the_interval_is_that_of_students_t():
