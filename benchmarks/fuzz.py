@@ -39,10 +39,11 @@ import numpy as np
 import anymesh
 from anymesh.errors import AnymeshError
 from anymesh.evaluation.datasets.named import open_dataset
+from anymesh.finishing.finishing import finish
 from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
 from anymesh.loading import load_mesh
 from anymesh.loading.files import FORMATS as MESH_FORMATS
-from anymesh.pipeline import articulate, finish
+from anymesh.pipeline import articulate
 from benchmarks.fuzz_scenes import FIXTURES, fixture, scene, write_scene
 
 REPORT = Path(__file__).parent / "reports" / "fuzz.md"

@@ -21,13 +21,14 @@ from anymesh.errors import InputError
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.ground_truth import prepared
 from anymesh.pipeline.solving import solve
-from anymesh.prompted.questions.asking import Answer, Question, check_schema
+from anymesh.prompted.questions.asking import check_schema
 from anymesh.prompted.questions.grounding import WhichMarks, WhichViews
 from anymesh.prompted.questions.motion_choice import WhichMotions
 from anymesh.prompted.questions.prompting import WhichArrows, WhichKinds, WhichPoints
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import Exchange
 from anymesh.types.motion import BASE
+from anymesh.types.questions import Answer, Question
 
 QUICK = Config(views=ViewsConfig(size=320), grounding=GroundingConfig(points=60_000))
 

@@ -27,11 +27,11 @@ from anymesh.errors import AnymeshError, OpenQuestionError
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, evaluate_sample
 from anymesh.evaluation.record import Record, record_of, record_text
+from anymesh.pipeline.answering import choose_answerer
 from anymesh.pipeline.solving import solve
-from anymesh.prompted.answerers.answering import choose_answerer
 from anymesh.prompted.answerers.file_answerer import open_questions
 from anymesh.prompted.answerers.question_files import ANSWER, OWNER, QUESTION, find_questions
-from anymesh.prompted.questions.asking import Answer, Question, VisualAnswerer
+from anymesh.types.questions import Answer, Question, VisualAnswerer
 from benchmarks.visual_choices import FILE as CHOICES
 from benchmarks.visual_choices import Wrapper, choices_of, replayed, write_choices
 

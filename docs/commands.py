@@ -7,7 +7,7 @@ from docutils import nodes
 from sphinx.util.docutils import SphinxDirective
 from typer.core import TyperArgument, TyperCommand, TyperGroup
 
-from anymesh.cli import app
+from anymesh.cli import make_app
 
 VALUES = {int: "INTEGER", float: "NUMBER", str: "TEXT"}  # of options without a metavar, by the type of their default
 
@@ -16,7 +16,7 @@ class Commands(SphinxDirective):
     """Document every command that is not hidden."""
 
     def run(self) -> list[nodes.Node]:
-        group = typer.main.get_command(app)
+        group = typer.main.get_command(make_app())
         assert isinstance(group, TyperGroup)
         return [self.section(name, command) for name, command in group.commands.items() if not command.hidden]
 

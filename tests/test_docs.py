@@ -14,7 +14,7 @@ import pytest
 import typer
 
 import anymesh
-from anymesh.cli import app
+from anymesh.cli import make_app
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
@@ -94,7 +94,7 @@ def commands(text: str) -> Iterator[list[str]]:
 
 @pytest.mark.parametrize("path", GUIDES, ids=named)
 def test_commands_and_options_exist(path: Path) -> None:
-    group = typer.main.get_command(app)
+    group = typer.main.get_command(make_app())
     top = {name for option in group.params for name in option.opts} | {"--help", "--install-completion", "--show-completion"}
     for words in commands(path.read_text(encoding="utf-8")):
         while words and words[0].startswith("-"):
@@ -116,7 +116,7 @@ def inline_options() -> set[str]:
 
 
 def test_options_in_prose_exist_somewhere() -> None:
-    group = typer.main.get_command(app)
+    group = typer.main.get_command(make_app())
     known = {
         o
         for command in (group, *group.commands.values())

@@ -6,10 +6,9 @@
 Functions and classes are loaded on first use, so that importing this package is fast.
 """
 
-import sys
-from importlib import import_module
 from typing import TYPE_CHECKING
 
+from anymesh.entry_points import API, load
 from anymesh.errors import AnymeshError, InputError, MissingExtraError, OptionError, OutputError
 
 if TYPE_CHECKING:
@@ -18,21 +17,12 @@ if TYPE_CHECKING:
     from anymesh.applications.policy.env_ import make_env
     from anymesh.applications.scan import scan
     from anymesh.checking import check_asset
-    from anymesh.pipeline import articulate, export_asset, finish, joints, segment
+    from anymesh.finishing.finishing import finish
+    from anymesh.pipeline import articulate, export_asset, joints, segment
     from anymesh.types import Asset, Joint, JointType, Mesh, Part, Segmentation
     from anymesh.viewer.report_notebook import show
 
 __version__ = "0.1.0"
-_HOME = {
-    **dict.fromkeys(("articulate", "segment", "joints", "export_asset", "finish"), "anymesh.pipeline"),
-    "check_asset": "anymesh.checking",
-    "generate": "anymesh.applications.generate",
-    "make_env": "anymesh.applications.policy.env_",
-    "plan": "anymesh.applications.plan",
-    "scan": "anymesh.applications.scan",
-    "show": "anymesh.viewer.report_notebook",
-    **dict.fromkeys(("Asset", "Joint", "JointType", "Mesh", "Part", "Segmentation"), "anymesh.types"),
-}
 __all__ = [
     "AnymeshError",
     "Asset",
@@ -61,10 +51,11 @@ __all__ = [
 
 
 def __getattr__(name: str) -> object:
-    if name in _HOME:
-        return getattr(import_module(_HOME[name]), name)
+    if name in API:
+        return load(f"{API[name]}:{name}")
     raise AttributeError(f"module 'anymesh' has no attribute {name!r}")
 
 
-if "IPython" in sys.modules and (_shell := sys.modules["IPython"].get_ipython()) is not None:
-    import_module("anymesh.viewer.report_notebook").register(_shell)  # assets display themselves in notebooks
+def load_ipython_extension(shell: object) -> None:
+    """Show the assets of lists and dictionaries too, not only alone, after `%load_ext anymesh` in a notebook."""
+    load("viewer.report_notebook:register")(shell)

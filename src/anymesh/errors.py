@@ -5,6 +5,7 @@ A message says what was found and what would have been valid. `exit_code` is the
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,12 @@ if TYPE_CHECKING:
 
 DEFECT = 70  # exit code of an internal defect: EX_SOFTWARE of sysexits.h
 STAGE = "in the stage "  # prefix of the note that names the stage of an error
+SECRET = re.compile(r"[A-Za-z0-9+/=_-]{32,}|\S*\*{3,}\S*|\b(?:sk-|AIza|Bearer )\S+")  # looks like a key, or like data
+PLACE = re.compile(  # an address; a path in quotes, as Python prints it; a path
+    r"\b\w[\w+.-]*://[^\s#'\"]*|(['\"])[^'\"]*[\\/](?P<quoted>[^'\"\\/]*)\1"
+    r"|(?:(?<!\w)[A-Za-z]:)?[^\s:#'\"(),=<>]*[\\/](?P<name>[^\\/\s:#'\"(),=<>]*)"
+)
+LONGEST = 500  # maximum number of characters of a redacted text
 
 
 class AnymeshError(Exception):
@@ -89,3 +96,14 @@ def failed_stage(error: BaseException) -> str | None:
     """Return the stage that was noted on an error, None if there is none."""
     notes = (note for note in getattr(error, "__notes__", ()) if note.startswith(STAGE))
     return next((note.removeprefix(STAGE) for note in notes), None)
+
+
+def redacted(text: str) -> str:
+    """Return a text as one line without addresses, folders, and what looks like a key or like data."""
+
+    def shown(place: re.Match[str]) -> str:
+        if place["quoted"] is not None:
+            return f"{place[1]}{place['quoted']}{place[1]}"
+        return "[address]" if place["name"] is None else place["name"]
+
+    return SECRET.sub("[removed]", PLACE.sub(shown, " ".join(text.split())))[:LONGEST]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 from typing import Any
 
-from anymesh.deferred import deferred
 from anymesh.errors import MissingExtraError
 
 log = logging.getLogger("anymesh")
@@ -14,8 +13,7 @@ log = logging.getLogger("anymesh")
 def load_mujoco() -> Any:
     """Import MuJoCo, and redirect its warnings to our log, since by default it writes a file to the working folder."""
     try:
-        with deferred("glfw"):  # .06 s and a child process; only rendering needs it
-            import mujoco as untyped
+        import mujoco as untyped
     except ImportError:
         raise MissingExtraError("mujoco is missing; it is a dependency of articulate-anymesh; reinstall that") from None
     mujoco: Any = untyped  # its compiled names have no stubs

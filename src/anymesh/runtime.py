@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import sys
 import tempfile
 import time
 from collections.abc import Generator, Mapping
@@ -103,3 +104,19 @@ class Deadline:
         """Return the work omitted since the last call, as warnings."""
         omissions, self._left_out = self._left_out, []
         return tuple(f"time limit of {self.seconds:g} s: {what}" for what in omissions)
+
+
+def cache_folder(kind: str = "answers") -> Path:
+    """Return the folder of one kind of cached data, in $ANYMESH_CACHE or in the system's cache folder.
+
+    The folder is not created.
+    """
+    if own := os.environ.get("ANYMESH_CACHE"):
+        return Path(own) / kind
+    if sys.platform == "win32":
+        base = os.environ.get("LOCALAPPDATA") or str(Path.home() / "AppData" / "Local")
+    elif sys.platform == "darwin":
+        base = str(Path.home() / "Library" / "Caches")
+    else:
+        base = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
+    return Path(base) / "anymesh" / kind

@@ -19,10 +19,10 @@ from anymesh.prompted.motions.cases import PartCase, make_cases
 from anymesh.prompted.motions.offers import scored_motions
 from anymesh.prompted.motions.prompted import Questions, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
-from anymesh.prompted.questions.asking import VisualAnswerer
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Exchange, Joint, JointType, KnownJoint, Mesh, Segmentation
 from anymesh.types.motion import Recognition
+from anymesh.types.questions import VisualAnswerer
 
 X, Y, Z = np.eye(3)
 # half the resolution

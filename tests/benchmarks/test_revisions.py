@@ -16,8 +16,8 @@ from benchmarks.same_bytes import contents, differences
         ("prompted/questions/ask.py", "prompted"),
         ("models/meshy_task.py", "finishing"),
         ("models/sam.py", "prompted"),
-        ("cli/check.py", "checking"),
-        ("cli/segment.py", "core"),
+        ("checking/command_line.py", "checking"),
+        ("cli/stages.py", "core"),
         ("applications/plan/__init__.py", "applications and their commands"),
     ],
 )

@@ -6,7 +6,7 @@ import typer
 from drawn import chest
 from typer.testing import CliRunner
 
-from anymesh.cli.check import NOT_IN_ORDER, check
+from anymesh.checking.command_line import NOT_IN_ORDER, check
 
 app = typer.Typer()
 app.command()(check)

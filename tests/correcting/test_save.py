@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from correctable import write_output
 
-from anymesh import pipeline
+from anymesh import finish, pipeline
 from anymesh.checking import check_asset
 from anymesh.correcting import (
     ChangeType,
@@ -166,7 +166,7 @@ def test_a_finished_asset_is_corrected_after_stage_c(tmp_path):
 def test_stage_c_builds_on_the_corrections(tmp_path):
     folder = write_output(tmp_path / "out")
     save_asset(corrected(open_asset(folder), MergeParts("knob", "drawer"), FlipSign("door")))
-    asset = pipeline.finish(folder, tmp_path / "finished", completer="off", formats="urdf")
+    asset = finish(folder, tmp_path / "finished", completer="off", formats="urdf")
     assert [p.name for p in asset.segmentation.parts] == ["base", "door", "drawer"]
     np.testing.assert_array_equal(asset.joints[0].axis, (0, 0, -1))
 

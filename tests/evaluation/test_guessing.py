@@ -10,9 +10,9 @@ from assets import box, mesh_of
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.pipeline.solving import solve
-from anymesh.prompted.questions.asking import VisualAnswerer
 from anymesh.prompted.questions.grounding import WhichMarks, WhichViews
 from anymesh.prompted.questions.recognition import Recognize
+from anymesh.types.questions import VisualAnswerer
 from benchmarks.guesses import Guesser
 
 ROOT = Path(__file__).parents[2]

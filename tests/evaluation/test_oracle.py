@@ -12,7 +12,6 @@ from anymesh.evaluation.oracle import Noisy, oracle, true_reference
 from anymesh.geometry.kinematics import joint_transform
 from anymesh.prompted.answerers.reference import Reference
 from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
-from anymesh.prompted.questions.asking import VisualAnswerer
 from anymesh.prompted.questions.grounding import WhichMarks
 from anymesh.prompted.questions.motion_choice import MotionTable, WhichMotions
 from anymesh.prompted.questions.prompting import (
@@ -25,6 +24,7 @@ from anymesh.prompted.questions.prompting import (
     WhichPoints,
 )
 from anymesh.types import Joint, JointType, KnownJoint, Motion, Part
+from anymesh.types.questions import VisualAnswerer
 
 X, Y, Z = np.eye(3)
 ASSET = cabinet()

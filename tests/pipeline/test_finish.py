@@ -11,10 +11,10 @@ from surfaces import case_with_door
 
 from anymesh.checking import check_asset
 from anymesh.errors import ModelError, OptionError, OutputError
-from anymesh.finishing.finishing import finish_asset
+from anymesh.finishing.finishing import finish, finish_asset
 from anymesh.finishing.protocol import ShapeConfig
 from anymesh.finishing.texture import Carried
-from anymesh.pipeline import articulate, export_asset, finish
+from anymesh.pipeline import articulate, export_asset
 
 
 @pytest.fixture(scope="module")

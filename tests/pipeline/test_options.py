@@ -7,10 +7,13 @@ from dataclasses import fields
 import pytest
 import typer
 
-from anymesh.cli.app import app
+from anymesh.cli import make_app
+from anymesh.errors import OptionError
 from anymesh.export import Base, Driven
 from anymesh.export.formats import DEFAULT
+from anymesh.finishing.finishing import finish
 from anymesh.pipeline import api
+from anymesh.pipeline.answering import choose_answerer
 from anymesh.pipeline.options import (
     FLAGS,
     HELP,
@@ -23,7 +26,6 @@ from anymesh.pipeline.options import (
     command_fields,
     defaults,
 )
-from anymesh.prompted.answerers.answering import choose_answerer
 
 CLASSES = (AnswererOptions, PlacementOptions, CompletionOptions, FormatOptions, RunOptions)
 NAMES = {
@@ -31,7 +33,7 @@ NAMES = {
     "segment": api.segment,
     "joints": api.joints,
     "export": api.export_asset,
-    "finish": api.finish,
+    "finish": finish,
 }
 
 
@@ -40,7 +42,7 @@ def test_the_keyword_arguments_are_the_fields() -> None:
 
 
 def test_an_unknown_option_is_refused() -> None:
-    with pytest.raises(api.OptionError, match="found the options \\['answerers'\\]; valid are answerer, category"):
+    with pytest.raises(OptionError, match="found the options \\['answerers'\\]; valid are answerer, category"):
         choose_answerer({"answerers": "geometry"})  # ty: ignore[invalid-argument-type, invalid-key]
 
 
@@ -58,7 +60,7 @@ def test_formats_are_those_of_the_export() -> None:
 
 @pytest.mark.parametrize("name", ["articulate", "generate", "annotate", "segment", "joints", "export", "finish", "eval"])
 def test_commands_have_the_options_of_the_classes(name: str) -> None:
-    command = typer.main.get_command(app).commands[name]  # ty: ignore[unresolved-attribute]
+    command = typer.main.get_command(make_app()).commands[name]  # ty: ignore[unresolved-attribute]
     options = {p.name: p for p in command.params}
     for field in (f for kind in CLASSES for f in command_fields(kind)):
         found = options.get(field.name)

@@ -12,8 +12,8 @@ import anymesh
 from anymesh.config import Config
 from anymesh.errors import OptionError
 from anymesh.evaluation.ground_truth import example_truths, prepared
+from anymesh.pipeline import answering
 from anymesh.pipeline.solving import Solver
-from anymesh.prompted.answerers import answering
 from anymesh.types import Mesh
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "meshes" / "tilted_drawer.glb"

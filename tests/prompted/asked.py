@@ -9,7 +9,6 @@ import numpy as np
 from assets import checker
 from hypothesis import strategies as st
 
-from anymesh.prompted.questions.asking import Question
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.prompted.questions.motion_choice import MotionPick, MotionTable, WhichMotions
 from anymesh.prompted.questions.prompting import (
@@ -25,6 +24,7 @@ from anymesh.prompted.questions.prompting import (
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import JointType, Motion, Picture
 from anymesh.types.motion import Recognition, RecognizedLabel
+from anymesh.types.questions import Question
 
 X, Y, Z = np.eye(3)
 PICTURE = Picture(checker(), "view 1, from the front")

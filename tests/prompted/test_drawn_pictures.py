@@ -3,8 +3,8 @@
 from asked import PICTURE
 
 from anymesh.prompted.answerers.vlm_answerer import request_of
-from anymesh.prompted.questions.pictures import DrawnPictures
 from anymesh.prompted.questions.recognition import recognize
+from anymesh.types.exchange import DrawnPictures
 from anymesh.types.motion import Recognition
 
 

@@ -11,11 +11,12 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from anymesh.errors import OptionError
-from anymesh.prompted.questions.asking import BadAnswerError, VisualAnswerer, check_schema
+from anymesh.prompted.questions.asking import BadAnswerError, check_schema
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.prompted.questions.prompting import JointAppearance, WhichPoints
 from anymesh.prompted.questions.recognition import parse_labels, recognize
 from anymesh.types.motion import RecognizedLabel
+from anymesh.types.questions import VisualAnswerer
 
 
 def inside(schema: dict[str, Any]) -> Iterator[dict[str, Any]]:

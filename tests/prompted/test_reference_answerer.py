@@ -12,7 +12,6 @@ from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
 from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer
 from anymesh.prompted.models.scripted import ScriptedModel
 from anymesh.prompted.questions.answer_json import answer_object
-from anymesh.prompted.questions.asking import Question, VisualAnswerer
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.prompted.questions.motion_choice import MotionPick, MotionTable, WhichMotions
 from anymesh.prompted.questions.prompting import (
@@ -28,6 +27,7 @@ from anymesh.prompted.questions.prompting import (
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import JointType, KnownJoint, Motion
 from anymesh.types.motion import RecognizedLabel
+from anymesh.types.questions import Question, VisualAnswerer
 
 HINGE = KnownJoint(JointType.REVOLUTE, np.zeros(3), Z, (0.0, 1.5))
 SLIDE = KnownJoint(JointType.PRISMATIC, np.zeros(3), -2 * Y, (0.0, 0.3))

@@ -9,14 +9,14 @@ from asked import ASKED, picks
 
 from anymesh import runtime as deadline
 from anymesh.errors import BudgetError, ModelError
-from anymesh.prompted.answerers.answering import choose_answerer
+from anymesh.pipeline.answering import choose_answerer
 from anymesh.prompted.answerers.patience import Patience
 from anymesh.prompted.answerers.vlm_answerer import SYSTEM, VlmAnswerer
 from anymesh.prompted.models import connect
 from anymesh.prompted.models.budget import Budgeted
 from anymesh.prompted.models.cache import Cached, request_key
 from anymesh.prompted.models.scripted import ScriptedModel
-from anymesh.prompted.questions.asking import VisualAnswerer
+from anymesh.types.questions import VisualAnswerer
 
 ARROWS = ASKED["arrows"].question  # one part, four arrows
 GOOD = picks("arrow", 4)

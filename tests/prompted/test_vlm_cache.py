@@ -10,9 +10,10 @@ import pytest
 from wire import ANSWER, SCHEMA, a_request, png
 
 from anymesh.prompted.models.budget import Budgeted
-from anymesh.prompted.models.cache import Cached, cache_folder, request_key
+from anymesh.prompted.models.cache import Cached, request_key
 from anymesh.prompted.models.scripted import ScriptedModel
 from anymesh.prompted.models.vision import Request
+from anymesh.runtime import cache_folder
 from anymesh.types import Picture
 
 FIRST, SECOND = a_request().pictures

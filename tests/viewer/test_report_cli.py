@@ -8,8 +8,7 @@ from assets import cabinet
 from shown import folder_of
 from typer.testing import CliRunner
 
-from anymesh.cli.picture import picture
-from anymesh.cli.report import report
+from anymesh.viewer.command_line import picture, report
 
 
 @pytest.fixture(scope="module")

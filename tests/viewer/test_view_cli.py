@@ -6,9 +6,9 @@ import pytest
 from correctable import write_output
 from typer.testing import CliRunner
 
-from anymesh.cli.view import view
 from anymesh.errors import InputError, MissingExtraError, OutputError
 from anymesh.viewer import live_serve_
+from anymesh.viewer.command_line import view
 
 
 def serving(target):

@@ -7,34 +7,15 @@ import gc
 import json
 import os
 import sys
-from functools import partial
 from typing import Annotated, Any
 
 import typer
 from typer.core import TyperCommand
 
 from anymesh import __version__
-from anymesh.cli.annotate import annotate
-from anymesh.cli.answer import answer
-from anymesh.cli.articulate import articulate
-from anymesh.cli.check import check
-from anymesh.cli.evaluate import evaluate
-from anymesh.cli.export import export
-from anymesh.cli.finish import finish
-from anymesh.cli.generate import generate
-from anymesh.cli.joints import joints
-from anymesh.cli.mcp import mcp
-from anymesh.cli.models import models
 from anymesh.cli.output import plain
-from anymesh.cli.picture import picture
-from anymesh.cli.plan import plan
 from anymesh.cli.quiet import quiet_libraries
-from anymesh.cli.report import report
-from anymesh.cli.scan import scan
-from anymesh.cli.segment import segment
-from anymesh.cli.skill import skill
-from anymesh.cli.train import train
-from anymesh.cli.view import view
+from anymesh.entry_points import COMMANDS, load
 from anymesh.errors import DEFECT, AnymeshError, OpenQuestionError
 
 EXIT_CODES = (
@@ -63,14 +44,22 @@ class _HandedError(Exception):
         self.error, self.command, self.options = error, command, options
 
 
-app = typer.Typer(
-    help="Any rigid 3D mesh in, a simulation-ready articulated asset out.",
-    epilog=EXIT_CODES,
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
-_command = partial(app.command, cls=_Command, epilog=EXIT_CODES)
+def make_app(*names: str) -> typer.Typer:
+    """Return the command line with some of its commands, all of them by default.
+
+    A command's module is only imported here, so that a run reads what it needs.
+    """
+    app = typer.Typer(
+        help="Any rigid 3D mesh in, a simulation-ready articulated asset out.",
+        epilog=EXIT_CODES,
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    app.callback()(_main)
+    for name in names or COMMANDS:
+        app.command(name, cls=_Command, epilog=EXIT_CODES)(load(COMMANDS[name]))
+    return app
 
 
 def _version(wanted: bool) -> None:
@@ -79,32 +68,10 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
 def _main(
     version: Annotated[bool | None, typer.Option("--version", callback=_version, is_eager=True, help="Print it.")] = False,
     debug: Annotated[bool, typer.Option("--debug", help="Show the traceback of an unexpected error.")] = False,
 ) -> None: ...
-
-
-_command()(articulate)
-_command()(generate)
-_command()(annotate)
-_command()(segment)
-_command()(joints)
-_command()(export)
-_command()(answer)
-_command()(models)
-_command()(mcp)
-_command()(skill)
-_command()(finish)
-_command()(scan)
-_command()(report)
-_command()(picture)
-_command()(view)
-_command()(plan)
-_command()(train)
-_command("check")(check)
-_command("eval")(evaluate)
 
 
 def main(arguments: list[str] | None = None) -> None:
@@ -123,6 +90,8 @@ def run(arguments: list[str]) -> int:
 
 def _run(arguments: list[str]) -> int:
     try:
+        command = next((a for a in arguments if not a.startswith("-")), "")
+        app = make_app(command) if command in COMMANDS else make_app()
         code = app(arguments, standalone_mode=False)
         return code if isinstance(code, int) else 0
     except (typer.Exit, SystemExit) as stop:

@@ -17,9 +17,8 @@ from anymesh.pipeline.storage.packing import CORRECTION
 from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.pipeline.storage.saved import Saved
 from anymesh.pipeline.storage.stage_files import stage_key
-from anymesh.prompted.models.cache import cache_folder
 from anymesh.rendering.preview import write_preview
-from anymesh.runtime import read_json, write_json
+from anymesh.runtime import cache_folder, read_json, write_json
 
 
 class StaleError(OutputError):

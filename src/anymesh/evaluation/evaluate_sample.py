@@ -24,8 +24,8 @@ from anymesh.evaluation.score import JointScore, ObjectScore, failed, score
 from anymesh.evaluation.single_view import observation
 from anymesh.export import write_asset
 from anymesh.names import legal_name
-from anymesh.prompted.questions.asking import VisualAnswerer
 from anymesh.types import Asset, Joint, JointType, Mesh, Segmentation, Source
+from anymesh.types.questions import VisualAnswerer
 
 log = logging.getLogger("anymesh")
 PICTURES = "pictures"  # folder in the report's folder

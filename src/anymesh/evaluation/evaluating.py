@@ -29,11 +29,11 @@ from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.training import trained_note
 from anymesh.isolation.pool import worker_processes
 from anymesh.names import legal_name, listed
-from anymesh.pipeline.options import GEOMETRY, Answering
+from anymesh.pipeline.answering import choose_answerer
+from anymesh.pipeline.options import FILES, GEOMETRY, Answering
 from anymesh.pipeline.solving import solve
-from anymesh.prompted.answerers.answering import FILES, choose_answerer
-from anymesh.prompted.questions.asking import AnswererFactory
 from anymesh.runtime import Progress, silent, usable_cores
+from anymesh.types.questions import AnswererFactory
 
 ORACLE = "oracle"
 Examined = list[Record] | OpenQuestionError  # the records of an object, or the question that it waits for

@@ -18,7 +18,6 @@ from anymesh.prompted.models.cache import Cached
 from anymesh.prompted.models.prices import cost_of, max_picture_tokens
 from anymesh.prompted.models.vision import Reply, Request
 from anymesh.prompted.questions.answer_json import answer_object
-from anymesh.prompted.questions.asking import Answer, Question, VisualAnswerer
 from anymesh.prompted.questions.grounding import WhichMarks
 from anymesh.prompted.questions.motion_choice import MotionPick, WhichMotions
 from anymesh.prompted.questions.prompting import (
@@ -31,6 +30,7 @@ from anymesh.prompted.questions.prompting import (
     WhichPoints,
 )
 from anymesh.types import Exchange, KnownJoint
+from anymesh.types.questions import Answer, Question, VisualAnswerer
 from anymesh.vocabulary import recognize
 
 Item = TypeVar("Item")

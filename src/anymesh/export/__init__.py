@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from anymesh.entry_points import WRITE_TRANSCRIPT, load
 from anymesh.export.asset_json import TIMING_FILE, asset_record, json_text
 from anymesh.export.formats import DEFAULT, Format, load_libraries, parse_formats, write_formats
 from anymesh.export.meshes import write_meshes
 from anymesh.export.model import Base, Driven, ExportConfig, Model, build_model
-from anymesh.prompted.answerers.transcript import write_transcript
 from anymesh.runtime import Deadline
 from anymesh.types import Asset
 
@@ -41,7 +41,7 @@ def write_asset(
     write_meshes(model, folder, config)
     write_formats(model, folder, formats, config)
     if asset.exchanges:
-        write_transcript(asset.exchanges, folder / TRANSCRIPT)
+        load(WRITE_TRANSCRIPT)(asset.exchanges, folder / TRANSCRIPT)
     texts = {
         TIMING_FILE: json_text({stage: round(float(seconds), 4) for stage, seconds in asset.timing.items()}),
         "asset.json": json_text(asset_record(model, formats)),

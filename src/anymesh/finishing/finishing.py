@@ -9,7 +9,9 @@ from pathlib import Path
 
 import numpy as np
 
-from anymesh.errors import ModelError, OptionError
+from anymesh.errors import ModelError, OptionError, OutputError
+from anymesh.export import Base, Driven
+from anymesh.export.formats import DEFAULT, ExportOptions
 from anymesh.finishing.bake import Baked
 from anymesh.finishing.complete import complete
 from anymesh.finishing.holopart import VALID, HoloPart, open_holopart
@@ -19,10 +21,11 @@ from anymesh.finishing.protocol import Completer, Finished, ShapeConfig
 from anymesh.finishing.retexture import Remote
 from anymesh.finishing.texture import Carried, Retexturer
 from anymesh.pipeline.results import CompletionResult
+from anymesh.pipeline.stages import write_files
 from anymesh.pipeline.storage.packing import COMPLETION
 from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.pipeline.storage.stage_files import stage_key
-from anymesh.runtime import Deadline, Progress
+from anymesh.runtime import DEFAULT_SECONDS, Deadline, Progress, silent
 from anymesh.types import Asset
 
 TEXTURES = "builtin, bake, bake:PIXELS, meshy or meshy:PROMPT"
@@ -148,3 +151,35 @@ def _note_lines(finished: Finished) -> Iterator[str]:
     for part, notes in finished.notes.items():
         for note, times in Counter(notes).items():
             yield f"{part}: {note}" + (f" ({times} times)" if times > 1 else "")
+
+
+def finish(
+    folder: str | Path,
+    out: str | Path,
+    *,
+    completer: str = "builtin",
+    texture: str = "builtin",
+    watertight: bool = True,
+    max_calls: int | None = None,
+    base: str = Base.FIXED,
+    formats: str = ",".join(DEFAULT),
+    drives: str = Driven.PASSIVE,
+    force: bool = False,
+    time_limit: float = DEFAULT_SECONDS,
+    progress: Progress = silent,
+) -> Asset:
+    """Run Stage C: complete shapes and textures of the asset in `folder`, an output of `articulate`, and write it to `out`.
+
+    completer: builtin, off, holopart:FOLDER[#PYTHON] or holopart:URL; texture: builtin, bake, bake:PIXELS, meshy or
+    meshy:PROMPT, with at most `max_calls` paid tasks; watertight: also close surfaces that no motion uncovers; time_limit: [s],
+    as for `articulate`.
+    Raise OptionError, OutputError, ModelError or BudgetError; a paid task that was started is resumed by the next run.
+    """
+    written, deadline, out = ExportOptions.parse(base, formats, drives), Deadline(time_limit), Path(out)
+    how = Completion(completer, texture, watertight, max_calls, state=out.parent / f".{out.name}.meshy.json")
+    if (Path(folder) / "asset.json").is_file() and Path(folder).absolute() in out.absolute().parents:
+        raise OutputError(f"{out} lies in the asset {folder}, which is not changed; choose another folder")
+    with RunFolder.create(out, source=Path(folder) / "asset.json", force=force) as run:
+        run.take_over(Path(folder))
+        complete_asset(run, how, deadline, progress)
+        return write_files(run, written, deadline, progress)

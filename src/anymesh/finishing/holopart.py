@@ -16,14 +16,14 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.errors import InputError, ModelError, OptionError
+from anymesh.errors import SECRET, InputError, ModelError, OptionError
 from anymesh.finishing.protocol import PartMesh
 from anymesh.finishing.scene_glb import Y_UP, read_scene, scene_glb
 from anymesh.finishing.web import Call, LostError, exchange, is_web
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.topology import components, weld
 from anymesh.geometry.triangle_set import sample_surface
-from anymesh.prompted.models.error_redaction import LONGEST, SECRET
+from anymesh.prompted.models.error_redaction import LONGEST
 from anymesh.prompted.models.retry import persist
 from anymesh.types import Asset, Mesh, Node
 

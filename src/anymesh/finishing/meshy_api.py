@@ -13,9 +13,9 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from anymesh.errors import ModelError
+from anymesh.errors import SECRET, ModelError
 from anymesh.finishing.web import Answer, Call, LostError, exchange
-from anymesh.prompted.models.error_redaction import LONGEST, SECRET
+from anymesh.prompted.models.error_redaction import LONGEST
 from anymesh.prompted.models.retry import TransientError
 
 KEY, BASE = "MESHY_API_KEY", "MESHY_BASE_URL"

@@ -15,7 +15,6 @@ import threading
 from importlib import import_module
 from typing import IO, Any
 
-from anymesh.deferred import deferred
 from anymesh.errors import AnymeshError
 
 LENGTH = 8  # [bytes] of the length before each message
@@ -129,10 +128,9 @@ def main() -> None:
     os.dup2(nowhere, 1)
     os.dup2(nowhere, 2)
     limit_memory(int(sys.argv[1]))
-    with deferred("numpy.f2py"):  # .07 s; SciPy only lists it among the names of NumPy
-        for module in sys.argv[2].split():
-            with contextlib.suppress(ImportError):  # the call that needs it reports the error
-                import_module(module)
+    for module in sys.argv[2].split():
+        with contextlib.suppress(ImportError):  # the call that needs it reports the error
+            import_module(module)
     with contextlib.suppress(EOFError):
         while True:
             serve(read_message(requests), replies)

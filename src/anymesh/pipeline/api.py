@@ -7,17 +7,17 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Unpack
 
-from anymesh.errors import OptionError, OutputError
+from anymesh.errors import OptionError
 from anymesh.export import Base, Driven, Format
 from anymesh.export.formats import DEFAULT, ExportOptions
 from anymesh.export.package import check_zip, write_package, write_zip
 from anymesh.isolation import AHEAD, shared_pool
+from anymesh.pipeline.answering import choose_answerer, object_name
 from anymesh.pipeline.options import Answering, PlacementOptions
 from anymesh.pipeline.stages import Keyed, Run, estimate_joints, load, recognize, segment_parts, write_files
 from anymesh.pipeline.stopped_run import kept_transcript
 from anymesh.pipeline.storage.packing import MESH, SEGMENTATION
 from anymesh.pipeline.storage.run_folder import LAST, RunFolder
-from anymesh.prompted.answerers.answering import choose_answerer, object_name
 from anymesh.runtime import DEFAULT_SECONDS, Deadline, Progress, read_json, silent
 from anymesh.types import Asset, Joint, Segmentation
 
@@ -139,37 +139,3 @@ def export_asset(
     if archive is not None:
         write_zip(Path(folder), Path(archive))
     return asset
-
-
-def finish(
-    folder: str | Path,
-    out: str | Path,
-    *,
-    completer: str = "builtin",
-    texture: str = "builtin",
-    watertight: bool = True,
-    max_calls: int | None = None,
-    base: str = Base.FIXED,
-    formats: str = ",".join(DEFAULT),
-    drives: str = Driven.PASSIVE,
-    force: bool = False,
-    time_limit: float = DEFAULT_SECONDS,
-    progress: Progress = silent,
-) -> Asset:
-    """Run Stage C: complete shapes and textures of the asset in `folder`, an output of `articulate`, and write it to `out`.
-
-    completer: builtin, off, holopart:FOLDER[#PYTHON] or holopart:URL; texture: builtin, bake, bake:PIXELS, meshy or
-    meshy:PROMPT, with at most `max_calls` paid tasks; watertight: also close surfaces that no motion uncovers; time_limit: [s],
-    as for `articulate`.
-    Raise OptionError, OutputError, ModelError or BudgetError; a paid task that was started is resumed by the next run.
-    """
-    from anymesh.finishing.finishing import Completion, complete_asset  # imports on use: only this stage needs its modules
-
-    written, deadline, out = ExportOptions.parse(base, formats, drives), Deadline(time_limit), Path(out)
-    how = Completion(completer, texture, watertight, max_calls, state=out.parent / f".{out.name}.meshy.json")
-    if (Path(folder) / "asset.json").is_file() and Path(folder).absolute() in out.absolute().parents:
-        raise OutputError(f"{out} lies in the asset {folder}, which is not changed; choose another folder")
-    with RunFolder.create(out, source=Path(folder) / "asset.json", force=force) as run:
-        run.take_over(Path(folder))
-        complete_asset(run, how, deadline, progress)
-        return write_files(run, written, deadline, progress)

@@ -11,10 +11,8 @@ from typing import Any
 from anymesh import pipeline
 from anymesh.errors import AnymeshError, BudgetError, InputError, MissingExtraError, OpenQuestionError, OptionError, OutputError
 from anymesh.loading.files import FORMATS
-from anymesh.pipeline.options import GEOMETRY
-from anymesh.prompted.answerers.answering import FILES
-from anymesh.prompted.answerers.question_files import NAME
-from anymesh.prompted.models.budget import Spent
+from anymesh.pipeline.options import FILES, GEOMETRY
+from anymesh.pipeline.spending import Spent
 from anymesh.runtime import Progress, read_json, silent
 
 ENDING = (BudgetError, MissingExtraError, OptionError)  # errors that would recur for every other object
@@ -87,7 +85,7 @@ def _is_done(mesh: Path, target: Path, answerer: str, *, force: bool) -> bool:
     except OSError as error:
         raise InputError(f"cannot read {mesh}: {error.strerror or error}") from error
     same = asset.get("source", {}).get("sha256") == digest
-    expected = NAME if answerer.startswith(FILES) else answerer
+    expected = FILES.rstrip(":") if answerer.startswith(FILES) else answerer
     if not same or (asset.get("answerer") != expected and not answerer.startswith("replay:")):
         what = f"by {asset.get('answerer')!r}" if same else "from another version of the mesh"
         raise OutputError(f"{target} was made {what}; --force replaces it, or choose another folder")

@@ -16,11 +16,10 @@ from anymesh.geometry.patches import DividedSurface, ObjectShape
 from anymesh.geometry.surface import ground_faces
 from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
-from anymesh.prompted.answerers.reference import Reference, reference_of
 from anymesh.runtime import Deadline, Progress, silent
 from anymesh.segmentation.divide import divide_surface, object_shape
 from anymesh.segmentation.segment import segment_parts
-from anymesh.types import JointType, Mesh, Segmentation
+from anymesh.types import Joint, JointType, Mesh, Segmentation
 from anymesh.types.motion import Recognition
 
 GROUND_WARNING = "the file contains a ground, which is part of the base"
@@ -64,8 +63,7 @@ class GeometryStages:
         self, segmentation: Segmentation, recognition: Recognition | None, progress: Progress = silent, grounded: bool = False
     ) -> JointResult:
         """Run Stage B."""
-        joints = estimate_joints(segmentation, self._motions(segmentation, progress))
-        return joint_result(joints, self.name, self.deadline.warnings())
+        return joint_result(self.joints(segmentation, progress), self.name, self.deadline.warnings())
 
     def parts(self, progress: Progress = silent) -> Segmentation:
         """Return the parts found by geometry, computed once.
@@ -117,15 +115,9 @@ class GeometryStages:
             return whole
         return self._divided.simplified(self.config.patches, label)
 
-    @cached_property
-    def reference_parts(self) -> Reference:
-        """Return the reference made of the parts and joints that geometry finds."""
-        return self.reference(self.parts())
-
-    def reference(self, segmentation: Segmentation) -> Reference:
-        """Return the reference made of geometry's answers, the fallback of a model."""
-        joints = estimate_joints(segmentation, self._motions(segmentation))
-        return reference_of(self.mesh, segmentation, joints, self.config.category or "object")
+    def joints(self, segmentation: Segmentation, progress: Progress = silent) -> tuple[Joint, ...]:
+        """Return the joints of parts by geometry."""
+        return estimate_joints(segmentation, self._motions(segmentation, progress))
 
 
 def _with_progress(swept: Iterable[PartMotions], segmentation: Segmentation, progress: Progress) -> Iterator[PartMotions]:

@@ -11,10 +11,10 @@ from anymesh.config import DEFAULT_VIEWS
 from anymesh.runtime import CALL_SECONDS, DEFAULT_SECONDS
 
 if TYPE_CHECKING:
-    from anymesh.prompted.models.budget import Account
-    from anymesh.prompted.models.rates import Limiter
+    from anymesh.pipeline.spending import Account
 
 GEOMETRY = "geometry"  # name of the answerer that needs no key and no network
+FILES = "files:"  # prefix of the name of answers in files
 FLAGS, METAVAR, KIND, HELP = "flags", "metavar", "kind", "help"  # metadata of a field that is also an option of commands
 
 
@@ -49,8 +49,7 @@ class AnswererOptions:
     answerer: str = _option(
         GEOMETRY,
         "geometry, openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL, "
-        "vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER (answers in files), "
-        "or replay:FOLDER.",
+        "vllm:MODEL, openai-compatible:BASE_URL#MODEL, files:FOLDER (answers in files) or replay:FOLDER.",
     )
     parts_list: Sequence[str] | str = _option(
         (), "Labels of the moving parts, such as door,drawer, instead of asking a model.", metavar="LABELS"
@@ -77,7 +76,7 @@ class AnswererOptions:
     seed: int = _option(0, "From 0 up; the same input and seed give the same bytes.")
     suggest: bool = False
     spent: Account | None = None
-    limiter: Limiter | None = None
+    limiter: Any = None
 
 
 class Answering(TypedDict, total=False):
@@ -98,7 +97,7 @@ class Answering(TypedDict, total=False):
     wait: bool
     suggest: bool
     spent: Account | None
-    limiter: Limiter | None
+    limiter: Any
 
 
 @dataclass(frozen=True)

@@ -9,20 +9,20 @@ from typing import Protocol
 import numpy as np
 
 from anymesh.config import Config
+from anymesh.entry_points import PROMPTED_STAGES, load
 from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.patches import ObjectShape
 from anymesh.pipeline.geometry_stages import GeometryStages
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, segmentation_result
-from anymesh.prompted.questions.asking import AnswererFactory
-from anymesh.prompted.stages import PromptedStages
 from anymesh.runtime import Deadline, Progress, silent
 from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
 from anymesh.types import Joint, Mesh, Segmentation
 from anymesh.types.motion import Recognition
+from anymesh.types.questions import AnswererFactory
 
 
 class StageAnswerer(Protocol):
-    """Answerer of stages A and B about one object: `GeometryStages` or `PromptedStages`.
+    """Answerer of stages A and B about one object: `GeometryStages`, or `PromptedStages` of `anymesh.prompted`.
 
     recognizes: whether the object is recognized first, by a stage with a result of its own.
     """
@@ -72,7 +72,7 @@ class Solver:
         straight, self._T_straight = straight_mesh(mesh) if answerer_factory is None else (mesh, np.eye(4))
         self.geometry = GeometryStages(straight, config, deadline or Deadline())
         self.answers: StageAnswerer = (
-            self.geometry if answerer_factory is None else PromptedStages(self.geometry, answerer_factory)
+            self.geometry if answerer_factory is None else load(PROMPTED_STAGES)(self.geometry, answerer_factory)
         )
 
     @property

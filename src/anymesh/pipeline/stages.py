@@ -11,16 +11,15 @@ from typing import Generic, TypeVar
 from anymesh.export import load_libraries, write_asset
 from anymesh.export.formats import ExportOptions
 from anymesh.loading import load_mesh, place_mesh
+from anymesh.pipeline.answering import AnswererSetup
 from anymesh.pipeline.options import PlacementOptions
 from anymesh.pipeline.results import JointResult, LoadResult, RecognitionResult, SegmentationResult
 from anymesh.pipeline.solving import Solver
 from anymesh.pipeline.storage.packing import JOINTS, MESH, RECOGNITION, SEGMENTATION, Stage
 from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.pipeline.storage.stage_files import stage_key
-from anymesh.prompted.answerers.answering import AnswererSetup
-from anymesh.prompted.models.cache import cache_folder
 from anymesh.rendering.preview import write_legend, write_preview
-from anymesh.runtime import PREVIEW, Deadline, Progress
+from anymesh.runtime import PREVIEW, Deadline, Progress, cache_folder
 from anymesh.segmentation.given import GIVEN
 from anymesh.types import Asset, Mesh, Source
 

@@ -7,11 +7,11 @@ from collections.abc import Generator, Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
+from anymesh.entry_points import REMOVE_TRANSCRIPT, WRITE_TRANSCRIPT, load
 from anymesh.errors import OpenQuestionError, OutputError
+from anymesh.pipeline.answering import AnswererSetup
 from anymesh.pipeline.storage.packing import JOINTS, RECOGNITION, SEGMENTATION
 from anymesh.pipeline.storage.run_folder import RunFolder
-from anymesh.prompted.answerers.answering import AnswererSetup
-from anymesh.prompted.answerers.transcript import remove_transcript, write_transcript
 from anymesh.types import Exchange
 
 log = logging.getLogger("anymesh")
@@ -28,8 +28,9 @@ def kept_transcript(run: RunFolder, who: AnswererSetup) -> Generator[None]:
     except BaseException:
         _write(run, who, folder)
         raise
-    with suppress(OSError):
-        remove_transcript(folder)
+    if folder.exists():
+        with suppress(OSError):
+            load(REMOVE_TRANSCRIPT)(folder)
 
 
 def _write(run: RunFolder, who: AnswererSetup, folder: Path) -> None:
@@ -37,7 +38,7 @@ def _write(run: RunFolder, who: AnswererSetup, folder: Path) -> None:
     exchanges = [*saved, *(e for e in who.exchanges() if e not in saved)]
     if exchanges:
         try:
-            write_transcript(exchanges, folder)
+            load(WRITE_TRANSCRIPT)(exchanges, folder)
             log.warning("what was asked and answered until then: %s", folder / "index.html")
         except OSError as error:  # the error that ended the run is more important
             log.warning("the transcript cannot be written to %s: %s", folder, error.strerror or error)

@@ -8,6 +8,7 @@ from functools import cached_property, partial
 from anymesh.articulation.freedom import stays_free
 from anymesh.pipeline.geometry_stages import GeometryStages
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
+from anymesh.prompted.answerers.reference import Reference, reference_of
 from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
 from anymesh.prompted.grounding.ask_marks import MarkQuestioner
 from anymesh.prompted.grounding.cloud import seen_points
@@ -20,11 +21,11 @@ from anymesh.prompted.grounding.regrounding import ground_again
 from anymesh.prompted.masks.sam_onnx_ import load_sam
 from anymesh.prompted.motions.prompted import Questions, Reground, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
-from anymesh.prompted.questions.asking import AnswererFactory
 from anymesh.prompted.questions.recognition import answered_scale, recognize
 from anymesh.runtime import Progress, silent
 from anymesh.types import Picture, Segmentation
 from anymesh.types.motion import Recognition
+from anymesh.types.questions import AnswererFactory
 
 MAX_INSIDE_VIEWS = 2  # pictures of the inside in the question about the object
 
@@ -48,6 +49,15 @@ class PromptedStages:
         return sample_object(self.mesh, self._geometry.whole, self.config)
 
     @cached_property
+    def _reference_parts(self) -> Reference:
+        return self._reference(self._geometry.parts())
+
+    def _reference(self, segmentation: Segmentation) -> Reference:
+        """Return the reference made of geometry's answers, the fallback of a model."""
+        joints = self._geometry.joints(segmentation)
+        return reference_of(self.mesh, segmentation, joints, self.config.category or "object")
+
+    @cached_property
     def visual_prompts(self) -> VisualPrompts:
         """Return what draws the pictures of the questions."""
         return VisualPrompts(self.mesh, self.config)
@@ -59,7 +69,7 @@ class PromptedStages:
         gives a warning.
         """
         _ = self._ground  # report unusable weights before anything is asked
-        answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._geometry.reference_parts))
+        answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._reference_parts))
         azimuths = [azimuth for azimuth, _ in self.config.views.directions]
         recognition = recognize(self._view_pictures, answerer, self.config.category, self.config.parts_list, azimuths)
         scale, note, doubt = (
@@ -81,7 +91,7 @@ class PromptedStages:
         """Run Stage A; without a recognition there is nothing to ask for, and geometry finds the parts."""
         if recognition is None:
             return self._geometry.find_parts(recognition, progress)
-        answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._geometry.reference_parts))
+        answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._reference_parts))
         labels = tuple(r.label for r in recognition.labels)
         questioner = MarkQuestioner(answerer, self.visual_prompts, labels, recognition.category, self.config)
         segmentation, warnings = ground_parts(
@@ -104,7 +114,7 @@ class PromptedStages:
 
         grounded: the parts come from `find_parts`, so that answers may once call them too much or too little.
         """
-        answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._geometry.reference(segmentation)))
+        answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._reference(segmentation)))
         questions = Questions(self.visual_prompts, answerer, self.config, recognition, progress)
         reground = self._regrounding(questions, segmentation) if grounded and recognition is not None else None
         made = prompt_joints(questions, self._geometry.shape_for, segmentation, reground)

@@ -1,8 +1,11 @@
-"""Pictures shown to a model, and records of questions and answers."""
+"""Pictures shown to a model, drawn when they are first read, and records of questions and answers."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
+from typing import overload
 
 FALLBACK_VERDICT = "answered instead"  # suffix of the verdict if a model gave no valid answer
 NOT_ASKED = "not asked"  # prefix of the verdict if a model was given up before the question
@@ -52,3 +55,40 @@ class Exchange:
     def skipped(self) -> bool:
         """Return whether no call was made because the model had been given up."""
         return self.verdict.startswith(NOT_ASKED)
+
+
+class DrawnPictures:
+    """Pictures drawn on first use, so that answerers that do not look at them take no time for drawing.
+
+    It is no `Sequence`, of which runtime type checks read an item.
+    """
+
+    def __init__(self, draw: Callable[[], tuple[Picture, ...]]) -> None:
+        self._draw = draw
+
+    @cached_property
+    def _drawn(self) -> tuple[Picture, ...]:
+        return self._draw()
+
+    @property
+    def are_drawn(self) -> bool:
+        """Return whether the pictures were read."""
+        return "_drawn" in vars(self)
+
+    @overload
+    def __getitem__(self, index: int) -> Picture: ...
+
+    @overload
+    def __getitem__(self, index: slice) -> tuple[Picture, ...]: ...
+
+    def __getitem__(self, index: int | slice) -> Picture | tuple[Picture, ...]:
+        return self._drawn[index]
+
+    def __iter__(self) -> Iterator[Picture]:
+        return iter(self._drawn)
+
+    def __len__(self) -> int:
+        return len(self._drawn)
+
+
+Pictures = tuple[Picture, ...] | DrawnPictures

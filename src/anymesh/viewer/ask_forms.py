@@ -6,7 +6,6 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Protocol, runtime_checkable
 
-from anymesh.prompted.questions.asking import Question
 from anymesh.prompted.questions.grounding import WhichMarks
 from anymesh.prompted.questions.motion_choice import MotionTable, PartFit, WhichMotions
 from anymesh.prompted.questions.prompting import (
@@ -21,6 +20,7 @@ from anymesh.prompted.questions.prompting import (
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import JointType
 from anymesh.types.motion import BASE
+from anymesh.types.questions import Question
 from anymesh.viewer.ask_marks import MarksForm
 
 UNNAMED = "part"

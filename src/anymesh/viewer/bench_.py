@@ -14,7 +14,8 @@ from typing import Any
 
 from anymesh.correcting import CorrectionError
 from anymesh.errors import AnymeshError
-from anymesh.prompted.answerers.answering import FILES, object_name
+from anymesh.pipeline.answering import object_name
+from anymesh.pipeline.options import FILES
 from anymesh.viewer.ask_desk_ import AskDesk
 from anymesh.viewer.drop_zone import drop_zone
 from anymesh.viewer.panels import SMALL

@@ -12,8 +12,8 @@ from jaxtyping import Float
 from anymesh.correcting.corrections import Vector, vector
 from anymesh.export.model import Base, Driven, ExportConfig, Model, build_model
 from anymesh.export.notation import quaternion
-from anymesh.prompted.models.cache import cache_folder
 from anymesh.rendering.viewpoints import away
+from anymesh.runtime import cache_folder
 from anymesh.types import Asset, JointType, Mesh, Segmentation
 from anymesh.viewer.live import part_poses
 from anymesh.viewer.report_display import display_glb, displayed

@@ -10,7 +10,7 @@ from generated import BOX, FAST, PROMPT, record
 from meshy_wire import KEY, SIGNATURE
 
 import anymesh
-from anymesh import pipeline
+from anymesh import finish, pipeline
 from anymesh.applications.generate import generate
 from anymesh.applications.generate.work import WorkFolder
 from anymesh.checking import check_asset
@@ -182,5 +182,5 @@ def test_where_it_came_from_survives_an_export_and_corrections(articulations, pr
     with RunFolder.revise(out):
         pass
     assert origin <= set(files(out))
-    pipeline.finish(out, tmp_path / "again", **FAST)
+    finish(out, tmp_path / "again", **FAST)
     assert origin <= set(files(tmp_path / "again"))

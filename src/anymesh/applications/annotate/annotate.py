@@ -19,8 +19,8 @@ from anymesh.applications.annotate.tally import Tally, tally
 from anymesh.applications.annotate.workers import LocalWorkers, Workers, object_limits
 from anymesh.errors import OptionError, OutputError
 from anymesh.export.formats import DEFAULT, ExportOptions
-from anymesh.pipeline.options import GEOMETRY, Answering
-from anymesh.prompted.answerers.answering import FILES, choose_answerer
+from anymesh.pipeline.answering import choose_answerer
+from anymesh.pipeline.options import FILES, GEOMETRY, Answering
 from anymesh.runtime import DEFAULT_SECONDS, Deadline, usable_cores
 
 PARQUET = "ledger.parquet"

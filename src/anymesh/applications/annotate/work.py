@@ -27,7 +27,7 @@ from anymesh.errors import (
     OptionError,
     failed_stage,
 )
-from anymesh.prompted.models.budget import Limit, Spent
+from anymesh.pipeline.spending import Limit, Spent
 from anymesh.prompted.models.retry import UnavailableError
 from anymesh.runtime import read_json, write_whole
 
@@ -167,7 +167,7 @@ def _digest(mesh: Path) -> str:
 
 def failure(error: Exception) -> AttemptOutcome:
     """Convert an error to the outcome of an attempt, in one line without keys."""
-    from anymesh.defects import redacted
+    from anymesh.errors import redacted
 
     name, code = type(error).__name__, getattr(error, "exit_code", 0)
     stage = failed_stage(error) or ""
@@ -198,7 +198,7 @@ def _is_storage(error: BaseException | None) -> bool:
 
 
 def _line(error: BaseException) -> str:
-    from anymesh.prompted.models.error_redaction import SECRET
+    from anymesh.errors import SECRET
 
     keys = re.compile(r"\b(?:sk-|AIza|Bearer )\S+")  # not SECRET alone: paths may be as long as keys
     line = " ".join(str(error).split())

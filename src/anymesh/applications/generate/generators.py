@@ -18,13 +18,11 @@ from pathlib import Path
 
 from anymesh.applications.generate.meshy import SHAPE, TEXTURED, MeshyGenerator
 from anymesh.applications.generate.protocol import GeneratedMesh, Generator3D, MeshRequest, Step, Unit
-from anymesh.defects import redacted
-from anymesh.errors import InputError, ModelError, OptionError
+from anymesh.errors import SECRET, InputError, ModelError, OptionError, redacted
 from anymesh.finishing.meshy_api import KEY
 from anymesh.loading import load_mesh
 from anymesh.loading.load import LoadedMesh
 from anymesh.prompted.models.address import KEYS
-from anymesh.prompted.models.error_redaction import SECRET
 from anymesh.runtime import Progress
 
 PROGRAM = "command:"

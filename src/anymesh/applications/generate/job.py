@@ -19,7 +19,9 @@ from anymesh.export.formats import ExportOptions
 from anymesh.finishing.finishing import open_completer, open_retexturer
 from anymesh.loading import place_mesh
 from anymesh.loading.load import LoadedMesh, usual_size
+from anymesh.pipeline.answering import choose_answerer
 from anymesh.pipeline.options import (
+    FILES,
     AnswererOptions,
     Answering,
     CompletionOptions,
@@ -30,7 +32,6 @@ from anymesh.pipeline.options import (
 )
 from anymesh.pipeline.storage.atomic_folder import FOLDER_PREFIX
 from anymesh.pipeline.storage.outputs import check_replaceable
-from anymesh.prompted.answerers.answering import FILES, choose_answerer
 from anymesh.runtime import Deadline
 from anymesh.types import Mesh, Node
 

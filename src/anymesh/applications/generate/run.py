@@ -25,11 +25,12 @@ from anymesh.applications.generate.work import (
 )
 from anymesh.errors import ModelError, OutputError, note_stage
 from anymesh.export.formats import ExportOptions
+from anymesh.finishing.finishing import finish
 from anymesh.finishing.meshy_api import RETEXTURE
 from anymesh.pipeline.options import GEOMETRY
+from anymesh.pipeline.spending import Account, Spent
 from anymesh.pipeline.storage.run_folder import RunFolder
 from anymesh.pipeline.storage.saved import Saved
-from anymesh.prompted.models.budget import Account, Spent
 from anymesh.runtime import Progress, silent
 from anymesh.types import Asset, JointType
 
@@ -152,7 +153,7 @@ def _articulated_before(job: GenerationJob, folder: Path) -> bool:
 def _finish(job: GenerationJob, work: WorkFolder, spent: Account, seconds: float, force: bool, progress: Progress) -> Asset:
     """Run stage C from the work folder to the output. seconds: spent on the mesh."""
     options, most = job.options, job.options.get("max_calls")
-    finished = pipeline.finish(
+    finished = finish(
         work.articulated,
         job.out,
         completer=options["completer"],

@@ -17,8 +17,7 @@ from anymesh import __version__
 from anymesh.applications.generate.generators import GivenMesh
 from anymesh.applications.generate.job import FREE, GenerationJob
 from anymesh.applications.generate.protocol import GeneratedMesh, PaidTask, file_digest
-from anymesh.defects import redacted
-from anymesh.errors import InputError, OutputError
+from anymesh.errors import InputError, OutputError, redacted
 from anymesh.finishing.meshy import Bought
 from anymesh.finishing.meshy_api import RETEXTURE
 from anymesh.geometry.topology import components

@@ -27,11 +27,12 @@ from anymesh.prompted.answerers.vlm_answerer import exchange_of, request_of
 from anymesh.prompted.models.vision import Reply, Request
 from anymesh.prompted.pictures.sheet import question_sheet
 from anymesh.prompted.questions.answer_json import answer_object
-from anymesh.prompted.questions.asking import Answer, BadAnswerError, Question, VisualAnswerer
+from anymesh.prompted.questions.asking import BadAnswerError
 from anymesh.prompted.questions.question_words import question_page
 from anymesh.prompted.questions.reply_text import reply_object
 from anymesh.prompted.questions.saved_question import pack_question, unpack_question
 from anymesh.types import Exchange
+from anymesh.types.questions import Answer, Question, VisualAnswerer
 
 POLL = 1.0  # [s] interval between checks for an answer
 

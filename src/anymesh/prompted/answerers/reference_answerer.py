@@ -14,7 +14,6 @@ from typing import Any, cast
 import numpy as np
 
 from anymesh.prompted.answerers.reference import Reference
-from anymesh.prompted.questions.asking import Answer, Question
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.prompted.questions.motion_choice import MotionPick, WhichMotions
 from anymesh.prompted.questions.prompting import (
@@ -29,6 +28,7 @@ from anymesh.prompted.questions.prompting import (
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import Exchange, JointType, KnownJoint, Motion
 from anymesh.types.motion import BASE, Recognition, RecognizedLabel
+from anymesh.types.questions import Answer, Question
 
 MIN_VISIBLE_PIXELS = 40  # [px] minimum visible size of a part
 MIN_MARK_OVERLAP = 0.5  # minimum share of a mark's pixels on the part that the mark is given to

@@ -13,10 +13,11 @@ from anymesh.prompted.answerers.patience import MAX_INVALID_ANSWERS, Patience
 from anymesh.prompted.answerers.question_files import LEFT, NAME, is_left_to_geometry
 from anymesh.prompted.models.cache import request_key
 from anymesh.prompted.models.vision import Reply, Request, VisionModel
-from anymesh.prompted.questions.asking import Answer, BadAnswerError, Question, VisualAnswerer
+from anymesh.prompted.questions.asking import BadAnswerError
 from anymesh.prompted.questions.reply_text import reply_object
 from anymesh.types import Exchange
 from anymesh.types.exchange import FALLBACK_VERDICT, NOT_ASKED
+from anymesh.types.questions import Answer, Question, VisualAnswerer
 
 SYSTEM = (
     "You help to turn rigid 3D models into articulated ones for robot simulators. You are shown rendered pictures and asked "

@@ -16,11 +16,11 @@ from anymesh.prompted.grounding.regions import Marks
 from anymesh.prompted.masks.propose import Proposal
 from anymesh.prompted.pictures.marks import draw_marks
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
-from anymesh.prompted.questions.asking import VisualAnswerer
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
-from anymesh.prompted.questions.pictures import DrawnPictures
 from anymesh.rendering.render import View
 from anymesh.types import Picture
+from anymesh.types.exchange import DrawnPictures
+from anymesh.types.questions import VisualAnswerer
 
 INSIDE = "inside"  # prefix of the names of pictures of the inside
 MAX_MARK_PICTURES = 16  # pictures per call

@@ -12,12 +12,12 @@ from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE
 from anymesh.prompted.grounding.grounded_parts import Ground, SampledObject
 from anymesh.prompted.grounding.hidden import MIN_INNER_PATCH_RATIO, add_hidden_parts
 from anymesh.prompted.grounding.unseen import StaysFree
-from anymesh.prompted.questions.asking import VisualAnswerer
 from anymesh.runtime import Progress, silent
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.surface_regions import patch_sizes
 from anymesh.types import JointType, Segmentation
 from anymesh.types.motion import Recognition
+from anymesh.types.questions import VisualAnswerer
 
 MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, JointType | None], bool]  # `articulation.freedom`
 

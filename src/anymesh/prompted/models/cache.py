@@ -5,8 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import logging
-import os
-import sys
 from pathlib import Path
 from typing import Any
 
@@ -25,22 +23,6 @@ def request_key(model_name: str, request: Request) -> str:
     pictures = [[picture.caption, hashlib.sha256(picture.png).hexdigest()] for picture in request.pictures]
     parts = [FORMAT, model_name, request.system, request.text, request.schema, pictures, request.max_tokens]
     return hashlib.sha256(json.dumps(parts, sort_keys=True, default=dict).encode()).hexdigest()
-
-
-def cache_folder(kind: str = "answers") -> Path:
-    """Return the folder of one kind of cached data, in $ANYMESH_CACHE or in the system's cache folder.
-
-    The folder is not created.
-    """
-    if own := os.environ.get("ANYMESH_CACHE"):
-        return Path(own) / kind
-    if sys.platform == "win32":
-        base = os.environ.get("LOCALAPPDATA") or str(Path.home() / "AppData" / "Local")
-    elif sys.platform == "darwin":
-        base = str(Path.home() / "Library" / "Caches")
-    else:
-        base = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
-    return Path(base) / "anymesh" / kind
 
 
 class Cached:

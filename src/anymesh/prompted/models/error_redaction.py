@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import json
-import re
 from collections.abc import Iterable
 
+from anymesh.errors import SECRET
 from anymesh.prompted.models.vision import Request
 
 LONGEST = 200  # maximum number of characters of a message
 RUN = 24  # number of characters in common with the request from which a text counts as a quote
-SECRET = re.compile(r"[A-Za-z0-9+/=_-]{32,}|\S*\*{3,}\S*|\b(?:sk-|AIza|Bearer )\S+")
 
 
 def redact(words: str, request: Request, secrets: Iterable[str]) -> str:

@@ -15,11 +15,11 @@ from anymesh.geometry.patches import ObjectShape
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.decode import plane_normal
 from anymesh.prompted.motions.own_axes import round_patches
-from anymesh.prompted.questions.asking import Answer, Question, VisualAnswerer
-from anymesh.prompted.questions.pictures import DrawnPictures
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, PartShown
 from anymesh.types import Motion, Picture, Segmentation
+from anymesh.types.exchange import DrawnPictures
 from anymesh.types.motion import BASE, Recognition, RecognizedLabel
+from anymesh.types.questions import Answer, Question, VisualAnswerer
 
 MAX_PART_PICTURES = 8  # pictures per call
 

@@ -24,12 +24,12 @@ from anymesh.prompted.motions.relabel import labels_by_name, relabelled, unlabel
 from anymesh.prompted.motions.unverified import as_answered, normal_outwards, opening_slide
 from anymesh.prompted.motions.verify import Choice, MotionQuestioner, choose_motions
 from anymesh.prompted.pictures.visual_prompts import Shot, VisualPrompts
-from anymesh.prompted.questions.asking import VisualAnswerer
 from anymesh.prompted.questions.motion_choice import PartFit
 from anymesh.prompted.questions.prompting import ArrowTable, JointAppearance, PointTable, WhichArrows, WhichKinds, WhichPoints
 from anymesh.runtime import Progress, silent
 from anymesh.types import Joint, JointType, Motion, Segmentation
 from anymesh.types.motion import Recognition
+from anymesh.types.questions import VisualAnswerer
 
 INTO_POINTS = 8  # candidates for an axis into the surface, half of which stand for axes
 ShapeOf = Callable[[Segmentation], ObjectShape]

@@ -18,10 +18,10 @@ from anymesh.prompted.motions.answer_evidence import PartAnswers, ShownPick, pos
 from anymesh.prompted.motions.cases import PartCase, ask_each
 from anymesh.prompted.motions.offers import MotionOffers, fits, make_offers
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
-from anymesh.prompted.questions.asking import VisualAnswerer
 from anymesh.prompted.questions.motion_choice import MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.prompted.questions.prompting import JointAppearance
 from anymesh.types import Picture
+from anymesh.types.questions import VisualAnswerer
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from anymesh.prompted.questions.asking import Question
 from anymesh.prompted.questions.grounding import MarksAnswer, WhichMarks, WhichViews
 from anymesh.prompted.questions.motion_choice import WhichMotions
 from anymesh.prompted.questions.prompting import OTHER, KindAnswer, WhichArrows, WhichKinds, WhichPoints
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import JointType
 from anymesh.types.motion import Recognition, RecognizedLabel
+from anymesh.types.questions import Question
 
 
 def answer_object(question: Question[Any], answer: Any) -> dict[str, Any]:

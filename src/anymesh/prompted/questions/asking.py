@@ -1,4 +1,4 @@
-"""Questions with pictures, and the protocol of their answerers.
+"""The parts of a question with pictures: the schema of its answer, and its check.
 
 A question holds its pictures, the numbers drawn in them and what these stand for, so that an answer is always decoded with the
 question that was asked. One class holds the text of a question, the schema of its answer and the check of the answer.
@@ -7,65 +7,12 @@ question that was asked. One class holds the text of a question, the schema of i
 from __future__ import annotations
 
 import reprlib
-from collections.abc import Callable, Mapping
-from typing import Any, Protocol, TypeVar, runtime_checkable
-
-from anymesh.prompted.questions.pictures import Pictures
-from anymesh.types import Exchange
-
-Answer = TypeVar("Answer")
-Answer_co = TypeVar("Answer_co", covariant=True)
+from collections.abc import Mapping
+from typing import Any
 
 
 class BadAnswerError(Exception):
     """An answer that does not fit its question; the message says what is wrong and what would be valid."""
-
-
-@runtime_checkable
-class Question(Protocol[Answer_co]):
-    """One question about pictures, with its own type of answer."""
-
-    @property
-    def kind(self) -> str: ...
-
-    @property
-    def pictures(self) -> Pictures: ...
-
-    def text(self) -> str:
-        """Return the text of the question."""
-        ...
-
-    def schema(self) -> dict[str, Any]:
-        """Return the JSON schema of the answer, which is an object."""
-        ...
-
-    def parse(self, answer: Mapping[str, Any]) -> Answer_co:
-        """Return the answer from an object that satisfies the schema.
-
-        Raise BadAnswerError if it does not fit the question.
-        """
-        ...
-
-
-@runtime_checkable
-class VisualAnswerer(Protocol):
-    """Answerer of questions with pictures: a model, geometry as its fallback, or ground truth.
-
-    exchanges: every call so far; warnings: messages for the user (which fallback answered, and why).
-    """
-
-    name: str
-
-    @property
-    def exchanges(self) -> tuple[Exchange, ...]: ...
-
-    @property
-    def warnings(self) -> tuple[str, ...]: ...
-
-    def ask(self, question: Question[Answer]) -> Answer: ...
-
-
-AnswererFactory = Callable[[VisualAnswerer], VisualAnswerer]  # makes a visual answerer with the given fallback
 
 
 def an_object(**properties: dict[str, Any]) -> dict[str, Any]:

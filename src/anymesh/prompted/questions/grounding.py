@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.prompted.questions.asking import INTEGER, BadAnswerError, a_list, an_answer, an_object, one_of, with_category
-from anymesh.prompted.questions.pictures import Pictures
+from anymesh.types.exchange import Pictures
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,9 +11,9 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.prompted.questions.asking import INTEGER, a_list, an_answer, an_object, one_of
-from anymesh.prompted.questions.pictures import Pictures
 from anymesh.prompted.questions.prompting import PartShown, picked_rows
 from anymesh.types import JointType, Motion
+from anymesh.types.exchange import Pictures
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.prompted.questions.asking import BOOLEAN, INTEGER, BadAnswerError, a_list, an_answer, an_object, one_each, one_of
-from anymesh.prompted.questions.pictures import Pictures
+from anymesh.types.exchange import Pictures
 
 OTHER = "other"  # label of a part that is none of the recognized kinds
 

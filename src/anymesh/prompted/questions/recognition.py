@@ -8,20 +8,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from anymesh.errors import OptionError
-from anymesh.prompted.questions.asking import (
-    INTEGER,
-    NUMBER,
-    STRING,
-    BadAnswerError,
-    VisualAnswerer,
-    a_list,
-    an_answer,
-    an_object,
-    one_of,
-)
-from anymesh.prompted.questions.pictures import DrawnPictures, Pictures
+from anymesh.prompted.questions.asking import INTEGER, NUMBER, STRING, BadAnswerError, a_list, an_answer, an_object, one_of
 from anymesh.types import MOVING, JointType, Picture
+from anymesh.types.exchange import DrawnPictures, Pictures
 from anymesh.types.motion import BASE, Recognition, RecognizedLabel
+from anymesh.types.questions import VisualAnswerer
 
 MAX_LABELS = 24  # kinds of part per answer
 SIZES = (0.002, 200.0)  # [m] range of the size of an object

@@ -17,8 +17,8 @@ from typing import Any
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.prompted.questions.asking import Question
 from anymesh.types import Picture
+from anymesh.types.questions import Question
 
 HOMES = ("anymesh.prompted.questions.", "anymesh.types.", "anymesh.geometry.")
 SAVED_NAMES = {  # modules whose name in files stays that of the first version, so that files of all versions can be read

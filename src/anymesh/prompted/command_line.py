@@ -14,6 +14,7 @@ from anymesh.cli.output import plain
 
 if TYPE_CHECKING:
     from anymesh.prompted.answerers.question_files import QuestionFolder
+import os
 
 QuestionsPath = Annotated[
     Path, typer.Argument(metavar="FOLDER", help="The folder of --answerer files:FOLDER, or of one question in it.")
@@ -88,3 +89,41 @@ def _read(value: str) -> str:
         return Path(value[1:]).read_text(encoding="utf-8-sig") if value.startswith("@") else value
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"{value[1:]} cannot be read as an answer ({type(error).__name__})") from None
+
+
+def models(json_: Json = False) -> None:
+    """List the models available on this machine, and which keys are set (without their values)."""
+    from anymesh.prompted.models.address import KEYS
+    from anymesh.prompted.models.servers import SERVERS, probe_servers
+
+    probes = probe_servers()
+    keys = [
+        {"provider": provider, "variable": name, "set": bool(os.environ.get(name, "").strip())}
+        for provider, names in KEYS.items()
+        for name in names
+    ]
+    record: dict[str, Any] = {
+        "servers": [
+            {
+                "server": f.server,
+                "url": f.url,
+                "answers": f.models is not None,
+                "note": f.note,
+                "models": list(f.models or ()),
+            }
+            for f in probes
+        ],
+        "keys": keys,
+    }
+    if json_:
+        typer.echo(json.dumps(record, indent=2))
+        return
+    for f in probes:
+        typer.echo(plain(f"{f.server} at {f.url or 'no address'}: {f.note or f'{len(f.models or ())} models'}"))
+        for m in f.models or ():
+            typer.echo(plain(f"  {m}"))
+        if f.models is None:
+            typer.echo(f"  to use another address, set {' or '.join(SERVERS[f.server].variables)}")
+    variables = {k["variable"]: k["set"] for k in keys}  # several providers may use one key
+    typer.echo("keys: " + ", ".join(f"{name} {'is set' if is_set else 'is not set'}" for name, is_set in variables.items()))
+    typer.echo("choose a model that accepts pictures; without one, you or your agent can answer: --answerer files:FOLDER")

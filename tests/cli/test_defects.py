@@ -11,8 +11,7 @@ import trimesh
 
 from anymesh import __version__, pipeline
 from anymesh.cli import run
-from anymesh.defects import redacted
-from anymesh.errors import InputError
+from anymesh.errors import InputError, redacted
 from anymesh.pipeline import geometry_stages, stages
 
 KEY = "sk-0123456789abcdefghijklmnopqrstuvwxyz"

@@ -11,6 +11,7 @@ import typer
 from anymesh.cli.from_options import OptionsOf, with_options
 from anymesh.cli.options import Json, Quiet
 from anymesh.cli.output import Shown, plain, print_result
+from anymesh.entry_points import EVALUATE_INTERACTION, INTERACTION_SUMMARY, load
 from anymesh.pipeline.options import AnswererOptions
 
 DatasetName = Annotated[
@@ -103,8 +104,7 @@ def evaluate(
 
 
 def _interaction(assets: str, out: Path, only: tuple[str, ...], seed: int, force: bool, json_: bool, quiet: bool) -> None:
-    from anymesh.applications.policy.interaction_ import evaluate_interaction, summary
-
+    evaluate_interaction, summary = load(EVALUATE_INTERACTION), load(INTERACTION_SUMMARY)
     with Shown(quiet or json_) as progress:
         rows = evaluate_interaction(assets, out, only=only, seed=seed, force=force, progress=progress)
     shares = summary(rows)

@@ -27,8 +27,8 @@ def finish(
     quiet: Quiet = False,
 ) -> None:
     """Complete shapes and textures of the asset in DIR: inner walls, drawer boxes, thickness, textures of new faces."""
-    from anymesh import pipeline
+    from anymesh.finishing.finishing import finish as finish_asset
 
     with Shown(quiet or json_) as progress:
-        asset = pipeline.finish(folder, out, max_calls=max_calls, progress=progress, **completion, **writing, **running)
+        asset = finish_asset(folder, out, max_calls=max_calls, progress=progress, **completion, **writing, **running)
     print_asset(asset, out, json_, quiet)

@@ -31,3 +31,10 @@ def mcp(folders: Folders, http: Http = False, host: Host = "127.0.0.1", port: Po
         serve_http(names, host, port)
     else:
         serve_stdio(names)
+
+
+def skill() -> None:
+    """Print the skill file for agents: how to get from a mesh to a checked asset."""
+    from anymesh.agents.tools import skill_text
+
+    typer.echo(skill_text(), nl=False)

@@ -1,0 +1,61 @@
+"""What is found by name: the core (see docs/architecture.md) imports nothing of the packages around it.
+
+A place is MODULE:NAME, relative to this package.
+"""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+# What the pipeline needs of the packages around it.
+OPEN_ANSWERER = "prompted.answerers.answering:open_answerer"
+PROMPTED_STAGES = "prompted.stages:PromptedStages"
+WRITE_TRANSCRIPT = "prompted.answerers.transcript:write_transcript"
+REMOVE_TRANSCRIPT = "prompted.answerers.transcript:remove_transcript"
+
+# `anymesh eval --protocol interaction` is one of the applications.
+EVALUATE_INTERACTION = "applications.policy.interaction_:evaluate_interaction"
+INTERACTION_SUMMARY = "applications.policy.interaction_:summary"
+
+# The names of `import anymesh`.
+API = {
+    **dict.fromkeys(("articulate", "segment", "joints", "export_asset"), "pipeline.api"),
+    **dict.fromkeys(("Asset", "Joint", "JointType", "Mesh", "Part", "Segmentation"), "types"),
+    "finish": "finishing.finishing",
+    "check_asset": "checking",
+    "generate": "applications.generate",
+    "make_env": "applications.policy.env_",
+    "plan": "applications.plan",
+    "scan": "applications.scan",
+    "show": "viewer.report_notebook",
+}
+
+# The commands, in the order of `anymesh --help`.
+COMMANDS = {
+    "articulate": "cli.articulate:articulate",
+    "generate": "applications.generate.command_line:generate",
+    "annotate": "applications.annotate.command_line:annotate",
+    "segment": "cli.stages:segment",
+    "joints": "cli.stages:joints",
+    "export": "cli.stages:export",
+    "answer": "prompted.command_line:answer",
+    "models": "prompted.command_line:models",
+    "mcp": "agents.command_line:mcp",
+    "skill": "agents.command_line:skill",
+    "finish": "finishing.command_line:finish",
+    "scan": "applications.scan.command_line:scan",
+    "report": "viewer.command_line:report",
+    "picture": "viewer.command_line:picture",
+    "view": "viewer.command_line:view",
+    "plan": "applications.plan.command_line:plan",
+    "train": "applications.policy.command_line:train",
+    "check": "checking.command_line:check",
+    "eval": "evaluation.command_line:evaluate",
+}
+
+
+def load(place: str) -> Any:
+    """Import what stands at a place."""
+    module, _, name = place.partition(":")
+    return getattr(import_module(f"anymesh.{module}"), name)
