@@ -5,6 +5,7 @@ A place is MODULE:NAME, relative to this package.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
@@ -59,3 +60,17 @@ def load(place: str) -> Any:
     """Import what stands at a place."""
     module, _, name = place.partition(":")
     return getattr(import_module(f"anymesh.{module}"), name)
+
+
+def on_first_use(package: str, homes: dict[str, str]) -> Callable[[str], Any]:
+    """Return the `__getattr__` of a package, which imports the module that holds a name when the name is first used.
+
+    homes: name -> module within the package. So the command line can read a package's options without its libraries.
+    """
+
+    def find(name: str) -> Any:
+        if name in homes:
+            return getattr(import_module(f"{package}.{homes[name]}"), name)
+        raise AttributeError(f"module {package!r} has no attribute {name!r}")
+
+    return find

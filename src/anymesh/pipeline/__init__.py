@@ -7,16 +7,12 @@ A stage takes a `Run` and the saved result of the stage before it; who answers i
 is an option. The functions below are loaded on first use, so that importing a module of this package is fast.
 """
 
-from importlib import import_module
 from typing import TYPE_CHECKING
+
+from anymesh.entry_points import on_first_use
 
 if TYPE_CHECKING:
     from anymesh.pipeline.api import articulate, export_asset, joints, segment
 
 __all__ = ["articulate", "export_asset", "joints", "segment"]
-
-
-def __getattr__(name: str) -> object:
-    if name in __all__:
-        return getattr(import_module("anymesh.pipeline.api"), name)
-    raise AttributeError(f"module 'anymesh.pipeline' has no attribute {name!r}")
+__getattr__ = on_first_use(__name__, dict.fromkeys(__all__, "api"))

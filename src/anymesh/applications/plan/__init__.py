@@ -1,8 +1,13 @@
 """Plan how a robot arm opens, pushes or turns a joint of an asset, and replay the plan (paper, 4.2: real-to-sim-to-real)."""
 
-from anymesh.applications.plan.formats import PlanFormat, gripper_commands, read_plan, write_plan
-from anymesh.applications.plan.planner import plan
-from anymesh.applications.plan.plans import BasePose, GripperContact, MotionPlan, Phase, PlanError, Target, Trajectory
+from typing import TYPE_CHECKING
+
+from anymesh.entry_points import on_first_use
+
+if TYPE_CHECKING:
+    from anymesh.applications.plan.formats import PlanFormat, gripper_commands, read_plan, write_plan
+    from anymesh.applications.plan.planner import plan
+    from anymesh.applications.plan.plans import BasePose, GripperContact, MotionPlan, Phase, PlanError, Target, Trajectory
 
 __all__ = [
     "BasePose",
@@ -18,3 +23,11 @@ __all__ = [
     "read_plan",
     "write_plan",
 ]
+__getattr__ = on_first_use(
+    __name__,
+    {
+        **dict.fromkeys(("PlanFormat", "gripper_commands", "read_plan", "write_plan"), "formats"),
+        "plan": "planner",
+        **dict.fromkeys(("BasePose", "GripperContact", "MotionPlan", "Phase", "PlanError", "Target", "Trajectory"), "plans"),
+    },
+)
