@@ -32,10 +32,7 @@ DEFAULT = (Format.URDF, Format.MJCF, Format.SDF, Format.GLB)
 
 
 def parse_formats(text: str) -> tuple[Format, ...]:
-    """Return the formats of a comma-separated list, each once, in the order of Format.
-
-    Raise OptionError for unknown names.
-    """
+    """Return the formats of a comma-separated list, each once, in the order of Format. Raise OptionError for unknown names."""
     asked = {word.strip().lower() for word in text.split(",") if word.strip()}
     unknown = sorted(asked - set(Format))
     if unknown or not asked:
@@ -65,10 +62,7 @@ def load_libraries(formats: Sequence[Format]) -> None:
 
 
 def write_formats(model: Model, folder: Path, formats: Sequence[Format], config: ExportConfig) -> None:
-    """Write each format into an asset folder with its meshes/.
-
-    Raise MissingExtraError for one whose extra is not installed.
-    """
+    """Write each format into an asset folder with its meshes/. Raise MissingExtraError for one whose extra is not installed."""
     for kind in formats:
         WRITERS[kind](model, folder, config)
 

@@ -32,10 +32,7 @@ PBR_KEYS = {"base_color": "baseColorTexture", "metallic_roughness": "metallicRou
 
 
 def glb_bytes(asset: Asset, links: Sequence[Link], config: ExportConfig) -> bytes:
-    """Return the GLB of an asset with legal names.
-
-    Nodes are link frames under a root node that rotates Z up to Y up.
-    """
+    """Return the GLB of an asset with legal names. Nodes are link frames under a root node that rotates Z up to Y up."""
     buffer = GlbBuffer()
     looks = _Materials(asset, buffer)
     meshes = [{"name": link.name, "primitives": [looks.primitive(p) for p in link.primitives]} for link in links]
@@ -230,10 +227,7 @@ class GlbBuffer:
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """Keys of one joint.
-
-    times: ascending [s]; amounts: at these times [rad or m].
-    """
+    """Keys of one joint. times: ascending [s]; amounts: at these times [rad or m]."""
 
     joint: Joint
     times: Float32[np.ndarray, " n"]

@@ -54,10 +54,7 @@ def _write_hulls(body: ExportLink, folder: Path) -> None:
 
 
 def write_obj(path: Path, name: str, library: str | None, primitives: Sequence[Primitive], materials: Sequence[str]) -> None:
-    """Write one OBJ of some primitives.
-
-    library: the MTL beside it; materials: the names in it, by index.
-    """
+    """Write one OBJ of some primitives. library: the MTL beside it; materials: the names in it, by index."""
     _write_lines(path, _visual_lines(name, library, primitives, materials))
 
 

@@ -177,10 +177,7 @@ def _add_drive(mujoco: Any, spec: Any, model: Model, name: str, drive: Drive) ->
 
 @dataclass(frozen=True)
 class GeomMaterial:
-    """A visual geom.
-
-    path: relative to the asset folder; material: into the mesh's, None for a colour only; rgba: sRGB.
-    """
+    """A visual geom. path: relative to the asset folder; material: into the mesh's, None for a colour only; rgba: sRGB."""
 
     name: str
     path: str

@@ -44,10 +44,7 @@ class Driven(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class ExportLink:
-    """A link with its physical properties.
-
-    shapes: convex collision shapes, in the link frame.
-    """
+    """A link with its physical properties. shapes: convex collision shapes, in the link frame."""
 
     link: Link
     inertia: Inertia
@@ -93,10 +90,7 @@ class Exclusion:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """An asset with legal names, ready for export.
-
-    bodies: in the order of the parts, the root first.
-    """
+    """An asset with legal names, ready for export. bodies: in the order of the parts, the root first."""
 
     asset: Asset
     bodies: tuple[ExportLink, ...]
@@ -162,10 +156,7 @@ def _made_of(mesh: Mesh, link: Link, kept: Int[np.ndarray, " K"]) -> list[Substa
 
 @dataclass(frozen=True)
 class Drive:
-    """Gains of a drive.
-
-    stiffness [N m/rad or N/m]; damping [N m s/rad or N s/m]; effort: maximum [N m or N].
-    """
+    """Gains of a drive. stiffness [N m/rad or N/m]; damping [N m s/rad or N s/m]; effort: maximum [N m or N]."""
 
     stiffness: float
     damping: float

@@ -22,10 +22,7 @@ MIN_YAW_RAD = float(np.deg2rad(0.5))  # [rad] smaller angles are left, so that f
 
 @dataclass(frozen=True, eq=False)
 class OrientedBox:
-    """An oriented box.
-
-    axes: rows are unit, right-handed, longest side first; half: half side lengths in that order [m].
-    """
+    """An oriented box. axes: rows are unit, right-handed, longest side first; half: half side lengths in that order [m]."""
 
     center: Float[np.ndarray, " 3"]
     axes: Float[np.ndarray, "3 3"]

@@ -30,10 +30,7 @@ REFINED, ROUNDS = 8, 4  # hypotheses that are refined, the best first, and the m
 
 @dataclass(frozen=True, eq=False)
 class Outline:
-    """A shape seen along an axis.
-
-    roundness: 0..1, share of directions in which the outline keeps the median radius.
-    """
+    """A shape seen along an axis. roundness: 0..1, share of directions in which the outline keeps the median radius."""
 
     axis: Float[np.ndarray, " 3"]
     center: Float[np.ndarray, " 3"]  # on the axis, at half the height [m]

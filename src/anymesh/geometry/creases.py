@@ -141,10 +141,7 @@ def divide_at_seams(
 
 
 def _concave_creases(points: np.ndarray, normals: np.ndarray, near: np.ndarray, spacing: float) -> Bool[np.ndarray, " n"]:
-    """Return which points lie on concave creases.
-
-    near: (n, AROUND) nearest points of each; spacing: of the points [m].
-    """
+    """Return which points lie on concave creases. near: (n, AROUND) nearest points of each; spacing: of the points [m]."""
     same_side = np.einsum("nkj,nj->nk", normals[near], normals) > 0  # leaves out the other side of a thin plate
     mean = np.einsum("nkj,nk->nj", normals[near], same_side)
     mean /= np.maximum(np.linalg.norm(mean, axis=1, keepdims=True), 1e-300)

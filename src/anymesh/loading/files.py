@@ -184,20 +184,14 @@ class Folder:
         return None if isinstance(file, Unresolved) else file
 
     def read(self, uri: str) -> bytes:
-        """Return the bytes of a file that the mesh requires.
-
-        Raise InputError if it cannot be read.
-        """
+        """Return the bytes of a file that the mesh requires. Raise InputError if it cannot be read."""
         content = self._bytes(uri)
         if isinstance(content, Unresolved):
             raise InputError(f"{self.path.name} refers to {uri[:SHOWN]!r}, which {_reason(content)}")
         return content
 
     def read_or_warn(self, uri: str, what: str) -> bytes | None:
-        """Return the bytes of an optional file; None, with a warning, if it cannot be read.
-
-        what: its role.
-        """
+        """Return the bytes of an optional file; None, with a warning, if it cannot be read. what: its role."""
         content = self._bytes(uri)
         if isinstance(content, Unresolved):
             self.warn(f"{what} {uri[:SHOWN]!r} left out: it {_reason(content)}")
@@ -282,10 +276,7 @@ def quiet_decoder() -> Generator[None]:
 
 
 def check_file(path: Path) -> bytes:
-    """Return the bytes of the file if they are plausible for its format.
-
-    Raise InputError otherwise.
-    """
+    """Return the bytes of the file if they are plausible for its format. Raise InputError otherwise."""
     if not path.exists():
         raise InputError(f"found no file {path}")
     if not path.is_file():

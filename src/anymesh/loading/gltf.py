@@ -22,10 +22,7 @@ LEFT_OUT = {0: "points", 1: "lines", 2: "lines", 3: "lines"}
 
 
 def read_gltf(data: bytes, folder: Folder) -> Mesh:
-    """Return the default scene in file coordinates.
-
-    Raise InputError if it is not valid.
-    """
+    """Return the default scene in file coordinates. Raise InputError if it is not valid."""
     name = folder.path.name
     binary = None
     if data[:4] == b"glTF":

@@ -25,10 +25,7 @@ UNREADABLE = {
 
 
 def split_glb(name: str, data: bytes) -> tuple[bytes, bytes | None]:
-    """Return the JSON and the binary chunk of a GLB.
-
-    Raise InputError if it is broken.
-    """
+    """Return the JSON and the binary chunk of a GLB. Raise InputError if it is broken."""
     if len(data) < 20:
         raise InputError(f"{name} is truncated: a GLB header has 20 bytes, found {len(data)}")
     _, version, length = struct.unpack_from("<4sII", data)
@@ -50,10 +47,7 @@ def split_glb(name: str, data: bytes) -> tuple[bytes, bytes | None]:
 
 
 def parse_json(name: str, data: bytes) -> dict[str, Any]:
-    """Return the document.
-
-    Raise InputError if it cannot be read.
-    """
+    """Return the document. Raise InputError if it cannot be read."""
     try:
         tree = json.loads(data.decode("utf-8-sig"))
     except (ValueError, RecursionError):
@@ -92,10 +86,7 @@ class Buffers:
         return self._read[number]
 
     def view(self, index: int) -> bytes:
-        """Return the bytes of a buffer view.
-
-        Raise InputError if it exceeds its buffer.
-        """
+        """Return the bytes of a buffer view. Raise InputError if it exceeds its buffer."""
         view = item(self._tree["bufferViews"], index)
         data = self._buffer(view["buffer"])
         start, length = view.get("byteOffset", 0), view["byteLength"]
@@ -138,10 +129,7 @@ class Buffers:
 
 
 def from_uri(uri: str, folder: Folder) -> bytes:
-    """Return the bytes of a data URI or of a file in the folder.
-
-    Raise InputError if they cannot be read.
-    """
+    """Return the bytes of a data URI or of a file in the folder. Raise InputError if they cannot be read."""
     if not uri.startswith("data:"):
         return folder.read(uri)
     head, _, body = uri.partition(",")

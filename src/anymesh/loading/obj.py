@@ -24,10 +24,7 @@ BLACK = 0.02
 
 
 class _Lines:
-    """The lines of the file by their content, in order.
-
-    corners: three indices each, from 0, -1 for none.
-    """
+    """The lines of the file by their content, in order. corners: three indices each, from 0, -1 for none."""
 
     def __init__(self) -> None:
         self.v: list[list[float]] = []
@@ -40,10 +37,7 @@ class _Lines:
 
 
 def read_obj(data: bytes, folder: Folder) -> Mesh:
-    """Return the mesh in file coordinates, its faces in the order of the file.
-
-    Raise InputError if it is not valid.
-    """
+    """Return the mesh in file coordinates, its faces in the order of the file. Raise InputError if it is not valid."""
     name = folder.path.name
     lines = _read(name, data.decode("utf-8-sig", "replace"))
     vertices = np.array([row[:3] for row in lines.v], np.float64).reshape(-1, 3)

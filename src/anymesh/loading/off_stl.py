@@ -26,10 +26,7 @@ MAX_TITLE = 200  # characters of a solid's name that are kept
 
 
 def read_stl(data: bytes, folder: Folder) -> Mesh:
-    """Return the triangles in file coordinates.
-
-    Raise InputError if they are not valid.
-    """
+    """Return the triangles in file coordinates. Raise InputError if they are not valid."""
     name = folder.path.name
     if not ASCII_STL.match(data) or _is_complete(data):
         return _binary(name, data)
@@ -75,10 +72,7 @@ def _stem(name: str) -> str:
 
 
 def read_off(data: bytes, folder: Folder) -> Mesh:
-    """Return the mesh in file coordinates.
-
-    Raise InputError if it is not valid.
-    """
+    """Return the mesh in file coordinates. Raise InputError if it is not valid."""
     name = folder.path.name
     text = data.decode("utf-8", "replace")
     head = re.match(r"\s*(ST)?(C)?(N)?(4)?OFF", text)

@@ -28,10 +28,7 @@ UV = (("texture_u", "texture_v"), ("s", "t"), ("u", "v"))
 
 
 def read_ply(data: bytes, folder: Folder) -> Mesh:
-    """Return the mesh in file coordinates.
-
-    Raise InputError if it is not valid.
-    """
+    """Return the mesh in file coordinates. Raise InputError if it is not valid."""
     name = folder.path.name
     elements, style, comments, body = parse_header(name, data)
     columns = read_elements(name, elements, style, body)
@@ -101,10 +98,7 @@ def _material(folder: Folder, comments: list[str]) -> Material | None:
 
 @dataclass
 class Element:
-    """One element of the header.
-
-    properties: name, type, and the type of the count if it is a list.
-    """
+    """One element of the header. properties: name, type, and the type of the count if it is a list."""
 
     name: str
     count: int
@@ -148,10 +142,7 @@ def parse_header(name: str, data: bytes) -> tuple[list[Element], str, list[str],
 
 
 def read_elements(name: str, elements: list[Element], style: str, body: bytes) -> dict[str, Columns]:
-    """Return the columns of every element.
-
-    Raise InputError if the body is shorter than the header states.
-    """
+    """Return the columns of every element. Raise InputError if the body is shorter than the header states."""
     if style == "ascii":  # converted to binary with one wide type
         body = np.array(body.split(), np.float64).tobytes()
         for e in elements:

@@ -26,10 +26,7 @@ ENCODINGS = ("utf-8", "us-ascii", "ascii", "iso-8859-1", "iso-8859-15", "windows
 
 
 def read_dae(data: bytes, folder: Folder) -> Mesh:
-    """Return the scene in file coordinates.
-
-    Raise InputError if it is not valid.
-    """
+    """Return the scene in file coordinates. Raise InputError if it is not valid."""
     name = folder.path.name
     root, original, data = parse_dae(name, data), data, with_decimal_points(data)
     if data != original:
@@ -52,10 +49,7 @@ def _because(folder: Folder) -> str:
 
 
 def parse_dae(name: str, data: bytes) -> ET.Element:
-    """Return the document.
-
-    Raise InputError if it cannot be read.
-    """
+    """Return the document. Raise InputError if it cannot be read."""
     declared = re.match(rb"""(?:\xef\xbb\xbf)?\s*<\?xml[^>]*?encoding\s*=\s*["']([^"']*)""", data)
     encoding = declared[1].decode("ascii", "replace").lower() if declared else "utf-8"
     if b"\0" in data or encoding not in ENCODINGS:  # other encodings could hide a document type in other bytes
@@ -104,10 +98,7 @@ class _Readable:
         self._textures = textures
 
     def get(self, name: str) -> bytes:
-        """Return the bytes of a texture.
-
-        Raise KeyError if it is left out, which trimesh ignores.
-        """
+        """Return the bytes of a texture. Raise KeyError if it is left out, which trimesh ignores."""
         return self._textures[name.strip()]
 
     __getitem__ = get

@@ -111,10 +111,7 @@ class Fault:
 
 @dataclass(frozen=True, eq=False)
 class Faults:
-    """The deepest false contact of each pair of shapes, deepest first.
-
-    poses: indices of the poses with false contacts.
-    """
+    """The deepest false contact of each pair of shapes, deepest first. poses: indices of the poses with false contacts."""
 
     found: list[Fault]
     poses: tuple[int, ...]

@@ -63,10 +63,7 @@ class Resolution:
 
 @dataclass(frozen=True, eq=False)
 class Component:
-    """A connected piece of a link's surface, in the link frame [m].
-
-    solid: closed and wound outwards.
-    """
+    """A connected piece of a link's surface, in the link frame [m]. solid: closed and wound outwards."""
 
     triangles: Float[np.ndarray, "n 3 3"]
     solid: bool
@@ -253,10 +250,7 @@ class Fallback:
 
 @dataclass(frozen=True, eq=False)
 class Divided:
-    """The shapes of a component.
-
-    fallback: None unless the first method failed.
-    """
+    """The shapes of a component. fallback: None unless the first method failed."""
 
     shapes: tuple[Shape, ...]
     fallback: Fallback | None = None

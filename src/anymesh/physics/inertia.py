@@ -24,10 +24,7 @@ SOLID = (float("inf"), 0.01)
 
 @dataclass(frozen=True, eq=False)
 class Inertia:
-    """Mass properties of a link.
-
-    mass [kg]; center: center of mass [m]; tensor: about it, symmetric [kg m^2].
-    """
+    """Mass properties of a link. mass [kg]; center: center of mass [m]; tensor: about it, symmetric [kg m^2]."""
 
     mass: float
     center: Float[np.ndarray, " 3"]

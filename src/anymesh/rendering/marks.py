@@ -154,10 +154,7 @@ Color = tuple[int, int, int]
 
 
 def mark_color(number: int) -> Color:
-    """Return the colour of a number.
-
-    Hues follow the golden ratio in five tones, so that consecutive numbers differ most.
-    """
+    """Return the colour of a number. Hues follow the golden ratio in five tones, so that consecutive numbers differ most."""
     saturation, value = TONES[number % len(TONES)]
     r, g, b = colorsys.hsv_to_rgb(number * 0.6180339887 % 1.0, saturation, value)
     return round(255 * r), round(255 * g), round(255 * b)

@@ -15,10 +15,7 @@ from anymesh.types.motion import Joint
 
 @dataclass(frozen=True)
 class Part:
-    """One rigid part.
-
-    label: standard term ("door", "knob"); name: unique link name.
-    """
+    """One rigid part. label: standard term ("door", "knob"); name: unique link name."""
 
     name: str
     label: str

@@ -195,10 +195,7 @@ def to_srgb(linear: np.ndarray | Sequence[float]) -> Float[np.ndarray, ...]:
 
 @dataclass(frozen=True, eq=False)
 class Box:
-    """A box.
-
-    center [m]; rotation: columns are the box's axes in the link frame, right-handed; size: full side lengths [m].
-    """
+    """A box. center [m]; rotation: columns are the box's axes in the link frame, right-handed; size: full side lengths [m]."""
 
     center: Float[np.ndarray, " 3"]
     rotation: Float[np.ndarray, "3 3"]
@@ -220,10 +217,7 @@ class Cylinder:
 
 @dataclass(frozen=True, eq=False)
 class Hull:
-    """A convex polyhedron.
-
-    vertices [m]; faces: outward triangles into them.
-    """
+    """A convex polyhedron. vertices [m]; faces: outward triangles into them."""
 
     vertices: Float[np.ndarray, "V 3"]
     faces: Int[np.ndarray, "F 3"]
