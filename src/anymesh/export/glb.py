@@ -212,12 +212,7 @@ class GlbBuffer:
 
     def encode(self, document: Mapping[str, Any]) -> bytes:
         """Return the GLB file: header, JSON chunk padded with spaces, binary chunk padded with zeros."""
-        whole = {
-            **document,
-            "accessors": self.accessors,
-            "bufferViews": self.views,
-            "buffers": [{"byteLength": self._length}],
-        }
+        whole = {**document, "accessors": self.accessors, "bufferViews": self.views, "buffers": [{"byteLength": self._length}]}
         text = json.dumps(whole, separators=(",", ":"), allow_nan=False).encode("ascii")
         text += b" " * (-len(text) % 4)
         total = 12 + 8 + len(text) + 8 + self._length

@@ -80,10 +80,7 @@ class RayScene:
         self.first_hit_unit(np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32))
 
     def first_hit(
-        self,
-        origins: Float[np.ndarray, "n 3"],
-        directions: Float[np.ndarray, "n 3"],
-        max_distance: float | None = None,
+        self, origins: Float[np.ndarray, "n 3"], directions: Float[np.ndarray, "n 3"], max_distance: float | None = None
     ) -> Hits:
         """Return the first triangle that each ray hits within `max_distance` lengths of its direction."""
         if len(origins) == 0:

@@ -165,11 +165,7 @@ def _mesh(where: str, node: str, geometry: dict[str, Any]) -> Mesh:
 def _material(material: Any) -> Material:
     """Convert a material; COLLADA's colours are sRGB and are converted to linear."""
     r, g, b, alpha = np.r_[_channels(material.baseColorFactor), 1.0, 1.0, 1.0, 1.0][:4]
-    named = {
-        "base_color": material.baseColorTexture,
-        "normal": material.normalTexture,
-        "emissive": material.emissiveTexture,
-    }
+    named = {"base_color": material.baseColorTexture, "normal": material.normalTexture, "emissive": material.emissiveTexture}
     textures = {slot: _texture(image) for slot, image in named.items()}
     roughness = material.roughnessFactor
     return Material(

@@ -106,10 +106,7 @@ def collision_shapes(
         first = shapes_of([c for _, c in parts], [0] * len(parts))
     pieces = [ComponentShapes(link, c, 0, shapes) for (link, c), shapes in zip(parts, first, strict=True)]
     scene = ContactScene(
-        surfaces.result(),
-        sampled_poses(asset, origins, config.poses),
-        config.contact * size,
-        config.crossing * size,
+        surfaces.result(), sampled_poses(asset, origins, config.poses), config.contact * size, config.crossing * size
     )
     done = clear(scene, pieces, shapes_of, levels=len(config.gaps), rounds=config.rounds, late=late)
     link_shapes = {link: tuple(engine_shape(s) for p in done.pieces if p.link == link for s in p.shapes) for link in triangles}

@@ -19,15 +19,7 @@ from anymesh.errors import MissingExtraError
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.triangle_set import sample_surface
 from anymesh.physics.convex import hull_of, volume
-from anymesh.physics.split import (
-    SAMPLES,
-    Plane,
-    concave_planes,
-    cutting_planes,
-    hull_volume,
-    least_volume_first,
-    outline,
-)
+from anymesh.physics.split import SAMPLES, Plane, concave_planes, cutting_planes, hull_volume, least_volume_first, outline
 from anymesh.types import Hull
 from anymesh.types.triangles import normals_and_areas
 

@@ -91,10 +91,7 @@ def headlight_on(samples: Samples, camera: Camera) -> Float32[np.ndarray, " n"]:
 
 
 def draw(
-    samples: Samples,
-    base: Float32[np.ndarray, "n 3"],
-    light: Float32[np.ndarray, " n"],
-    behind: Float32[np.ndarray, "h w 3"],
+    samples: Samples, base: Float32[np.ndarray, "n 3"], light: Float32[np.ndarray, " n"], behind: Float32[np.ndarray, "h w 3"]
 ) -> UInt8[np.ndarray, "h w 3"]:
     """Shade the surfaces, draw the lines, and put the result over the background `behind`."""
     color = base + (SHEEN - SHEEN / 255 * np.maximum(np.maximum(base[:, 0], base[:, 1]), base[:, 2]))[:, None]
