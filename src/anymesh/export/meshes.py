@@ -17,7 +17,7 @@ from anymesh.export.model import FOLDER, ExportConfig, ExportLink, Model
 from anymesh.names import legal_names
 from anymesh.types import Hull, Material, Mesh
 from anymesh.types.mesh import TEXTURE_SLOTS, to_srgb
-from anymesh.types.triangles import face_cross
+from anymesh.types.triangles import CUBE_CORNERS, face_cross
 
 POINT = 1e-4  # [m] side of a link without any extent
 GREY = (0.7, 0.7, 0.7, 1.0)
@@ -195,9 +195,8 @@ def small_box(
     side = max(config.wall(float(np.linalg.norm(np.ptp(corners, axis=0)))), POINT)
     center = (corners.min(0) + corners.max(0)) / 2
     half = np.maximum(np.ptp(corners, axis=0), side) / 2
-    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    return center + signs * half, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
+    return center + (2 * CUBE_CORNERS - 1) * half, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))])
 
 
 def painted(mesh: Mesh, p: Primitive) -> bool:

@@ -13,35 +13,22 @@ def distance_to_mesh(
 
     Raise ValueError for no triangles.
     """
-    import igl
-
     if len(points) == 0:
         return np.zeros(0), np.zeros(0, np.int64), np.zeros((0, 3))
-    _check_triangles(len(faces))
-    squared, face, closest = igl.point_mesh_squared_distance(
-        np.ascontiguousarray(points, np.float64),
-        np.ascontiguousarray(vertices, np.float64),
-        np.ascontiguousarray(faces, np.int64),
-    )
-    return np.sqrt(np.maximum(np.atleast_1d(squared), 0)), np.atleast_1d(face).astype(np.int64), np.atleast_2d(closest)
-
-
-def _check_triangles(count: int) -> None:
-    if not count:  # libigl's search would end the process
-        raise ValueError("found no triangles to measure distances to; at least one is needed")
+    return TriangleTree(vertices[faces]).nearest(points)
 
 
 class TriangleTree:
     """A bounding box tree over triangles, built once for many queries.
 
-    The results equal those of `distance_to_mesh`. Raise ValueError for no triangles.
+    Raise ValueError for no triangles.
     """
 
     def __init__(self, triangles: Float[np.ndarray, "F 3 3"]) -> None:
         import igl
 
-        _check_triangles(len(triangles))
-
+        if not len(triangles):  # libigl's search would end the process
+            raise ValueError("found no triangles to measure distances to; at least one is needed")
         self._vertices = np.ascontiguousarray(triangles.reshape(-1, 3), np.float64)
         self._faces = np.arange(3 * len(triangles)).reshape(-1, 3)
         self._tree = igl.AABB()
@@ -64,7 +51,7 @@ class TriangleTree:
 
 def distance_to_triangles(points: Float[np.ndarray, "n 3"], triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, " n"]:
     """Return the distance of each point to the closest of some triangles."""
-    return distance_to_mesh(points, triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))[0]
+    return TriangleTree(triangles).distance(points) if len(points) else np.zeros(0)
 
 
 def winding_number(

@@ -9,6 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.types import Asset, Joint, JointType, KnownJoint, Mesh, Motion
+from anymesh.types.triangles import transformed
 
 
 def joint_motion(joint: Joint | KnownJoint) -> Motion:
@@ -59,7 +60,7 @@ def posed(asset: Asset, positions: Mapping[str, float]) -> Mesh:
         used = np.zeros(len(mesh.vertices), bool)
         used[mesh.faces[mine]] = True
         faces[mine] = (np.cumsum(used) - 1 + count)[mesh.faces[mine]]
-        vertices.append(mesh.vertices[used] @ T[:3, :3].T + T[:3, 3])
+        vertices.append(transformed(mesh.vertices[used], T))
         count += len(vertices[-1])
         if normal is not None:
             normal[mine] = normal[mine] @ T[:3, :3].T.astype(np.float32)

@@ -14,7 +14,7 @@ from jaxtyping import Bool, Float, Int
 from anymesh.geometry.boxes import OrientedBox, box_in_frame, fit_box
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.types.triangles import bounds_of, boxes_meet, corner_bounds, normals_and_areas
+from anymesh.types.triangles import bounds_of, box_corners, boxes_meet, corner_bounds, normals_and_areas
 
 SAMPLES = 3000  # surface points per triangle set; a share of 1 % is 30 points
 SLANTED = np.array([0.3127, 0.5241, 0.7922])  # direction of the rays that tell inside from outside; along no usual face
@@ -283,8 +283,7 @@ def body_obb(shape: TriangleSet) -> OrientedBox:
             beyond = points_above(local, heights, level + tolerance / 2)
             if 0 < share < MAX_PROTRUSION_RATIO and _is_narrow(beyond, corners, axis):
                 edge[axis] = sign * level
-    ends = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
-    return box_in_frame(ends @ frame, frame)
+    return box_in_frame(box_corners(np.stack([low, high])) @ frame, frame)
 
 
 def _side_level(heights: Float[np.ndarray, "F 3"], areas: Float[np.ndarray, " F"], least: float) -> float:

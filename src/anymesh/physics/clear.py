@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import product
 
 import numpy as np
 from jaxtyping import Float
@@ -21,9 +20,8 @@ from anymesh.physics.convex import EXACT, as_hull, fitted, trimmed, volume
 from anymesh.physics.decompose import Component
 from anymesh.physics.split import outline
 from anymesh.types import Shape
-from anymesh.types.triangles import normals_and_areas
+from anymesh.types.triangles import box_corners, normals_and_areas, transformed
 
-CORNERS = np.array(list(product((0, 1), repeat=3)))  # of a box: index of its lower or upper bound along x, y, z
 MAX_PLANED_RATIO = 0.15  # maximum share of a shape that is trimmed before its component is refined instead
 MAX_PLANED_RATIO_LAST = 0.7  # maximum share that is trimmed at the finest resolution
 
@@ -69,7 +67,7 @@ def cross(a: LinkSurface, T_a: Float[np.ndarray, "4 4"], b: LinkSurface, T_b: Fl
     for one, T_one, other, T_other in ((a, T_a, b, T_b), (b, T_b, a, T_a)):
         T = np.linalg.inv(T_other) @ T_one
         back = np.linalg.inv(T)
-        start, end = (p @ T[:3, :3].T + T[:3, 3] for p in one.edges_near(placed_bounds(other, back)))
+        start, end = (transformed(p, T) for p in one.edges_near(placed_bounds(other, back)))
         if other.crossed_by(start, end, depth):
             return True
     return False
@@ -77,7 +75,7 @@ def cross(a: LinkSurface, T_a: Float[np.ndarray, "4 4"], b: LinkSurface, T_b: Fl
 
 def placed_bounds(surface: LinkSurface, T: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "2 3"]:
     """Return the bounds of the transformed bounding box of a surface."""
-    corners = np.take_along_axis(surface.bounds, CORNERS, axis=0) @ T[:3, :3].T + T[:3, 3]
+    corners = transformed(box_corners(surface.bounds), T)
     return np.stack([corners.min(0), corners.max(0)])
 
 
@@ -248,7 +246,7 @@ def _planed(
 
 def placed_hull(shape: Shape, T: np.ndarray) -> np.ndarray:
     """Return the corners of a shape in a pose."""
-    return as_hull(shape).vertices @ T[:3, :3].T + T[:3, 3]
+    return transformed(as_hull(shape).vertices, T)
 
 
 def _cut(shape: Shape, T: np.ndarray, normal: np.ndarray, depth: float) -> tuple[float, Shape]:

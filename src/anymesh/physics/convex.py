@@ -13,7 +13,7 @@ from anymesh.geometry.boxes import dominant_normals, fit_box
 from anymesh.geometry.circles import roundest
 from anymesh.geometry.triangle_set import spread_directions
 from anymesh.types import Box, Cylinder, Hull, Shape
-from anymesh.types.triangles import face_cross, normals_and_areas
+from anymesh.types.triangles import CUBE_CORNERS, face_cross, normals_and_areas
 
 MIN_VOLUME = 1e-12  # [m^3] MuJoCo refuses smaller meshes, also in a URDF
 MAX_CORNERS = 64  # corners of a hull; GPU engines accept no more
@@ -176,10 +176,9 @@ def _unit_hulls() -> tuple[Hull, Hull]:
 
     Scaling them gives faces that do not depend on how thin a shape is.
     """
-    cube = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) / 2
     angle = np.arange(32) / 32 * 2 * np.pi
     ring = np.c_[np.cos(angle), np.sin(angle)]
-    box, prism = hull_of(cube), hull_of(np.concatenate([np.c_[ring, np.full(32, z)] for z in (-0.5, 0.5)]))
+    box, prism = hull_of(CUBE_CORNERS - 0.5), hull_of(np.concatenate([np.c_[ring, np.full(32, z)] for z in (-0.5, 0.5)]))
     assert box is not None
     assert prism is not None
     return box, prism

@@ -26,7 +26,7 @@ from anymesh.physics.convex import fitted, hull_of, planes, shifted
 from anymesh.physics.solids_ import decompose_solid
 from anymesh.physics.split import patch_of, solid_mesh, split_surface
 from anymesh.types import Box, Cylinder, Hull, Shape
-from anymesh.types.triangles import normals_and_areas
+from anymesh.types.triangles import CUBE_CORNERS, normals_and_areas
 
 FACES = 3000  # faces of a component for its shapes; more take seconds without better accuracy
 SOLID_FACES = 1000  # faces of a solid that is cut exactly
@@ -176,8 +176,7 @@ def smallest_box(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Shape:
     corners = triangles.reshape(-1, 3)
     low, high = corners.min(0), corners.max(0)
     half = np.maximum(high - low, wall) / 2
-    signs = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
-    hull = hull_of((low + high) / 2 + signs * half)
+    hull = hull_of((low + high) / 2 + (2 * CUBE_CORNERS - 1) * half)
     assert hull is not None  # a box with a thickness has a hull
     return fitted(hull)
 

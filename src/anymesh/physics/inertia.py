@@ -18,8 +18,72 @@ from jaxtyping import Float
 from anymesh.geometry.topology import components
 from anymesh.types.triangles import face_cross
 
-METAL, PLASTIC, WOOD, CERAMIC = (0.015, 0.0012), (0.012, 0.003), (0.08, 0.016), (0.04, 0.006)
-SOLID = (float("inf"), 0.01)
+DENSITIES = {  # [kg/m^3] by the thickness of solids and of walls [m]: those of `Substance`
+    (0.015, 0.0012): {
+        "steel": 7850, "stainless": 7900, "inox": 7900, "iron": 7200, "metal": 7850, "chrome": 7850,
+        "aluminium": 2700, "aluminum": 2700, "brass": 8500, "bronze": 8800, "copper": 8900, "zinc": 7140,
+        "silver": 10490, "gold": 19300,
+    },
+    (0.012, 0.003): {"plastic": 1050, "abs": 1050, "acrylic": 1180, "pvc": 1380, "nylon": 1140},
+    (0.08, 0.016): {
+        "wood": 650, "oak": 720, "pine": 510, "walnut": 640, "beech": 720, "birch": 650, "maple": 700, "bamboo": 700,
+        "plywood": 600, "mdf": 750, "chipboard": 680,
+    },
+    (0.04, 0.006): {"ceramic": 2300, "porcelain": 2400, "clay": 1900, "tile": 2200},
+    (float("inf"), 0.01): {
+        "stone": 2600, "marble": 2700, "granite": 2700, "concrete": 2400, "brick": 1900, "cork": 200, "fabric": 300,
+        "cloth": 300, "foam": 40, "cushion": 60, "paper": 750, "water": 1000, "ice": 917,
+    },
+    (0.012, 0.004): {"glass": 2500, "mirror": 2500},
+    (0.02, 0.004): {"rubber": 1100},
+    (0.004, 0.002): {"leather": 860},
+    (0.01, 0.004): {"cardboard": 690},
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Substance:
+    """Density and wall thickness of a material.
+
+    density [kg/m^3]; solid_to: a closed component with a greater mean thickness [m] is hollow; sheet: thickness of the walls of
+    hollow components and open shells [m].
+    """
+
+    density: float
+    solid_to: float
+    sheet: float
+
+
+SUBSTANCES = {
+    name: Substance(float(density), *thickness) for thickness, named in DENSITIES.items() for name, density in named.items()
+}
+
+
+def substance_of(name: str) -> Substance | None:
+    """Return the substance of a material from the last known word of its name ("Black_Steel.001" is steel), else None."""
+    words = re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)
+    known = [SUBSTANCES[w.lower()] for w in words if w.lower() in SUBSTANCES]
+    return known[-1] if known else None
+
+
+@dataclass(frozen=True)
+class InertiaConfig:
+    """Physical properties that a mesh does not state."""
+
+    density: float = 500.0  # [kg/m^3] of closed solids of unknown material; low enough for solids that are really hollow
+    shell_density: float = 700.0  # [kg/m^3] of the material of open shells; close to chipboard and plastics
+    shell_thickness: float = 0.005  # [m] of open shells
+    shell_share: float = 0.02  # of the link's diagonal: maximum thickness of shells, since small objects have thin walls
+    smallest_mass: float = 1e-3  # [kg] minimum mass, since lighter links make solvers stiff
+    smallest_moment: float = 1e-9  # [kg m^2] minimum principal moment
+    moment_ratio: float = 1e-3  # of the largest principal moment: minimum of the others
+
+    def wall(self, diagonal: float) -> float:
+        """Return the wall thickness [m] of an open link with a diagonal [m]."""
+        return min(self.shell_thickness, self.shell_share * diagonal)
+
+
+MadeOf = Sequence[Substance | None]
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,99 +180,3 @@ def physical(body: Inertia, config: InertiaConfig) -> Inertia:
         moments[:2] += short / 2
     tensor = (axes * moments) @ axes.T
     return Inertia(mass, body.center, (tensor + tensor.T) / 2)
-
-
-@dataclass(frozen=True)
-class Substance:
-    """Density and wall thickness of a material.
-
-    density [kg/m^3]; solid_to: a closed component with a greater mean thickness [m] is hollow; sheet: thickness of the walls of
-    hollow components and open shells [m].
-    """
-
-    density: float
-    solid_to: float
-    sheet: float
-
-
-SUBSTANCES = {
-    "steel": Substance(7850.0, *METAL),
-    "stainless": Substance(7900.0, *METAL),
-    "inox": Substance(7900.0, *METAL),
-    "iron": Substance(7200.0, *METAL),
-    "metal": Substance(7850.0, *METAL),
-    "chrome": Substance(7850.0, *METAL),
-    "aluminium": Substance(2700.0, *METAL),
-    "aluminum": Substance(2700.0, *METAL),
-    "brass": Substance(8500.0, *METAL),
-    "bronze": Substance(8800.0, *METAL),
-    "copper": Substance(8900.0, *METAL),
-    "zinc": Substance(7140.0, *METAL),
-    "silver": Substance(10490.0, *METAL),
-    "gold": Substance(19300.0, *METAL),
-    "glass": Substance(2500.0, 0.012, 0.004),
-    "mirror": Substance(2500.0, 0.012, 0.004),
-    "ceramic": Substance(2300.0, *CERAMIC),
-    "porcelain": Substance(2400.0, *CERAMIC),
-    "clay": Substance(1900.0, *CERAMIC),
-    "tile": Substance(2200.0, *CERAMIC),
-    "stone": Substance(2600.0, *SOLID),
-    "marble": Substance(2700.0, *SOLID),
-    "granite": Substance(2700.0, *SOLID),
-    "concrete": Substance(2400.0, *SOLID),
-    "brick": Substance(1900.0, *SOLID),
-    "wood": Substance(650.0, *WOOD),
-    "oak": Substance(720.0, *WOOD),
-    "pine": Substance(510.0, *WOOD),
-    "walnut": Substance(640.0, *WOOD),
-    "beech": Substance(720.0, *WOOD),
-    "birch": Substance(650.0, *WOOD),
-    "maple": Substance(700.0, *WOOD),
-    "bamboo": Substance(700.0, *WOOD),
-    "plywood": Substance(600.0, *WOOD),
-    "mdf": Substance(750.0, *WOOD),
-    "chipboard": Substance(680.0, *WOOD),
-    "cork": Substance(200.0, *SOLID),
-    "plastic": Substance(1050.0, *PLASTIC),
-    "abs": Substance(1050.0, *PLASTIC),
-    "acrylic": Substance(1180.0, *PLASTIC),
-    "pvc": Substance(1380.0, *PLASTIC),
-    "nylon": Substance(1140.0, *PLASTIC),
-    "rubber": Substance(1100.0, 0.02, 0.004),
-    "leather": Substance(860.0, 0.004, 0.002),
-    "fabric": Substance(300.0, *SOLID),
-    "cloth": Substance(300.0, *SOLID),
-    "foam": Substance(40.0, *SOLID),
-    "cushion": Substance(60.0, *SOLID),
-    "paper": Substance(750.0, *SOLID),
-    "cardboard": Substance(690.0, 0.01, 0.004),
-    "water": Substance(1000.0, *SOLID),
-    "ice": Substance(917.0, *SOLID),
-}
-
-
-def substance_of(name: str) -> Substance | None:
-    """Return the substance of a material from the last known word of its name ("Black_Steel.001" is steel), else None."""
-    words = re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)
-    known = [SUBSTANCES[w.lower()] for w in words if w.lower() in SUBSTANCES]
-    return known[-1] if known else None
-
-
-@dataclass(frozen=True)
-class InertiaConfig:
-    """Physical properties that a mesh does not state."""
-
-    density: float = 500.0  # [kg/m^3] of closed solids of unknown material; low enough for solids that are really hollow
-    shell_density: float = 700.0  # [kg/m^3] of the material of open shells; close to chipboard and plastics
-    shell_thickness: float = 0.005  # [m] of open shells
-    shell_share: float = 0.02  # of the link's diagonal: maximum thickness of shells, since small objects have thin walls
-    smallest_mass: float = 1e-3  # [kg] minimum mass, since lighter links make solvers stiff
-    smallest_moment: float = 1e-9  # [kg m^2] minimum principal moment
-    moment_ratio: float = 1e-3  # of the largest principal moment: minimum of the others
-
-    def wall(self, diagonal: float) -> float:
-        """Return the wall thickness [m] of an open link with a diagonal [m]."""
-        return min(self.shell_thickness, self.shell_share * diagonal)
-
-
-MadeOf = Sequence[Substance | None]

@@ -18,6 +18,7 @@ from scipy import ndimage
 from anymesh.geometry.kinematics import link_transforms
 from anymesh.types import Asset, JointType
 from anymesh.types.camera import Camera
+from anymesh.types.triangles import transformed
 
 AXIS_COLOR = (190, 20, 40)
 WHITE = (255, 255, 255)
@@ -111,8 +112,8 @@ def axis_shapes(asset: Asset, positions: Mapping[str, float]) -> list[AxisShape]
         corners = asset.mesh.triangles[asset.segmentation.face_part == number[joint.child]].reshape(-1, 3)
         slides, T = joint.type is JointType.PRISMATIC, transforms[joint.parent]
         ends, center = axis_line(corners, joint.origin, joint.axis, slides, asset.mesh.diagonal)
-        circle = None if slides else ring(center, joint.axis, RING_RADIUS * asset.mesh.diagonal) @ T[:3, :3].T + T[:3, 3]
-        shapes.append(AxisShape(ends @ T[:3, :3].T + T[:3, 3], circle))
+        circle = None if slides else transformed(ring(center, joint.axis, RING_RADIUS * asset.mesh.diagonal), T)
+        shapes.append(AxisShape(transformed(ends, T), circle))
     return shapes
 
 

@@ -33,6 +33,7 @@ from anymesh.rendering.render import lit, shade, turned
 from anymesh.rendering.viewpoints import box_of, orbit_camera, zoom
 from anymesh.types import JointType, Mesh, Motion
 from anymesh.types.camera import Camera
+from anymesh.types.triangles import box_corners, transformed
 
 PANEL = 400  # [px] size of a panel
 MARGIN = 0.35  # margin around the moving part, as a share of its diagonal, so that its neighbours are visible
@@ -59,7 +60,7 @@ CREASE = 0.82  # cosine (of 35 degrees) between normals below which a line is dr
 def moved(mesh: Mesh, moving: Bool[np.ndarray, " F"], T: Float[np.ndarray, "4 4"]) -> Mesh:
     """Return the mesh with some faces moved. Faces keep their indices; vertices are no longer shared."""
     triangles = mesh.triangles.copy()
-    triangles[moving] = triangles[moving] @ T[:3, :3].T + T[:3, 3]
+    triangles[moving] = transformed(triangles[moving], T)
     faces = np.arange(3 * len(triangles)).reshape(-1, 3)
     return replace(mesh, vertices=triangles.reshape(-1, 3), faces=faces, corner_normal=None)
 
@@ -207,7 +208,7 @@ def strip_poses(
 
 def best_camera(posed: Posed, poses: Sequence[np.ndarray], motions: Sequence[tuple[Motion, float]], size: int) -> Camera:
     """Choose the camera for a part in the poses of `strip_poses`."""
-    places = [posed.corners @ T[:3, :3].T + T[:3, 3] for T in poses]
+    places = [transformed(posed.corners, T) for T in poses]
     focus = bounds_of(places)
     total = bounds_of([posed.mesh.bounds, focus])
     margin = MARGIN * float(np.linalg.norm(focus[1] - focus[0]))
@@ -216,7 +217,7 @@ def best_camera(posed: Posed, poses: Sequence[np.ndarray], motions: Sequence[tup
     best, most = None, -1.0
     for azimuth, elevation in ((a, e) for e in ELEVATION_WEIGHTS for a in AZIMUTH_WEIGHTS):
         far = orbit_camera(total, np.deg2rad(azimuth), np.deg2rad(elevation), SKETCH)
-        near = _framed(far, _corners(focus))
+        near = _framed(far, box_corners(focus))
         rays = near.rays()
         score = _difference(_depths(posed, poses, near, rays), step) * ELEVATION_WEIGHTS[elevation] * AZIMUTH_WEIGHTS[azimuth]
         if best is None or score > most:
@@ -252,10 +253,6 @@ def motion_axis(
     axis, slides = (-motion.axis if amount < 0 else motion.axis), motion.kind is JointType.PRISMATIC
     ends, center = axis_line(corners, motion.origin, axis, slides, AXIS_SCALE * size)
     return ends, None if slides else ring(center, axis, RING * size)
-
-
-def _corners(bounds: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, "8 3"]:
-    return np.stack(np.meshgrid(*bounds.T, indexing="ij"), -1).reshape(-1, 3)
 
 
 def _framed(camera: Camera, points: Float[np.ndarray, "n 3"]) -> Camera:
@@ -337,7 +334,7 @@ class Posed:
     @cached_property
     def _box(self) -> Float[np.ndarray, "8 3"]:
         """Corners of the bounding box of the moving faces, at rest."""
-        return _corners(bounds_of([self.corners]))
+        return box_corners(bounds_of([self.corners]))
 
     def still_hits(self, rays: Rays) -> Hits:
         """Return the first hits on static faces; rays continue behind moving faces."""
@@ -376,7 +373,7 @@ class Posed:
 
     def _box_pixels(self, T: Pose, camera: Camera) -> tuple[Int[np.ndarray, " w"], Int[np.ndarray, " h"]]:
         """Return the columns and rows of the bounding box of the part in a pose."""
-        pixel, depth = camera.project(self._box @ T[:3, :3].T + T[:3, 3])
+        pixel, depth = camera.project(transformed(self._box, T))
         if (depth <= 0).any():
             return np.arange(camera.width), np.arange(camera.height)
         limit = np.array([camera.width, camera.height])

@@ -1,11 +1,14 @@
-"""Areas and normals of triangles given by their corners; bounds of points."""
+"""Areas and normals of triangles given by their corners; points, their bounds, and the corners of boxes."""
 
 from __future__ import annotations
+
+from itertools import product
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
 MAX_PIECES = 20_000  # pieces up to which triangles are divided
+CUBE_CORNERS = np.array(list(product((0, 1), repeat=3)))  # of a box: index of its lower or upper bound along x, y, z
 MAX_HALVINGS = 40  # of a side, which a box of the size of a rounding error would need without end
 
 
@@ -27,6 +30,16 @@ def bounds_of(points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "2 3"]:
     Computed column by column, which is ten times faster than `points.min(0)`.
     """
     return np.array([[points[:, k].min() for k in range(3)], [points[:, k].max() for k in range(3)]])
+
+
+def box_corners(bounds: Float[np.ndarray, "2 3"]) -> Float[np.ndarray, "8 3"]:
+    """Return the corners of the box between two bounds."""
+    return np.take_along_axis(bounds, CUBE_CORNERS, axis=0)
+
+
+def transformed(points: Float[np.ndarray, "*n 3"], T: Float[np.ndarray, "4 4"]) -> Float[np.ndarray, "*n 3"]:
+    """Return the points moved by a transform."""
+    return points @ T[:3, :3].T + T[:3, 3]
 
 
 def quartered(triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, "G 3 3"]:
