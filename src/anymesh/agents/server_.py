@@ -16,8 +16,7 @@ from mcp.server.mcpserver.tools import Tool
 from pydantic import ConfigDict, Field
 
 from anymesh import __version__
-from anymesh.agents.places import Places
-from anymesh.agents.tools import AgentTools, ToolResult, skill_text
+from anymesh.agents.tools import AgentTools, Places, ToolResult, skill_text
 from anymesh.errors import AnymeshError
 
 Content = list[str | Image]

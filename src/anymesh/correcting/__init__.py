@@ -1,6 +1,5 @@
 """Manual corrections of an asset: typed corrections, a history with undo, a replayable log, and safe saving."""
 
-from anymesh.correcting.apply import apply
 from anymesh.correcting.corrections import (
     ChangeParent,
     ChangeType,
@@ -18,9 +17,9 @@ from anymesh.correcting.corrections import (
     SplitComponents,
     SplitPart,
 )
-from anymesh.correcting.history import History, HistoryEntry
+from anymesh.correcting.edits import apply
+from anymesh.correcting.history import History, HistoryEntry, Opened, StaleError, open_asset, save_asset
 from anymesh.correcting.motions import ranked_motions
-from anymesh.correcting.save import Opened, StaleError, open_asset, save_asset
 
 __all__ = [
     "ChangeParent",

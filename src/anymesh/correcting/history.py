@@ -1,12 +1,37 @@
-"""History of corrections with undo and redo. It is immutable: every step returns a new history."""
+"""History of corrections with undo and redo, its log as JSON values, and saving that never overwrites someone else's changes.
+
+A history is immutable: every step returns a new one.
+"""
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from pathlib import Path
+from typing import Any, get_args
 
-from anymesh.correcting.apply import apply
-from anymesh.correcting.corrections import Correction, CorrectionError
-from anymesh.types import Asset
+from anymesh.correcting.corrections import Correction, CorrectionError, FaceSet
+from anymesh.correcting.edits import apply
+from anymesh.errors import OutputError
+from anymesh.export import write_asset
+from anymesh.export.formats import ExportOptions
+from anymesh.pipeline.results import CorrectionResult
+from anymesh.pipeline.storage.atomic_folder import locked
+from anymesh.pipeline.storage.outputs import CORRECTIONS
+from anymesh.pipeline.storage.packing import CORRECTION
+from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.storage.saved import Saved
+from anymesh.pipeline.storage.stage_files import stage_key
+from anymesh.rendering.preview import write_preview
+from anymesh.runtime import cache_folder, read_json, write_json
+from anymesh.types import Asset, JointType
+
+# the kinds of corrections, with their names in a log, such as "change_type"
+NAMES: dict[type[Correction], str] = {
+    kind: re.sub(r"(?<!^)(?=[A-Z])", "_", kind.__name__).lower() for kind in get_args(Correction)
+}
+KINDS = {name: kind for kind, name in NAMES.items()}
 
 
 @dataclass(frozen=True)
@@ -63,3 +88,99 @@ class History:
         if not self.undone:
             raise CorrectionError("there is nothing to redo")
         return replace(self.do(self.undone[-1]), undone=self.undone[:-1])
+
+
+def pack_log(log: Sequence[HistoryEntry]) -> list[dict[str, Any]]:
+    """Return one object per entry: `correction` (the kind), its fields, `time` and `author`.
+
+    Face sets are runs [first, one after the last].
+    """
+    return [pack_entry(entry) for entry in log]
+
+
+def pack_entry(entry: HistoryEntry) -> dict[str, Any]:
+    c = entry.correction
+    values = {f.name: _plain(getattr(c, f.name)) for f in fields(c)}
+    return {"correction": NAMES[type(c)], **values, "time": entry.time, "author": entry.author}
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, FaceSet):
+        return [list(run) for run in value.runs]
+    if isinstance(value, JointType):
+        return str(value)
+    return list(value) if isinstance(value, tuple) else value
+
+
+def unpack_log(records: Sequence[Mapping[str, Any]]) -> tuple[HistoryEntry, ...]:
+    """Parse the entries of a log. Raise CorrectionError for one that this version does not know."""
+    return tuple(_entry(record) for record in records)
+
+
+def _entry(record: Mapping[str, Any]) -> HistoryEntry:
+    kind = KINDS.get(record.get("correction", ""))
+    if kind is None:
+        raise CorrectionError(f"unknown correction {record.get('correction')!r}; valid are {', '.join(KINDS)}")
+    try:
+        values = {f.name: _typed(f.name, record[f.name]) for f in fields(kind)}
+        return HistoryEntry(kind(**values), record["time"], record["author"])
+    except (KeyError, TypeError, ValueError) as error:
+        raise CorrectionError(f"a correction {record['correction']!r} in the log cannot be read: {error!r}") from error
+
+
+def _typed(name: str, value: Any) -> Any:
+    if name == "faces":
+        return FaceSet(tuple((int(a), int(b)) for a, b in value))
+    if name == "type":
+        return JointType(value)
+    return tuple(float(v) for v in value) if isinstance(value, list) else value
+
+
+class StaleError(OutputError):
+    """The asset was saved by another process after it was opened; saving now would lose its changes."""
+
+
+@dataclass(frozen=True, eq=False)
+class Opened:
+    """An asset under correction. version: of the saved state on which its history is based."""
+
+    folder: Path
+    history: History
+    version: str
+
+
+def open_asset(folder: str | Path) -> Opened:
+    """Open an output with its corrections. Raise OutputError if the folder is not an output, or lacks a stage."""
+    saved = Saved.at(Path(folder))
+    version = saved.last_key()
+    log = unpack_log(saved.corrections(saved.editing()))
+    return Opened(saved.target, History.of(saved.asset(edited=False), log), version)
+
+
+def save_asset(opened: Opened) -> Opened:
+    """Save the corrections and write all files again; earlier stages are kept, so that the original stays available.
+
+    Raise StaleError if another process saved, or is saving, this asset since it was opened; then nothing is written.
+    """
+    with locked(opened.folder) as mine:
+        if not mine:
+            raise StaleError(f"{opened.folder} is being saved by another process; try again")
+        with RunFolder.revise(opened.folder) as run:
+            if run.last_key() != opened.version:
+                raise StaleError(f"{opened.folder} was saved by someone else since it was opened; open it again to continue")
+            _write(run, opened.history)
+            version = run.last_key()
+    return replace(opened, version=version)
+
+
+def _write(run: RunFolder, history: History) -> None:
+    stage, log, asset = run.editing(), pack_log(history.done), history.asset
+    key = stage_key(stage, previous=run.last_key(edited=False), config={"log": log})
+    run.save(stage, key, CorrectionResult(asset.segmentation, asset.joints, asset.warnings, tuple(log)))
+    with run.timed("export"):
+        how = ExportOptions.of(read_json(run.target / "asset.json") or {})
+        cache = cache_folder("shapes")
+        write_asset(run.asset(), run.folder, base=how.base, formats=how.formats, driven=how.driven, cache=cache)
+        write_preview(asset, run.folder / "preview.png")
+    before = () if stage is CORRECTION else run.corrections(CORRECTION)
+    write_json(run.folder / CORRECTIONS, {"asset": asset.name, "corrections": [*before, *log]})

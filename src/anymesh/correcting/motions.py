@@ -12,7 +12,7 @@ from anymesh.articulation.part_contexts import part_context
 from anymesh.articulation.rank_motions import joint_type, motion_scores, reason
 from anymesh.config import Config
 from anymesh.correcting.corrections import ChooseMotion, vector
-from anymesh.correcting.finding import joint_of_part, part_number
+from anymesh.correcting.edits import joint_of_part, part_number
 from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.simplify_ import simplify

@@ -1,17 +1,17 @@
-"""Articulation of a mesh in a child process that a page can follow and end."""
+"""Articulation of a mesh in a child process that a page can follow and end.
+
+The page's process stays responsive, can end the child at any time, and survives a crash of native code.
+"""
 
 from __future__ import annotations
 
-import contextlib
-import os
-import pickle
-import subprocess
-import sys
+import math
 import threading
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from anymesh.isolation.child import LENGTH, write_message
+from anymesh.isolation.pool import ChildError, ChildLimits, ChildPool, Failure
 from anymesh.types import Mesh
 
 STAGES = {"load": (0.0, 0.05), "segment": (0.05, 0.5), "joints": (0.5, 0.8), "export": (0.8, 1.0)}  # shares of the work
@@ -38,14 +38,9 @@ class ArticulationWork:
         self.error: str | None = None
         self.done = self.cancelled = False
         self.stage, self.item, self.share = "start", "", 0.0
-        command = [sys.executable, "-c", "from anymesh.viewer.work_child import main; main()"]
-        environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
-        self._process = subprocess.Popen(
-            command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment, start_new_session=True
-        )
-        self._request = {"mesh": mesh, "out": out, **options}
-        self._reader = threading.Thread(target=self._read, daemon=True)
-        self._reader.start()
+        self._pool = ChildPool(1, ChildLimits(seconds=math.inf, memory=0))
+        self._thread = threading.Thread(target=self._run, args=({"mesh": mesh, "out": out, **options},), daemon=True)
+        self._thread.start()
 
     @property
     def over(self) -> bool:
@@ -66,37 +61,47 @@ class ArticulationWork:
     def cancel(self) -> None:
         """End the work immediately."""
         self.cancelled = True
-        self._process.kill()
-        self._reader.join(10)
+        while self._thread.is_alive():  # a child may just be starting
+            self._pool.close()
+            self._thread.join(0.05)
 
-    def _read(self) -> None:
-        stdin, stdout = self._process.stdin, self._process.stdout
-        assert stdin is not None
-        assert stdout is not None
-        with contextlib.suppress(OSError, EOFError):
-            write_message(stdin, self._request)
-            while len(head := stdout.read(LENGTH)) == LENGTH:
-                size = int.from_bytes(head, "little")
-                data = stdout.read(size)
-                if len(data) < size:
-                    break
-                self._note(*pickle.loads(data))
-        stdout.close()
-        with contextlib.suppress(OSError):
-            stdin.close()
-        code = self._process.wait()
-        if not self.over:
-            self.error = CRASHED.format(f"signal {-code}" if code < 0 else f"exit code {code}")
-
-    def _note(self, kind: str, *fields: Any) -> None:
-        match kind:
-            case "progress":
-                self.stage, self.item, done, total = fields
-                begin, end = STAGES.get(self.stage, (self.share, self.share))
-                self.share = max(self.share, begin + (end - begin) * min(done / max(total, 1), 1.0))
-            case "mesh":
-                (self.mesh,) = fields
-            case "done":
+    def _run(self, arguments: dict[str, Any]) -> None:
+        with self._pool:
+            try:
+                self._pool.run("anymesh.viewer.work", "articulated", arguments, on_message=self._note)
                 self.share, self.done = 1.0, True
-            case _:
-                (self.error,) = fields
+            except ChildError as error:
+                if not self.cancelled:
+                    self.error = _reason(error)
+
+    def _note(self, *fields: Any) -> None:
+        """Take a message of the child: its placed mesh, or a stage, an item, and how many of how many are done."""
+        if len(fields) == 1:
+            (self.mesh,) = fields
+            return
+        self.stage, self.item, done, total = fields
+        begin, end = STAGES.get(self.stage, (self.share, self.share))
+        self.share = max(self.share, begin + (end - begin) * min(done / max(total, 1), 1.0))
+
+
+def _reason(error: ChildError) -> str:
+    detail = " ".join(error.detail.split())
+    match error.failure:
+        case Failure.INVALID:
+            return detail
+        case Failure.CRASH:
+            return CRASHED.format(detail)
+        case _:
+            return f"internal defect, {detail[:250]}"
+
+
+def articulated(report: Callable[..., None], *, mesh: Path, out: Path, **options: Any) -> None:
+    """Articulate a mesh in this process and report its progress, and the placed mesh. options: of `articulate`."""
+    from anymesh import pipeline
+    from anymesh.loading import load_mesh, place_mesh
+
+    report("load", mesh.name, 0, 1)
+    placing = {name: options[name] for name in ("up", "scale") if name in options}
+    placed = place_mesh(load_mesh(mesh, root=options.get("root")), **placing)
+    report(placed.mesh)
+    pipeline.articulate(mesh, out, progress=report, **options)
