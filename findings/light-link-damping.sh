@@ -24,10 +24,11 @@ from ovphysx.types import ObjectScope, SimObjectType
 
 DEGREE = np.pi / 180
 JOINT = {"scope": ObjectScope.ALL}
-friction = [f"physxJointAxis:angular:viscousFrictionCoefficient = {0.1 * DEGREE}", f"physxJointAxis:angular:maxJointVelocity = {2 / DEGREE}"]
-api, lines = {
-    "friction": ("PhysxJointAxisAPI", friction),
-    "drive": ("PhysicsDriveAPI", [f"drive:angular:physics:damping = {0.1 * DEGREE}"]),
+axis, drive = "float physxJointAxis:angular:", "float drive:angular:physics:"
+top = f"{axis}maxJointVelocity = {2 / DEGREE}"
+api, lines, told = {
+    "friction": ("PhysxJointAxisAPI", [f"{axis}viscousFrictionCoefficient = {0.1 * DEGREE}", top], (0, 2)),
+    "drive": ("PhysicsDriveAPI", [f"{drive}damping = {0.1 * DEGREE}"], (1, 0.5)),
 }[sys.argv[1]]
 
 
@@ -41,12 +42,12 @@ def body(name, mass, inertia):
     return prim("Xform", name, ['"PhysicsRigidBodyAPI"', '"PhysicsMassAPI"'], f"float physics:mass = {mass}", value)
 
 
-ends = ["rel physics:body0 = </Knob/base>", "rel physics:body1 = </Knob/knob>", 'uniform token physics:axis = "Z"']
+ends = [f"rel physics:body{k} = </Knob/{name}>" for k, name in enumerate(("base", "knob"))] + ['uniform token physics:axis = "Z"']
 parts = [
     body("base", 1, 0.1),
     body("knob", 0.014, 3e-6),
     prim("PhysicsFixedJoint", "weld", [], "rel physics:body1 = </Knob/base>"),
-    prim("PhysicsRevoluteJoint", "turn", [f'"{api}:angular"'], *ends, *(f"float {line}" for line in lines)),
+    prim("PhysicsRevoluteJoint", "turn", [f'"{api}:angular"'], *ends, *lines),
 ]
 with open("knob.usda", "w") as file:
     header = '#usda 1.0\n(\nmetersPerUnit = 1\nkilogramsPerUnit = 1\nupAxis = "Z"\n)'
@@ -69,8 +70,9 @@ found = []
 for name in ("jointPosition", "jointVelocity"):
     with physx.read_sync(SimObjectType.ARTICULATION_JOINT, [name], **JOINT) as result:
         found.append(float(result.groups[0].tensors[0].numpy()[0]) * DEGREE)
-print("ovphysx", ovphysx.__version__, f"{sys.argv[1]}: after 2 s under 0.05 N m at {found[0]:.3f} rad, {found[1]:.2f} rad/s (right: 1.0, 0.5)")
-sys.exit(not np.allclose(found, {"friction": (0, 2), "drive": (1, 0.5)}[sys.argv[1]], atol=0.01))
+after = f"after 2 s under 0.05 N m at {found[0]:.3f} rad, {found[1]:.2f} rad/s (right: 1.0, 0.5)"
+print("ovphysx", ovphysx.__version__, f"{sys.argv[1]}: {after}")
+sys.exit(not np.allclose(found, told, atol=0.01))
 PY
 for kind in friction drive; do venv/bin/python knob.py "$kind" 2> /dev/null || { echo "changed: see above"; exit 1; }; done
 venv/bin/python - <<'PY'

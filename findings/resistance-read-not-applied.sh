@@ -73,7 +73,8 @@ for name in ("SolverMuJoCo", "SolverFeatherstone", "SolverXPBD"):
         now, after = after, now
     newton.eval_ik(model, now, now.joint_q, now.joint_qd)
     found[name] = float(now.joint_q.numpy()[0])
-    print("newton", newton.__version__, name, f"reads ({builder.joint_damping[0]}, {builder.joint_friction[0]}), angle {found[name]:.2f}")
+    read = (builder.joint_damping[0], builder.joint_friction[0])
+    print("newton", newton.__version__, name, f"reads {read}, angle {found[name]:.2f}")
 if any(abs(a - b) > 0.02 for a, b in zip(found.values(), (0.082, 0.2, 1.0))):
     print("changed: see above")
     raise SystemExit(1)

@@ -46,13 +46,13 @@ def follower_at(text):
     return round(float(dict(zip(joints, robot.get_qpos()))["follower"]), 2)
 
 
-mimic = '<mimic joint="leader" multiplier="2" offset="0.2"/>'
+plain, mimic = (f'<mimic joint="leader" multiplier="2" offset="{offset}"/>' for offset in (0, 0.2))
 bodies = link("base") + link("a") + link("b")
 weld = link("middle") + '<joint name="weld" type="fixed"><parent link="base"/><child link="middle"/></joint>'
 leader = turn("leader", "base", "a")
 found = {
     "URDF": 2 * 0.5 + 0.2,
-    "follower on the leader's child, no offset": follower_at(bodies + leader + turn("follower", "a", "b", mimic.replace("0.2", "0"))),
+    "follower on the leader's child, no offset": follower_at(bodies + leader + turn("follower", "a", "b", plain)),
     "two joints of one parent": follower_at(bodies + leader + turn("follower", "base", "b", mimic)),
     "behind a fixed joint": follower_at(bodies + weld + leader + turn("follower", "middle", "b", mimic)),
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Guess: three.js' USDLoader reads a binary USD file as it reads the same stage as text.
-# Truth: it throws on a .usdc in which a translation of type double3 has whole numbers only, such as (0, 0, 1): the crate format
-#   stores these in the field itself, as bytes, and the reader does not expand them. (0, 0, 0), (0, 0, 1.1), a float3 translation
-#   and the same stage as .usda load.
+# Truth: it throws on a .usdc in which a translation of type double3 has whole numbers only, such as (0, 0, 1): the format stores
+#   small whole numbers as bytes in the field itself, which the reader expands for float3 but not for double3. (0, 0, 0),
+#   (0, 0, 1.1), a float3 translation and the same stage as .usda load.
 # Version: three 0.187.0, files written by usd-core 26.11
 # Source: found by running
 # Who cares: whoever shows USD in a browser: an asset that loads fails after it was moved by exactly a metre.
