@@ -6,7 +6,7 @@ from collections.abc import Callable, Iterator
 
 import pytest
 from dialects import DIALECTS, Dialect
-from wire import SECRET, Service
+from model_wire import SECRET, Service
 
 from anymesh.prompted.models.vision import VisionModel
 

@@ -6,8 +6,8 @@ import logging
 import numpy as np
 import pytest
 from dialects import ANTHROPIC, Dialect
+from model_wire import ANSWER, Connect, Service, a_request, png
 from PIL import Image
-from wire import ANSWER, Connect, Service, a_request, png
 
 from anymesh.errors import ModelError
 from anymesh.prompted.models.limits import LIMITS, RequestLimits, fit

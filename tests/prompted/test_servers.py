@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from dialects import _openai
-from wire import SECRET, Service, a_request
+from model_wire import SECRET, Service, a_request
 
 from anymesh.cli import run
 from anymesh.errors import OptionError

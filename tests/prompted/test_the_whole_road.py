@@ -8,7 +8,7 @@ from pathlib import Path
 import jsonschema
 import pytest
 from dialects import _openai, _openai_content
-from wire import SECRET, Service
+from model_wire import SECRET, Service
 
 from anymesh.cli import run
 from anymesh.config import Config, GroundingConfig, ViewsConfig

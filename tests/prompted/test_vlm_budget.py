@@ -5,7 +5,7 @@ from datetime import UTC, datetime
 from importlib.metadata import version
 
 import pytest
-from wire import a_request, png
+from model_wire import a_request, png
 
 from anymesh.errors import BudgetError, ModelError, OptionError
 from anymesh.prompted.models.budget import Budgeted

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from wire import ANSWER, SCHEMA, a_request, png
+from model_wire import ANSWER, SCHEMA, a_request, png
 
 from anymesh.prompted.models.budget import Budgeted
 from anymesh.prompted.models.cache import Cached, request_key

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 from dialects import ANTHROPIC, COMPATIBLE, GOOGLE, OPENAI, Dialect
-from wire import ANSWER, SCHEMA, SECRET, Connect, Service, a_request, png
+from model_wire import ANSWER, SCHEMA, SECRET, Connect, Service, a_request, png
 
 from anymesh.errors import MissingExtraError, ModelError, OptionError
 from anymesh.prompted.models.pydantic_ai_ import connect

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 from dialects import COMPATIBLE, OPENAI, Dialect
-from wire import ANSWER, SECRET, Service, a_request, exchange
+from model_wire import ANSWER, SECRET, Service, a_request, exchange
 
 from anymesh.errors import BudgetError, ModelError, OptionError
 from anymesh.prompted.answerers.transcript import write_transcript

@@ -7,7 +7,7 @@ from collections.abc import Callable
 
 import pytest
 from dialects import ANTHROPIC, DIALECTS, GOOGLE, OPENAI, Dialect
-from wire import ANSWER, SECRET, Service, a_request
+from model_wire import ANSWER, SECRET, Service, a_request
 
 from anymesh.errors import ModelError
 from anymesh.prompted.models.retry import Retrying, TransientError

@@ -1,7 +1,7 @@
 """Facts about asking again."""
 
 import pytest
-from wire import a_request
+from model_wire import a_request
 
 from anymesh.errors import ModelError, OptionError
 from anymesh.prompted.models.retry import Retrying, TransientError

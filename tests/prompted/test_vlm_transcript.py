@@ -6,7 +6,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
-from wire import ANSWER, a_request, exchange, png
+from model_wire import ANSWER, a_request, exchange, png
 
 from anymesh.errors import ModelError, OptionError
 from anymesh.prompted.answerers.transcript import remove_transcript, write_transcript

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 import json
 import os
-import sys
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 import trimesh
-
-sys.path.append(str(Path(__file__).parents[2] / "prompted"))
 from dialects import _openai
-from wire import SECRET, Service
+from model_wire import SECRET, Service
 
 from anymesh.cli import run
 

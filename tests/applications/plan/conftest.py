@@ -12,7 +12,7 @@ NO_EXTRA = f"the extra `plan` is not installed: {', '.join(MISSING)}"
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    here, without = Path(__file__).parent, ("test_timing", "test_options", "test_targets")
+    here, without = Path(__file__).parent, ("test_trajectory", "test_targets")
     for item in items:
         if MISSING and here in Path(item.path).parents and item.path.stem not in without:
             item.add_marker(pytest.mark.skip(reason=NO_EXTRA))

@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 
 from anymesh.applications.plan.formats import PlanFormat, gripper_commands, plan_text, read_plan, ros_record, write_plan
+from anymesh.cli import run
 from anymesh.errors import InputError, OptionError, OutputError
+
+COMMAND = ["plan", "--joint", "door", "--speed", "1", "--to", "40deg"]
 
 
 def test_json_comes_back(door_plan, tmp_path):
@@ -57,3 +60,23 @@ def test_files_are_not_replaced_unasked_and_others_are_no_plans(door_plan, tmp_p
     with pytest.raises(InputError, match="is not a plan of anymesh"):
         read_plan(path)
     assert path.read_text() == "{}"
+
+
+def test_the_command_plans_and_draws_with_a_robot_by_path(things, tmp_path, capsys):
+    out, picture = tmp_path / "t.json", tmp_path / "t.png"
+    wanted = [*COMMAND, str(things / "cupboard.xml"), "--robot", str(things / "arm5.xml")]
+    code = run([*wanted, "-o", str(out), "--video", str(picture), "--json"])
+    told = json.loads(capsys.readouterr().out)
+    assert code == 0
+    assert read_plan(out).value[1] == pytest.approx(np.deg2rad(40))
+    assert told["replay"]["outcome"] == "done"
+    assert picture.read_bytes()[:4] == b"\x89PNG"
+
+
+def test_errors_have_their_codes(things, tmp_path, capsys):
+    out = str(tmp_path / "t.json")
+    robot = ["--robot", str(things / "arm5.xml")]
+    assert run([*COMMAND[:-1], "170deg", str(things / "cupboard.xml"), *robot, "-o", out]) == 2
+    assert "the nearest value is 103.1 deg" in capsys.readouterr().err
+    assert run([*COMMAND, str(tmp_path / "nothing"), *robot, "-o", out]) == 3
+    assert not (tmp_path / "t.json").exists()

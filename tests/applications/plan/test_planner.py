@@ -1,12 +1,19 @@
 """A plan is free of collisions, keeps the gripper on the part along its arc, within limits, the same for the same seed."""
 
+import math
+from itertools import pairwise
+
 import numpy as np
 import pytest
 
+from anymesh.applications.plan.approach_ import STRIDE, free_path, straight_is_free
 from anymesh.applications.plan.planner import plan, plan_motion
-from anymesh.applications.plan.plans import BasePose, GripperContact, Phase, PlanError
+from anymesh.applications.plan.plans import BasePose, GripperContact, Phase, PlanError, parse_value
 from anymesh.applications.plan.scene_ import CollisionWorld, tool_pose
 from anymesh.errors import OptionError
+
+LOW, HIGH = np.full(2, -1.0), np.full(2, 1.0)
+START, GOAL = np.array([-0.8, 0.0]), np.array([0.8, 0.0])
 
 
 def rows_of(found, *phases: Phase) -> np.ndarray:
@@ -106,3 +113,56 @@ def test_a_base_in_the_object_or_too_far_is_told_with_one_that_works(cupboard, a
         plan_motion(cupboard, arm, 0.7, base=BasePose(0.0, 2.5, 0.0, -1.57))
     with pytest.raises(PlanError, match="the robot collides there"):
         plan_motion(cupboard, arm, 0.7, base=BasePose(0.0, -0.1, 0.0, 1.57))
+
+
+@pytest.mark.parametrize(
+    ("text", "value"), [("60deg", math.pi / 3), ("-10 mm", -0.01), ("0.5", 0.5), ("1e-2m", 0.01), ("2cm", 0.02), (".5rad", 0.5)]
+)
+def test_a_value_with_its_unit(text, value):
+    assert parse_value(text) == pytest.approx(value)
+
+
+@pytest.mark.parametrize("text", ["", "far", "10 feet", "1,5", "--"])
+def test_what_is_no_value(text):
+    with pytest.raises(OptionError, match="valid is a number, in radians or metres or followed by one of rad, m, deg, mm, cm"):
+        parse_value(text)
+
+
+def test_a_base_is_written_as_it_is_read():
+    base = BasePose.parse("0.1,-0.7,0,90")
+    assert str(base) == "0.100,-0.700,0.000,90.0"
+    assert base.transform[:3, 0] == pytest.approx([0, 1, 0], abs=1e-12)
+
+
+def wall_with_a_gap(posture: np.ndarray) -> bool:
+    return abs(posture[0]) > 0.1 or posture[1] > 0.6
+
+
+def test_a_free_line_is_taken():
+    np.testing.assert_array_equal(free_path(START, GOAL, LOW, HIGH, lambda _: True, seed=0), [START, GOAL])
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2])
+def test_the_way_round_is_free_on_a_finer_grid_and_repeatable(seed):
+    first, second = (free_path(START, GOAL, LOW, HIGH, wall_with_a_gap, seed=seed) for _ in range(2))
+    np.testing.assert_array_equal(first, second)
+    np.testing.assert_array_equal(first[[0, -1]], [START, GOAL])
+    assert ((first >= LOW) & (first <= HIGH)).all()
+    for a, b in pairwise(first):
+        fine = a + np.linspace(0, 1, 500)[:, None] * (b - a)
+        inside = 1 - np.mean([wall_with_a_gap(p) for p in fine])
+        assert inside * np.linalg.norm(b - a) < STRIDE  # a corner may be cut by less than what is between two checks
+
+
+def test_different_seeds_go_different_ways():
+    paths = [free_path(START, GOAL, LOW, HIGH, wall_with_a_gap, seed=seed) for seed in range(3)]
+    assert any(a.shape != b.shape or (a != b).any() for a in paths for b in paths)
+
+
+def test_no_way_is_none():
+    assert free_path(START, GOAL, LOW, HIGH, lambda p: abs(p[0]) > 0.1, seed=0, checks=2000) is None
+
+
+def test_a_line_through_something_is_not_free():
+    assert not straight_is_free(START, GOAL, wall_with_a_gap)
+    assert straight_is_free(START, START + 0.1, wall_with_a_gap)

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
-from wire import Seen
+from model_wire import Seen
 
 
 @dataclass(frozen=True)
