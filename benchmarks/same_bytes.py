@@ -3,9 +3,9 @@
 python -m benchmarks.same_bytes REV [--only NAME ...] [--work FOLDER]
 
 Each example is articulated and finished with all formats by the code of REV, from a worktree in a temporary folder, and by
-that of the working tree, with the same interpreter. Left out are `timing.json` (durations) and what contains the version: the
-generator in `asset.json` and in GLB, and the keys of saved stages. Prints a table and each file that differs, and exits with
-1 if there is one.
+that of the working tree, with the same interpreter. Left out are `timing.json` (durations) and what contains the version
+(the generator in `asset.json` and in GLB, the keys of saved stages) and reasons, which are prose. Prints a table and each
+file that differs, and exits with 1 if there is one.
 """
 
 from __future__ import annotations
@@ -21,12 +21,14 @@ from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).parents[1]
 MESHES = ROOT / "examples" / "meshes"
 FORMATS = "urdf,mjcf,usd,sdf,glb"
 FINISHED = "finished"  # folder of Stage C's result
 DURATIONS = "timing.json"
+LEFT_OUT = {"version", "key", "reason"}  # in JSON; a key is a hash that contains the version
 
 
 @contextmanager
@@ -56,20 +58,21 @@ def write_assets(tree: Path, name: str, out: Path) -> None:
             subprocess.run(run, cwd=ROOT, env=environment, stdout=log, stderr=subprocess.STDOUT, check=True)
 
 
+def without(value: Any) -> Any:
+    """Return a JSON value without what is left out of the comparison."""
+    if isinstance(value, dict):
+        return {k: without(v) for k, v in value.items() if k not in LEFT_OUT}
+    return [without(v) for v in value] if isinstance(value, list) else value
+
+
 def contents(out: Path) -> dict[str, bytes]:
-    """Return the bytes of each file of an example's outputs, and the log, without durations, folders and the version."""
+    """Return the bytes of each file of an example's outputs, and the log, without what is left out and folders."""
     found = {}
     for path in sorted(out.rglob("*")):
         if path.is_file() and path.name != DURATIONS:
             data = path.read_bytes().replace(str(out).encode(), b"OUT")
-            if path.name == "asset.json":
-                asset = json.loads(data)
-                asset["generator"].pop("version", None)
-                data = json.dumps(asset).encode()
-            if path.parent.name == "stages" and path.suffix == ".json":
-                stage = json.loads(data)
-                stage.pop("key", None)  # a hash that contains the version
-                data = json.dumps(stage).encode()
+            if path.suffix == ".json" and path.parent.name != "transcript":
+                data = json.dumps(without(json.loads(data))).encode()
             data = re.sub(rb"(articulate-anymesh )\d+\.\d+\.\d+", rb"\1", data)  # in a GLB
             found[str(path.relative_to(out))] = data
     return found

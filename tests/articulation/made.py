@@ -44,11 +44,11 @@ def candidate(role: Role, kind: JointType, axis: np.ndarray, **changes: Any) -> 
     """Return a candidate that is free along its axis."""
     free = np.pi if kind is JointType.REVOLUTE else 0.5
     sweep = Sweep(free, 0.0, True, False)
-    made = Candidate(Motion(kind, axis, np.zeros(3), f"a {role}"), sweep, role, 1, free, 0.0, outward=1.0)
+    made = Candidate(Motion(kind, axis, np.zeros(3), role), sweep, role, 1, free, 0.0, outward=1.0)
     return replace(made, **changes)
 
 
 EDGE = candidate("edge", JointType.REVOLUTE, Z, hinge_support=1.0)
-FAR_EDGE = replace(EDGE, motion=Motion(JointType.REVOLUTE, Z, X, "the other edge"))
+FAR_EDGE = replace(EDGE, motion=Motion(JointType.REVOLUTE, Z, X, "other edge"))
 PULL = candidate("slide", JointType.PRISMATIC, Y)
 ROUND = candidate("round", JointType.REVOLUTE, Y, closing=np.pi)

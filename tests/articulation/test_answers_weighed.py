@@ -141,7 +141,7 @@ def offered(kind: JointAppearance = ALONG, answered: int | None = None, moves: J
 def test_a_picked_motion_is_chosen_and_agreeing_answers_make_it_sure(monkeypatch: pytest.MonkeyPatch) -> None:
     found, asked = chosen(monkeypatch, offered(answered=1, moves=JointType.REVOLUTE), 1)
     assert (found.best, found.moves, found.fit, asked) == (FAR_EDGE, True, PartFit.RIGHT, [(1, 0, 2)])
-    assert found.reason.startswith("chosen among 3 motions: the other edge")
+    assert found.reason.startswith("chosen among 3 motions: swings from 0 to 180 degrees about the other edge")
     assert found.confidence > 0.95
     alone, _ = chosen(monkeypatch, offered(), 1)
     assert alone.best is FAR_EDGE

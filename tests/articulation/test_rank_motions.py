@@ -20,17 +20,16 @@ from anymesh.types import JointType, Motion, Sweep
 
 
 def asked(part: PartFacts, candidates: list[Candidate], scores: list[float]) -> MotionAnswer:
-    answer = rank_motions(MotionQuestion(part, tuple(candidates), np.array(scores), lambda _: "some feature 1"))
+    answer = rank_motions(MotionQuestion(part, tuple(candidates), np.array(scores)))
     assert sorted(answer.ranking) == list(range(len(candidates)))
     return answer
 
 
-def test_motions_are_ranked_by_score_and_the_reason_names_what_decided() -> None:
+def test_motions_are_ranked_by_score_and_the_reason_describes_the_best() -> None:
     answer = asked(PLATE, [PULL, replace(EDGE, handle_side=0.9)], [-1.0, 2.0])
     assert answer.ranking == (1, 0)
     assert answer.type is JointType.REVOLUTE
-    assert "opposite the handle" in answer.reason
-    assert "some feature 1" in answer.reason
+    assert "opposite its handle" in answer.reason
 
 
 def same_as_first(*candidates: Candidate) -> np.ndarray:
@@ -38,7 +37,7 @@ def same_as_first(*candidates: Candidate) -> np.ndarray:
 
 
 def question(*candidates: Candidate) -> MotionQuestion:
-    return MotionQuestion(PLATE, candidates, np.zeros(len(candidates)), lambda _: "")
+    return MotionQuestion(PLATE, candidates, np.zeros(len(candidates)))
 
 
 def test_motions_are_the_same_joint_about_one_line_to_one_side() -> None:
@@ -113,21 +112,21 @@ def test_an_answer_is_checked(confidence: float, reason: str) -> None:
 @pytest.mark.parametrize(
     ("c", "words"),
     [
-        (PULL, "slides outwards, guided on 0 of 4 sides, free for 50.0 cm (a slide)"),
+        (PULL, "slides 50 cm out of the case, guided on no side"),
         (
             replace(PULL, guided=0.75, outward=-1.0, sweep=Sweep(0.02, 0.5, False, True)),
-            "slides inwards, guided on 3 of 4 sides, free for 2.0 cm",
+            "slides 2.0 cm into the case, guided on three sides",
         ),
-        (replace(PULL, outward=0.7), "slides along the surface"),
-        (replace(PULL, outward=-0.7), "slides along the surface"),
-        (replace(ROUND, opening=1.0), "round outline (30 %), turns about its axis, free -180..57 deg"),
-        (ROUND, "round outline (30 %), turns about its axis, endlessly"),
-        (replace(EDGE, closing=0.5, hinge_support=0.5), "a edge, free -29..180 deg"),
-        (replace(EDGE, handle_side=0.9), "hinge opposite the handle, a edge, the parent runs along it, free 0..180 deg"),
+        (replace(PULL, outward=0.7), "slides 50 cm along the surface, guided on no side"),
+        (replace(PULL, outward=-0.7), "slides 50 cm along the surface, guided on no side"),
+        (replace(ROUND, opening=1.0), "turns from -180 to 57 degrees about the axis of its round outline"),
+        (ROUND, "turns endlessly about the axis of its round outline"),
+        (replace(EDGE, closing=0.5, hinge_support=0.5), "swings from -29 to 180 degrees about the edge"),
+        (replace(EDGE, handle_side=0.9), "swings from 0 to 180 degrees about the edge, opposite its handle, held all along it"),
     ],
 )
 def test_a_motion_is_described_by_its_kind_its_range_and_what_holds_it(c: Candidate, words: str) -> None:
-    assert reason(PLATE, c).startswith(words)
+    assert reason(c) == words
 
 
 @pytest.mark.parametrize(

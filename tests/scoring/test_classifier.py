@@ -1,4 +1,4 @@
-"""Test the reasons of a learned score, which name features that a candidate has, and its calibration."""
+"""Test the reasons of a learned score, in words, and its calibration."""
 
 import numpy as np
 import pytest
@@ -15,13 +15,24 @@ def stump(column: int) -> BoostedTrees:
     )  # fmt: skip
 
 
-def test_a_feature_that_a_candidate_does_not_have_is_no_reason() -> None:
-    for column, value, reason in ((0, 2.0, "size 2"), (1, MISSING, "no feature of its own")):
-        classifier = Classifier(stump(column), (), ("size", "support"), {})
-        row = {"size": 0.0, "support": 0.0, ("size", "support")[column]: value}
-        table = classifier.table([row])
-        assert classifier.score(table).tolist() == [1.0]
-        assert classifier.reasons(table) == [reason]
+NOTES = {"size": (1.0, 3.0, "of some size"), "support": (0.0, 1.0, "held")}
+
+
+@pytest.mark.parametrize(
+    ("column", "value", "reason"),
+    [
+        (0, 2.0, "of some size"),
+        (0, 4.0, "shaped and placed like other such parts"),  # its words do not hold for this value
+        (1, -0.5, "shaped and placed like other such parts"),
+        (1, 0.0, "held"),
+        (1, MISSING, "shaped and placed like other such parts"),
+    ],
+)
+def test_a_reason_is_what_can_be_said_of_the_features_that_raised_the_score(column: int, value: float, reason: str) -> None:
+    classifier = Classifier(stump(column), (), ("size", "support"), {})
+    table = classifier.table([{"size": 0.0, "support": 1.0, ("size", "support")[column]: value}])
+    assert classifier.score(table).tolist() == [1.0]
+    assert classifier.reasons(table, NOTES) == [reason]
 
 
 def test_the_score_among_others_is_the_mean_of_the_networks(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -31,11 +42,6 @@ def test_the_score_among_others_is_the_mean_of_the_networks(monkeypatch: pytest.
     classifier = Classifier(stump(0), tuple(networks), ("size",), {})
     found = classifier.score_together(np.ones((3, 1)), np.zeros((3, 12)), np.zeros((3, 3, 2)))
     assert found.tolist() == [(3 + 7) / 2] * 3
-
-
-def test_a_value_of_minus_zero_is_printed_as_zero() -> None:
-    classifier = Classifier(stump(1), (), ("size", "support"), {})
-    assert classifier.reasons(classifier.table([{"size": 0.0, "support": -0.0}])) == ["support 0"]
 
 
 def test_confidence_is_the_calibrated_probability_within_its_range() -> None:

@@ -17,7 +17,7 @@ from anymesh.articulation.motion_classifier import PartMotionScores, likeliest
 from anymesh.articulation.motion_features import swept_features, unswept_features
 from anymesh.articulation.motion_question import BOX_RIM_ROLES, Candidate, MotionAnswer, MotionQuestion
 from anymesh.articulation.part_contexts import part_context
-from anymesh.articulation.rank_motions import described, rank_motions
+from anymesh.articulation.rank_motions import rank_motions, reason
 from anymesh.articulation.repeated_parts import in_a_row, same_size, share_opening_directions
 from anymesh.articulation.tree import parents
 from anymesh.config import SAME_AXIS_COSINE, ArticulationConfig, Config
@@ -146,14 +146,8 @@ def estimate_joint(context: PartContext, name: str, parent: str, question: Motio
     if answer.type is JointType.FIXED:  # the part is known to move
         kind, why = best.motion.kind, f"{answer.reason}; most likely: {best.motion.source}"
     else:
-        kind, why = answer.type, described(question, _index_of(opened, question.candidates, answer.ranking[0]))
+        kind, why = answer.type, reason(opened)
     return joint_of(context, name, parent, opened, kind, answer.confidence, why)
-
-
-def _index_of(c: Candidate, candidates: tuple[Candidate, ...], otherwise: int) -> int:
-    """Return the index of the candidate with the motion and the opening direction of `c`."""
-    same = (k for k, other in enumerate(candidates) if other.motion is c.motion and other.opening_sign == c.opening_sign)
-    return next(same, otherwise)
 
 
 def joint_of(

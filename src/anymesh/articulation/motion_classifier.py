@@ -36,11 +36,7 @@ class PartMotionScores:
         copies: parts of the same size in a row with this one.
         """
         scores = mean_over_copies(self.alone, [copy.alone for copy in copies])
-        return MotionQuestion(self.facts, self.candidates, scores, self._reason)
-
-    def _reason(self, k: int) -> str:
-        (reason,) = shipped_classifier().reasons(self.table[k : k + 1])
-        return reason
+        return MotionQuestion(self.facts, self.candidates, scores)
 
 
 def likeliest(features: Sequence[Features], most: int) -> Int[np.ndarray, " m"]:

@@ -5,7 +5,6 @@ Answers are validated when constructed.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Literal
@@ -34,8 +33,8 @@ ProposedMotion = tuple[Role, Motion]
 class SlideDirection(StrEnum):
     """Direction of a slide relative to the opening direction of its part."""
 
-    OUTWARDS = "outwards"
-    INWARDS = "inwards"
+    OUTWARDS = "out of the case"
+    INWARDS = "into the case"
     ALONG_SURFACE = "along the surface"
 
 
@@ -127,13 +126,12 @@ class Candidate:
 class MotionQuestion:
     """Question how a part moves: by one of the candidates, or not at all.
 
-    scores: (k,) log-odds that each candidate is right; reason: the features that decided for a candidate, in words.
+    scores: (k,) log-odds that each candidate is right.
     """
 
     part: PartFacts
     candidates: tuple[Candidate, ...]
     scores: Float[np.ndarray, " k"]
-    reason: Callable[[int], str]
 
 
 @dataclass(frozen=True)

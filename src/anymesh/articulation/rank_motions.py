@@ -16,6 +16,7 @@ from anymesh.vocabulary import typical_motion
 NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint without a plausible motion
 SAME_LINE_RATIO = 0.1  # of the part's size: maximum distance between lines that a user sees as one
 BLOCKED_SCORE = -4.0  # [log-odds] penalty of a motion that the sweep finds blocked
+SIDES = "on no side", "on one side", "on two sides", "on three sides", "on all sides"  # by how many of four guide a slide
 LABEL_PRIOR = {  # [log-odds] added by a label to a hinge, to a rotation about the axis of a round outline, to a slide
     JointType.REVOLUTE: (1.5, -2.5, -2.0),
     JointType.PRISMATIC: (-2.0, -2.5, 2.0),
@@ -37,21 +38,16 @@ def rank_motions(question: MotionQuestion) -> MotionAnswer:
         order.sort(key=lambda k: _order_of_endless(question.candidates[k], same=bool(same[k])))
     ranking, best = tuple(order), question.candidates[order[0]]
     if not best.is_free:
-        return MotionAnswer(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "no candidate motion is free and plausible")
+        return MotionAnswer(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "blocked whichever way it is moved")
     share = np.clip(share_of_best(_scores_by_geometry(question), same), 1e-6, 1 - 1e-6)
     confidence = shipped_classifier().confidence(float(np.log(share / (1 - share))))
-    return MotionAnswer(ranking, joint_type(best), confidence, described(question, ranking[0]))
+    return MotionAnswer(ranking, joint_type(best), confidence, reason(best))
 
 
 def _order_of_endless(c: Candidate, *, same: bool) -> tuple[bool, bool]:
     """Order candidates: first the same joint about the axis of the round outline, along this axis before against it."""
     continuous = same and joint_type(c) is JointType.CONTINUOUS
     return not continuous, continuous and c.opening_sign < 0
-
-
-def described(question: MotionQuestion, k: int) -> str:
-    """Describe candidate k and the features that raised its score the most."""
-    return f"{reason(question.part, question.candidates[k])}; {question.reason(k)}"
 
 
 def _scores_by_geometry(question: MotionQuestion) -> Float[np.ndarray, " k"]:
@@ -103,18 +99,20 @@ def joint_type(c: Candidate) -> JointType:
     return JointType.CONTINUOUS if c.role == "round" and c.is_endless else JointType.REVOLUTE
 
 
-def reason(part: PartFacts, c: Candidate) -> str:
-    """Describe a motion in words."""
+def reason(c: Candidate) -> str:
+    """Describe a motion in a short note: how the part moves, how far, and what holds it."""
     if c.motion.kind is JointType.PRISMATIC:
-        guided = f"guided on {round(4 * c.guided)} of 4 sides"
-        travel = c.opening_sweep.forward
-        return f"slides {c.slide_direction}, {guided}, free for {100 * travel:.1f} cm ({c.motion.source})"
-    free = f"free {-round(np.degrees(c.closing))}..{round(np.degrees(c.opening))} deg"
+        return f"slides {_centimetres(c.opening_sweep.forward)} {c.slide_direction}, guided {SIDES[round(4 * c.guided)]}"
+    range_ = "endlessly" if c.is_endless else f"from {-round(np.degrees(c.closing))} to {round(np.degrees(c.opening))} degrees"
     if c.role == "round":
-        return f"round outline ({100 * part.roundness:.0f} %), turns about its axis, {'endlessly' if c.is_endless else free}"
-    reasons = [c.motion.source]
+        return f"turns {range_} about the axis of its round outline"
+    notes = [f"swings {range_} about the {c.motion.source}"]
     if c.handle_side > 0.3:
-        reasons.insert(0, "hinge opposite the handle")
+        notes.append("opposite its handle")
     if c.hinge_support > 0.5:
-        reasons.append("the parent runs along it")
-    return ", ".join([*reasons, free])
+        notes.append("held all along it")
+    return ", ".join(notes)
+
+
+def _centimetres(length: float) -> str:
+    return f"{100 * length:.0f} cm" if length >= 0.1 else f"{100 * length:.1f} cm"

@@ -85,7 +85,7 @@ def ranked_motions(
     motions: list[ChooseMotion] = []
     for k in free:
         c = question.candidates[k]
-        joint = joint_of(context, part, names[hangs[part]], c, joint_type(c), 1.0, reason(question.part, c))
+        joint = joint_of(context, part, names[hangs[part]], c, joint_type(c), 1.0, reason(c))
         motion = _choice(turned_back(joint, ready.T_straight), float(np.exp(scores[k] - scores.max()) / total))
         if not any(_alike(other, motion, asset.mesh.diagonal) for other in motions):
             motions.append(motion)

@@ -22,7 +22,9 @@ PLACE_SCALES = (2.0, 3.0, 1.0, 1.0)  # of center, half extents, opening directio
 EPSILON = np.float32(1e-5)  # added to variances
 LIMIT = np.float32(1.7)  # largest scaled feature; a uniform distribution up to it has a variance of 1
 NO_FEATURE = -1  # value in `feature` of a leaf
-REASONS = 3  # number of features named in a reason
+REASONS = 3  # maximum number of notes in a reason
+Note = tuple[float, float, str]  # least and greatest value of a feature for which the words hold
+NO_NOTE: Note = (np.inf, -np.inf, "")
 MIN_CONFIDENCE, MAX_CONFIDENCE = 0.05, 0.99  # range of confidences
 MISSING = -9.0  # value of a feature that does not apply to a candidate
 TREES, NETWORK = "trees", "network"  # how the names of arrays in a file begin; networks are numbered from 0
@@ -79,13 +81,17 @@ class Classifier:
         """Return the probability that a choice with these log-odds is right, within the range of confidences."""
         return float(np.clip(self.probability(np.array([log_odds]))[0], MIN_CONFIDENCE, MAX_CONFIDENCE))
 
-    def reasons(self, own: Float[np.ndarray, "n k"]) -> list[str]:
-        """Return the names of the features that raised each score by the trees the most."""
-        return [self._reason(row, g) for row, g in zip(own, self.trees.contributions(own), strict=True)]
+    def reasons(self, own: Float[np.ndarray, "n k"], notes: Mapping[str, Note]) -> list[str]:
+        """Return up to three notes on each candidate, on the features that raised its score by the trees the most."""
+        return [self._reason(row, g, notes) for row, g in zip(own, self.trees.contributions(own), strict=True)]
 
-    def _reason(self, row: Float[np.ndarray, " k"], gain: Float[np.ndarray, " k"]) -> str:
-        best = [int(k) for k in np.argsort(-gain, kind="stable") if gain[k] > 0 and row[k] != MISSING][:REASONS]
-        return ", ".join(f"{self.names[k]} {row[k] + 0.0:.2g}" for k in best) or "no feature of its own"
+    def _reason(self, row: Float[np.ndarray, " k"], gain: Float[np.ndarray, " k"], notes: Mapping[str, Note]) -> str:
+        words = list[str]()
+        for k in np.argsort(-gain, kind="stable"):
+            least, greatest, text = notes.get(self.names[k], NO_NOTE)
+            if gain[k] > 0 and least <= row[k] <= greatest and text not in words:
+                words.append(text)
+        return ", ".join(words[:REASONS]) or "shaped and placed like other such parts"
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.scoring.classifier import Classifier
+from anymesh.scoring.classifier import Classifier, Note
 from anymesh.segmentation.candidate_relations import relations
 from anymesh.segmentation.part_candidates import PartCandidates
 
@@ -17,6 +17,24 @@ Reasons = Callable[[Sequence[int]], list[str]]
 # Chosen on kinds left out of training: a higher F1 on fused surfaces, and the same on other objects.
 CUT_SCORE = 0.5
 CUT = "parted by creases"  # the feature that is 1 for such a part
+
+NOTES: Mapping[str, Note] = {  # what a feature means to a user, from a least to a greatest value
+    "separate": (1.0, 1.0, "hardly touches the rest"),
+    "contact area": (0.0, 0.01, "hardly touches the rest"),
+    "rims with clearance": (1.0, 4.0, "a gap along its rim"),
+    "flush rim": (0.5, 1.0, "flush with the rest"),
+    "parted by creases": (1.0, 1.0, "creases along its rim"),
+    "insertion depth": (0.02, np.inf, "reaches into the case"),
+    "enclosed": (0.5, 1.0, "set into the case"),
+    "open behind": (0.5, 1.0, "covers an opening"),
+    "blocked outward": (0.0, 0.1, "free to come out"),
+    "two pivots": (0.5, 1.0, "held at two points"),
+    "roundness": (0.75, 1.0, "round"),
+    "handle": (1.0, 1.0, "something to grip"),
+    "bar handle": (1.0, 1.0, "something to grip"),
+    "log copies": (0.5, np.inf, "one of several alike"),
+    "material of its own": (0.5, 1.0, "a material of its own"),
+}
 
 
 def score_parts(
@@ -32,7 +50,7 @@ def score_parts(
     own, contacts = classifier.table(features), candidates.contacts
     pairs = relations(candidates.overlap, candidates.members, contacts.area_matrix, contacts.near, place)
     score = combined(classifier.score(own), classifier.score_together(own, place, pairs), is_cut(own, classifier.names))
-    return score, lambda chosen: classifier.reasons(own[list(chosen)])
+    return score, lambda chosen: classifier.reasons(own[list(chosen)], NOTES)
 
 
 def is_cut(own: Float[np.ndarray, "n k"], names: Sequence[str]) -> Bool[np.ndarray, " n"]:

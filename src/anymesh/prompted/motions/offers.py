@@ -119,12 +119,7 @@ def scored_motions(case: PartCase) -> MotionQuestion:
         best, other = sorted((k, k + 1), key=lambda i: (not question.candidates[i].is_free, -scores[i]))
         c = question.candidates[other]
         chosen += [best] if c.is_endless or c.role == "asked" or not c.is_free else [best, other]
-    return MotionQuestion(
-        question.part,
-        tuple(question.candidates[k] for k in chosen),
-        question.scores[chosen],
-        lambda k: question.reason(chosen[k]),
-    )
+    return MotionQuestion(question.part, tuple(question.candidates[k] for k in chosen), question.scores[chosen])
 
 
 def fits(c: Candidate, kind: JointAppearance) -> bool:

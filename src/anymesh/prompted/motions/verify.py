@@ -125,7 +125,7 @@ def _chosen(answers: PartAnswers, probability: Float[np.ndarray, " m"], fit: Par
     if probability[-1] > of_joint[likeliest] or (fixed and not answers.picks):
         why = "answered: it does not move" if fixed else "no motion agrees with the answers"
         return Choice(o.motions[_fallback(o)], why, min(float(probability[-1]), highest), fit, moves=False)
-    why = f"{_basis(answers, likeliest)}: {reason(o.facts, o.motions[likeliest])}"
+    why = f"{_basis(answers, likeliest)}: {reason(o.motions[likeliest])}"
     return Choice(o.motions[likeliest], why, min(of_joint[likeliest], highest), fit)
 
 
