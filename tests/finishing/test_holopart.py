@@ -32,7 +32,7 @@ def cupboard() -> Asset:
 
 
 def completer(folder: Path, fault: str = "", timeout: float = 60.0) -> HoloPart:
-    return HoloPart(open_holopart(f"{checkout(folder / 'HoloPart', fault)}#{sys.executable}", timeout=timeout))
+    return HoloPart(open_holopart(f"{checkout(folder / 'HoloPart', fault)}#{sys.executable}", timeout=timeout).complete)
 
 
 def thickness(mesh) -> float:
@@ -65,7 +65,7 @@ class Echo:
     def __init__(self, change: Callable[[dict[str, Mesh]], dict[str, Mesh]]) -> None:
         self.change = change
 
-    def complete(self, glb: bytes) -> bytes:
+    def __call__(self, glb: bytes) -> bytes:
         return scene_glb(self.change(read_pieces(glb)), np.eye(4))
 
 

@@ -13,7 +13,7 @@ from anymesh.checking.engines.files import MJCF, find_description, kind_of
 from anymesh.checking.engines.mjcf_ import read_mjcf
 from anymesh.checking.engines.mujoco_ import rest_contacts
 from anymesh.checking.engines.robot import Robot, read_urdf
-from anymesh.checking.joints import check_direction, check_joints, motion_findings, sweep_all
+from anymesh.checking.joints import check_direction, check_joints, check_motion
 from anymesh.checking.report import CheckReport, Finding, Severity, failure
 from anymesh.checking.schema_ import NAME, SCHEMA, check_asset_json, check_files, check_naming, check_tree
 from anymesh.checking.shapes import check_meshes, check_scale, check_texture
@@ -42,10 +42,10 @@ def check_asset(path: str | Path, *, engines: Sequence[str] = ("mujoco",)) -> Ch
     sweeps: list[SweepReport] = []
     if any(f.check in (SCHEMA, "joints") and f.severity is Severity.FAILURE for f in findings):
         chosen = ()  # engines disagree on what is broken, or end the process
-    for engine, outcome in sweep_all(file, chosen):
-        findings += motion_findings(engine, outcome)
-        if isinstance(outcome, SweepReport):
-            sweeps.append(outcome)
+    for engine in chosen:
+        found, sweep = check_motion(file, engine)
+        findings += found
+        sweeps += [] if sweep is None else [sweep]
     return CheckReport(str(path), tuple(findings), tuple(sweeps))
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
@@ -15,10 +15,9 @@ from anymesh.checking.report import Finding, Severity, failure, warning
 from anymesh.errors import InputError, MissingExtraError
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.sweep import Obstacles, free_amount
-from anymesh.geometry.topology import components
+from anymesh.geometry.topology import triangle_set_of
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import JointType, Motion
-from anymesh.types.triangles import normals_and_areas
 
 JOINTS = "joints"
 TYPES = (*MOVING, "fixed", "floating", "planar")
@@ -107,17 +106,7 @@ def check_direction(content: Content) -> Iterator[Finding]:
         rest = content.at_rest(groups[joint.parent] - content.robot.carried(joint.child))
         usable = length > 0 and joint.range[0] < joint.range[1] and len(part) and len(rest)
         if usable and np.isfinite(part).all() and np.isfinite(rest).all():
-            yield from _ways(content, joint, _shape(part), _shape(rest))
-
-
-def _shape(triangles: np.ndarray) -> TriangleSet:
-    """Convert triangles to a set for sweeps, with outward normals where closed."""
-    triangles = simplify(triangles, FACES)
-    corners = triangles.reshape(-1, 3)
-    surface_components = components(corners, np.arange(len(corners)).reshape(-1, 3))
-    normals = normals_and_areas(triangles)[0]
-    normals = np.where(surface_components.flip[:, None], -normals, normals)
-    return TriangleSet(triangles, normals, surface_components.solid[surface_components.label], np.arange(len(triangles)))
+            yield from _ways(content, joint, *(triangle_set_of(simplify(shape, FACES)) for shape in (part, rest)))
 
 
 def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: TriangleSet) -> Iterator[Finding]:
@@ -143,27 +132,20 @@ def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: Triangle
             yield warning(DIRECTION, joint.name, f"{problem}; the visible surfaces meet")
 
 
-def sweep_all(path: Path, engines: Sequence[str]) -> Iterator[tuple[str, SweepReport | InputError | MissingExtraError]]:
-    """Yield each engine with its report, or with the error that prevented it."""
-    for engine in engines:
-        try:
-            yield engine, sweep_in(engine, path)
-        except (InputError, MissingExtraError) as error:
-            yield engine, error
+def check_motion(path: Path, engine: str) -> tuple[list[Finding], SweepReport | None]:
+    """Drive every joint in an engine; also return its report, None without one.
 
-
-def motion_findings(engine: str, outcome: SweepReport | InputError | MissingExtraError) -> Iterator[Finding]:
-    """Yield a failure for each fault of a joint, or if the engine cannot load the file; a warning if it is not installed."""
-    if isinstance(outcome, MissingExtraError):
-        yield warning(MOTION, engine, str(outcome))
-        return
-    if isinstance(outcome, InputError):
-        yield failure(MOTION, engine, str(outcome))
-        return
-    for joint in outcome.joints:
-        for fault in joint.faults:
-            yield failure(MOTION, joint.name, f"{outcome.engine}: {fault}")
-    if outcome.ok:
-        opened = [f"{j.name} after {' and '.join(j.opened)} opened" for j in outcome.joints if j.opened]
+    There is a failure for each fault of a joint, or if the engine cannot load the file, and a warning if it is not installed.
+    """
+    try:
+        report = sweep_in(engine, path)
+    except MissingExtraError as error:
+        return [warning(MOTION, engine, str(error))], None
+    except InputError as error:
+        return [failure(MOTION, engine, str(error))], None
+    findings = [failure(MOTION, j.name, f"{report.engine}: {fault}") for j in report.joints for fault in j.faults]
+    if report.ok:
+        opened = [f"{j.name} after {' and '.join(j.opened)} opened" for j in report.joints if j.opened]
         note = f" ({'; '.join(opened)})" if opened else ""
-        yield Finding(MOTION, Severity.OK, outcome.engine, f"{len(outcome.joints)} joints reach both limits{note}")
+        findings.append(Finding(MOTION, Severity.OK, report.engine, f"{len(report.joints)} joints reach both limits{note}"))
+    return findings, report

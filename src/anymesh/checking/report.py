@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass
 from enum import StrEnum
 from typing import Any
 
-from anymesh.checking.engines.driving import SweepReport, as_record
+from anymesh.checking.engines.driving import SweepReport
 
 
 class Severity(StrEnum):
@@ -55,7 +55,7 @@ class CheckReport:
             "failures": self.count(Severity.FAILURE),
             "warnings": self.count(Severity.WARNING),
             "findings": [asdict(f) for f in self.findings],
-            "sweeps": [as_record(s) for s in self.sweeps],
+            "sweeps": [asdict(s) for s in self.sweeps],
         }
 
     def lines(self) -> tuple[str, ...]:

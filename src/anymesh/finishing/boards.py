@@ -1,8 +1,8 @@
-"""Boards and trays, as closed surfaces."""
+"""Boards behind panels, as closed surfaces: walls of cavities whose body is far away, and boxes of drawers."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from itertools import product
 
 import numpy as np
@@ -11,7 +11,7 @@ from jaxtyping import Float
 from anymesh.finishing.panels import PanelBox
 from anymesh.finishing.protocol import ShapeConfig
 from anymesh.finishing.scenes import Growing, moves_freely, scene_of
-from anymesh.geometry.raycast_ import RayScene
+from anymesh.geometry.raycast_ import Hits, RayScene
 from anymesh.types import JointType
 
 _CORNERS = np.array([[x, y, z] for x in (0, 1) for y in (0, 1) for z in (0, 1)])
@@ -28,7 +28,7 @@ COVERS = 0.3  # minimum share of the body's side covered by panels with separate
 FIRST = 0.4  # share of the cavity's depth within which the body's face lies
 STRAIGHT = 0.95  # minimum cosine between the slide and the cavity's direction
 UPRIGHT = 0.5  # minimum vertical component of a box's up direction
-SECTION_PROBES = 12  # rays along each direction
+INNER = np.r_[0.02, (np.arange(1, 11) + 0.5) / 12, 0.98]  # shares of a section at which rays start
 THIN = 0.08  # maximum thickness of a box's wall, as a share of its smallest side
 HAS_SIDE = 0.6  # minimum share of the rays that hit a side of an existing box
 TRIES = (1.0, 2.0, 4.0)  # multiples of the clearance on each side, tried until the box moves freely
@@ -72,16 +72,16 @@ def add_walls(panel: PanelBox, panels: Sequence[PanelBox], growing: Growing, con
     if body is None or movers is None or _covered(panel, panels, standing) < COVERS:
         return
     for axis, sign in product((0, 1), (-1.0, 1.0)):
-        if np.isfinite(_side(panel, axis, sign, body, wall)):
+        corners = None if np.isfinite(_side(panel, axis, sign, body, wall)) else _rail(panel, panels, axis, sign, body, wall)
+        if corners is None:
             continue
-        for low, high in _boards(panel, panels, axis, sign, body, wall):
-            clear = config.clearance * growing.scenes.diagonal
-            for first in (low[2], panel.low[2] + clear):  # beside the panel, or else behind it
-                low[2] = first
-                new = board(low, high, panel.axes)
-                if not crosses(movers, low, high, panel.axes) and moves_freely(panel.part, growing, growing, beside=new):
-                    growing.add(parent, new, ["wall added beside the cavity of a moving part"])
-                    break
+        low, high = corners
+        for first in (low[2], panel.low[2] + config.clearance * growing.scenes.diagonal):  # beside the panel, or behind it
+            low[2] = first
+            new = board(low, high, panel.axes)
+            if not crosses(movers, low, high, panel.axes) and moves_freely(panel.part, growing, growing, beside=new):
+                growing.add(parent, new, ["wall added beside the cavity of a moving part"])
+                break
 
 
 def _covered(panel: PanelBox, panels: Sequence[PanelBox], standing: Float[np.ndarray, "n 3 3"]) -> float:
@@ -97,24 +97,16 @@ def _alike(panel: PanelBox, other: PanelBox) -> bool:
 
 def _side(panel: PanelBox, axis: int, sign: float, base: RayScene, wall: float) -> float:
     """Compute the distance from an edge of the cavity to the body's side beyond it [m]; infinite if there is none nearby."""
-    other = 1 - axis
-    size = panel.high - panel.low
     share = (np.arange(PROBES) + 0.5) / PROBES
-    along, deep = np.meshgrid(panel.low[other] + share * size[other], panel.low[2] + (0.2 + 0.6 * share) * size[2])
-    local = np.zeros((along.size, 3))
-    local[:, axis] = (panel.high if sign > 0 else panel.low)[axis] - sign * wall
-    local[:, other], local[:, 2] = along.reshape(-1), deep.reshape(-1)
-    ways = np.repeat(sign * panel.axes[axis][None], len(local), 0)
-    return float(np.median(base.first_hit(local @ panel.axes, ways, (MAX_SIDE_GAP_WALLS + 1) * wall).distance) - wall)
+    level = float((panel.high if sign > 0 else panel.low)[axis] - sign * wall)
+    local = _section(axis, level, panel.low, panel.high, (share, 0.2 + 0.6 * share))
+    return float(np.median(_cast(base, local, panel.axes, axis, sign, (MAX_SIDE_GAP_WALLS + 1) * wall).distance) - wall)
 
 
-def _boards(
+def _rail(
     panel: PanelBox, panels: Sequence[PanelBox], axis: int, sign: float, base: RayScene, wall: float
-) -> Iterator[tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 3"]]]:
-    """Yield the corners of the board at an edge of the cavity.
-
-    There is none where the next cavity begins, unless a rail separates them.
-    """
+) -> tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 3"]] | None:
+    """Return the corners of the board at an edge of the cavity; None where the next cavity begins without a rail between."""
     edge = float((panel.high if sign > 0 else panel.low)[axis])
     beside = [
         (gap, f) for f in panels if (gap := _gap(panel, f, axis, sign)) is not None and -wall < gap < MAX_SIDE_GAP_WALLS * wall
@@ -123,7 +115,7 @@ def _boards(
     if beside:
         thick, neighbour = min(beside, key=lambda pair: abs(pair[0]))
         if neighbour.part < panel.part or thick < wall / 4:
-            return
+            return None
     low, high = panel.low.copy(), panel.high.copy()
     for side, end in ((-1.0, low), (1.0, high)):  # into the body's sides if they are near, else into the next board
         far = _side(panel, 1 - axis, side, base, wall)
@@ -131,11 +123,10 @@ def _boards(
     low[axis], high[axis] = (edge, edge + thick) if sign > 0 else (edge - thick, edge)
     face = _face_level(panel, low, high, axis, base)
     if beside and face is None:
-        return
+        return None
     low[2] = panel.low[2] if face is None else face + min(wall, float(panel.high[2] - face)) / 2
     high[2] = _back_level(panel, low, high, axis, base) + INTO * wall
-    if high[2] > low[2]:
-        yield low, high
+    return (low, high) if high[2] > low[2] else None
 
 
 def _back_level(panel: PanelBox, low: np.ndarray, high: np.ndarray, axis: int, base: RayScene) -> float:
@@ -143,8 +134,8 @@ def _back_level(panel: PanelBox, low: np.ndarray, high: np.ndarray, axis: int, b
     local = _along(panel, low, high, axis)
     local[:, 2] = (low[2] + panel.high[2]) / 2
     far = float(panel.high[2] - low[2])
-    hits = base.first_hit(local @ panel.axes, np.repeat(panel.axes[2][None], len(local), 0), far)
-    return float(local[0, 2] + np.median(np.minimum(hits.distance, far)))
+    distance = _cast(base, local, panel.axes, 2, 1.0, far).distance
+    return float(local[0, 2] + np.median(np.minimum(distance, far)))
 
 
 def _along(panel: PanelBox, low: np.ndarray, high: np.ndarray, axis: int) -> Float[np.ndarray, "n 3"]:
@@ -173,7 +164,7 @@ def _face_level(panel: PanelBox, low: np.ndarray, high: np.ndarray, axis: int, b
     local = _along(panel, low, high, axis)
     depth = float(panel.high[2] - panel.low[2])
     local[:, 2] = panel.low[2] - depth
-    level = base.first_hit(local @ panel.axes, np.repeat(panel.axes[2][None], len(local), 0), (1 + FIRST) * depth).distance
+    level = _cast(base, local, panel.axes, 2, 1.0, (1 + FIRST) * depth).distance
     hit = np.isfinite(level)
     return float(np.median(level[hit]) + local[0, 2]) if hit.mean() > THERE else None
 
@@ -185,14 +176,26 @@ def crosses(
     share = (np.arange(PROBES) + 0.5) / PROBES
     low, high = low + INSET * (high - low), high - INSET * (high - low)
     for k in range(3):
-        u, v = (k + 1) % 3, (k + 2) % 3
-        local = np.zeros((PROBES**2, 3))
-        at = np.stack(np.meshgrid(share, share), -1).reshape(-1, 2)
-        local[:, u], local[:, v], local[:, k] = low[u] + at[:, 0] * (high - low)[u], low[v] + at[:, 1] * (high - low)[v], low[k]
-        ways = np.repeat(axes[k][None], len(local), 0)
-        if (scene.first_hit(local @ axes, ways, float(high[k] - low[k])).face >= 0).any():
+        local = _section(k, float(low[k]), low, high, (share, share))
+        if (_cast(scene, local, axes, k, 1.0, float(high[k] - low[k])).face >= 0).any():
             return True
     return False
+
+
+def _section(
+    axis: int, level: float, low: np.ndarray, high: np.ndarray, shares: tuple[np.ndarray, np.ndarray]
+) -> Float[np.ndarray, "n 3"]:
+    """Return points over a section of a box at a level along one axis, at shares of its sides along the other two."""
+    at = np.stack(np.meshgrid(*shares, indexing="ij"), -1).reshape(-1, 2)
+    local = np.full((len(at), 3), level)
+    for column, k in enumerate(k for k in range(3) if k != axis):
+        local[:, k] = low[k] + at[:, column] * (high[k] - low[k])
+    return local
+
+
+def _cast(scene: RayScene, local: np.ndarray, axes: np.ndarray, axis: int, sign: float, far: float) -> Hits:
+    """Cast rays from points in the frame of `axes` (rows) along one of these axes."""
+    return scene.first_hit(local @ axes, np.repeat(sign * axes[axis][None], len(local), 0), far)
 
 
 def add_box(panel: PanelBox, growing: Growing, config: ShapeConfig) -> None:
@@ -214,7 +217,8 @@ def add_box(panel: PanelBox, growing: Growing, config: ShapeConfig) -> None:
         wall = min(config.wall * growing.scenes.diagonal, THIN * float((high - low).min()))
         if wall <= config.sheet * growing.scenes.diagonal:
             continue
-        box = _upwards(low, high, panel.axes, wall)
+        order = [2, 0, 1]  # open along the second of the panel's axes
+        box = tray(low[order], high[order], panel.axes[order], wall)
         if moves_freely(panel.part, growing, growing, added=box):
             reach = high[2] - low[2]
             growing.add(
@@ -222,12 +226,6 @@ def add_box(panel: PanelBox, growing: Growing, config: ShapeConfig) -> None:
             )
             return
     growing.add(panel.part, np.zeros((0, 3, 3)), ["no drawer box added: none moves without collision"])
-
-
-def _upwards(low: np.ndarray, high: np.ndarray, axes: np.ndarray, wall: float) -> Float[np.ndarray, "n 3 3"]:
-    """Return a tray that is open along the second of the axes."""
-    order = [2, 0, 1]
-    return tray(low[order], high[order], axes[order], wall)
 
 
 def _inside(panel: PanelBox, others: RayScene, own: RayScene, clear: float) -> tuple[np.ndarray, np.ndarray]:
@@ -247,26 +245,14 @@ def _inside(panel: PanelBox, others: RayScene, own: RayScene, clear: float) -> t
     return low, high
 
 
-def _grid(axes: np.ndarray, axis: int, level: float, low: np.ndarray, high: np.ndarray) -> Float[np.ndarray, "n 3"]:
-    """Return points over a section of a box, at a level along one of its axes, away from its edges."""
-    share = (np.arange(SECTION_PROBES) + 0.5) / SECTION_PROBES
-    share[0], share[-1] = 0.02, 0.98
-    at = np.stack(np.meshgrid(share, share, indexing="ij"), -1).reshape(-1, 2)
-    local = np.full((len(at), 3), level)
-    for column, k in enumerate(a for a in range(3) if a != axis):
-        local[:, k] = low[k] + at[:, column] * (high[k] - low[k])
-    return local @ axes
-
-
 def _way(
     axes: np.ndarray, axis: int, sign: float, level: float, low: np.ndarray, high: np.ndarray, scenes: tuple[RayScene, ...]
 ) -> float:
     """Compute the distance from a section of a box to the first surface along one of its axes [m]."""
     skip = 1e-3 * float((high - low)[axis])
-    start = _grid(axes, axis, level + sign * skip, low, high)
-    ways = np.repeat(sign * axes[axis][None], len(start), 0)
+    local = _section(axis, level + sign * skip, low, high, (INNER, INNER))
     far = 2 * float(np.abs(high - low).max())
-    return min(float(np.minimum(s.first_hit(start, ways, far).distance, far).min()) for s in scenes) + skip
+    return min(float(np.minimum(_cast(s, local, axes, axis, sign, far).distance, far).min()) for s in scenes) + skip
 
 
 def _has_box(panel: PanelBox, own: RayScene) -> bool:
@@ -275,8 +261,7 @@ def _has_box(panel: PanelBox, own: RayScene) -> bool:
     for axis, sign in ((0, -1.0), (0, 1.0), (1, -1.0), (2, 1.0)):
         low, high = middle - size / 4, middle + size / 4
         low[1] = high[1] = panel.low[1] + 0.3 * size[1]
-        start = _grid(panel.axes, axis, float(low[1] if axis == 1 else middle[axis]), low, high)
-        hits = own.first_hit(start, np.repeat(sign * panel.axes[axis][None], len(start), 0), float(size[axis]))
-        if (hits.face >= 0).mean() < HAS_SIDE:
+        local = _section(axis, float(low[1] if axis == 1 else middle[axis]), low, high, (INNER, INNER))
+        if (_cast(own, local, panel.axes, axis, sign, float(size[axis])).face >= 0).mean() < HAS_SIDE:
             return False
     return True

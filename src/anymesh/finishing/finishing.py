@@ -41,7 +41,7 @@ def open_completer(name: str, *, timeout: float = 1800.0) -> Completer | None:
         return None
     if kind != "holopart":
         raise OptionError(f"--completer: found {name!r}; valid are builtin, off, {VALID}")
-    return HoloPart(open_holopart(where, timeout=timeout))
+    return HoloPart(open_holopart(where, timeout=timeout).complete)
 
 
 def open_retexturer(

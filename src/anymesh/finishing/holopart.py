@@ -1,4 +1,8 @@
-"""Completion of parts by HoloPart: the parts are scaled, thickened and sent, and matched in the result (paper, 3.4)."""
+"""Completion of parts by HoloPart (Yang et al. 2025): they are scaled, thickened, sent, and matched in the result (paper, 3.4).
+
+HoloPart is the authors' released code. It needs a GPU and its own environment, so it is never imported: it runs in its checkout as a
+separate process, or behind HTTP. Both take a GLB with one geometry per part and return one with the completed parts.
+"""
 
 from __future__ import annotations
 
@@ -8,10 +12,9 @@ import shutil
 import signal
 import subprocess
 import tempfile
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -45,19 +48,7 @@ class CrashError(ModelError):
     """HoloPart ran and failed."""
 
 
-@runtime_checkable
-class PartService(Protocol):
-    """Protocol of a service that completes the parts of a scene."""
-
-    def complete(self, glb: bytes) -> bytes:
-        """Return the GLB of the completed parts.
-
-        Raise CrashError if the service fails on this scene, ModelError if it cannot be used.
-        """
-        ...
-
-
-def open_holopart(where: str, *, timeout: float = 1800.0, seed: int = 0) -> PartService:
+def open_holopart(where: str, *, timeout: float = 1800.0, seed: int = 0) -> PartServer | Checkout:
     """Open a HoloPart checkout or server.
 
     where: URL of a server, or a folder with the checkout, which is run by the Python after `#` (else that of its .venv, else
@@ -239,9 +230,11 @@ class HoloPart:
     """Completer by HoloPart. Closed parts are sent as context for the others, but stay unchanged.
 
     After a crash it is called once more with twice the thickness, since thin parts are a known cause of crashes.
+    service: returns the GLB of the completed parts of a GLB. It raises CrashError if it fails on these parts, ModelError if it
+    cannot be used.
     """
 
-    service: PartService
+    service: Callable[[bytes], bytes]
     name: str = "holopart"
 
     def complete(self, asset: Asset) -> Mapping[str, PartMesh]:
@@ -263,7 +256,7 @@ class HoloPart:
         if all(part.closed for part in parts.values()):
             return {}
         T = box_transform(asset.mesh)
-        glb = self.service.complete(scene_glb({name: _mesh(name, part) for name, part in parts.items()}, T))
+        glb = self.service(scene_glb({name: _mesh(name, part) for name, part in parts.items()}, T))
         pieces = {name: _moved(mesh, np.linalg.inv(T)) for name, mesh in read_pieces(glb).items()}
         matched = match_pieces(pieces, {name: part.mesh for name, part in parts.items()})
         return {name: matched[name] for name, part in parts.items() if not part.closed and name in matched}

@@ -13,10 +13,9 @@ from anymesh.config import ArticulationConfig
 from anymesh.geometry.kinematics import joint_motion, link_transforms
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.sweep import Obstacles, free_amount
-from anymesh.geometry.topology import components
-from anymesh.geometry.triangle_set import SurfacePoints, TriangleSet, sample_surface, spread_directions
+from anymesh.geometry.topology import triangle_set_of
+from anymesh.geometry.triangle_set import SurfacePoints, sample_surface, spread_directions
 from anymesh.types import Asset, Joint, JointType, Mesh
-from anymesh.types.triangles import normals_and_areas
 
 PROBES = 20_000  # points on the surface, besides the centroid of every face
 DIRECTIONS = 96  # directions from which each point is viewed
@@ -69,6 +68,7 @@ class Scenes:
     """The original surface. Part numbers are those of the asset's segmentation."""
 
     asset: Asset
+    _opened: dict[int, RayScene] = field(default_factory=dict, init=False)
 
     @cached_property
     def diagonal(self) -> float:
@@ -106,20 +106,13 @@ class Scenes:
         moved = link_transforms(self.asset, wide)
         return np.stack([moved[p.name] for p in self.asset.segmentation.parts])
 
-    @cached_property
-    def _opened_scenes(self) -> dict[int, RayScene]:
-        return {}
-
     def scene_opened(self, part: int) -> RayScene:
         """Return the surface with all descendants of `part` at their widest positions."""
-        if part not in self._opened_scenes:
-            self._opened_scenes[part] = self._scene_opened(part)
-        return self._opened_scenes[part]
-
-    def _scene_opened(self, part: int) -> RayScene:
-        T = self.opened(part)[self.asset.segmentation.face_part]
-        t = np.einsum("fij,fkj->fki", T[:, :3, :3], self.asset.mesh.triangles) + T[:, None, :3, 3]
-        return RayScene(t.reshape(-1, 3), np.arange(3 * len(t)).reshape(-1, 3))
+        if part not in self._opened:
+            T = self.opened(part)[self.asset.segmentation.face_part]
+            t = np.einsum("fij,fkj->fki", T[:, :3, :3], self.asset.mesh.triangles) + T[:, None, :3, 3]
+            self._opened[part] = RayScene(t.reshape(-1, 3), np.arange(3 * len(t)).reshape(-1, 3))
+        return self._opened[part]
 
     def seen(self, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, "n 2"]:
         """Return which points are visible at rest from the side of their normals, and which from the other side."""
@@ -222,31 +215,15 @@ def moves_freely(
     others = [k for k in scenes.order if k not in carried]
     tolerance = ArticulationConfig().penetration * scenes.diagonal
     own, rest = (np.concatenate([growing.triangles(*k), new]) for k, new in ((carried, added), (others, beside)))
-    after = Obstacles(shape_of(own), shape_of(rest), tolerance)
+    after = Obstacles(triangle_set_of(own), triangle_set_of(rest), tolerance)
     motion = joint_motion(joint)
-    for sign, most in limits_of(joint):
+    low, high = (-np.pi, np.pi) if joint.limits is None else joint.limits
+    for sign, most in ((1, float(high)), (-1, -float(low))):
+        if most <= 0:  # this limit is at rest
+            continue
         now = free_amount(after, motion, sign, most, STEPS)[0]
         if now < (1 - LOSS) * most:
-            old, about = (shape_of(before.triangles(*k)) for k in (carried, others))
+            old, about = (triangle_set_of(before.triangles(*k)) for k in (carried, others))
             if now < free_amount(Obstacles(old, about, tolerance), motion, sign, most, STEPS)[0] - LOSS * most:
                 return False
     return True
-
-
-def limits_of(joint: Joint) -> list[tuple[int, float]]:
-    """Return sign and distance to each limit that is not at rest [rad or m]; half a turn each way without limits."""
-    low, high = (-np.pi, np.pi) if joint.limits is None else joint.limits
-    return [(sign, amount) for sign, amount in ((1, float(high)), (-1, -float(low))) if amount > 0]
-
-
-def shape_of(triangles: Float[np.ndarray, "n 3 3"]) -> TriangleSet:
-    """Convert triangles to a set for sweeps; closed components are oriented outwards."""
-    corners = triangles.reshape(-1, 3)
-    surface_components = components(corners, np.arange(len(corners)).reshape(-1, 3))
-    normals = normals_and_areas(triangles)[0]
-    return TriangleSet(
-        triangles,
-        np.where(surface_components.flip[:, None], -normals, normals),
-        surface_components.solid[surface_components.label],
-        np.arange(len(triangles)),
-    )

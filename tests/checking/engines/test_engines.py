@@ -1,6 +1,7 @@
 """The engines by name, in processes of their own, and the loop that drives a joint in each of them."""
 
 import sys
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -8,7 +9,7 @@ import pytest
 from drawn import chest
 
 from anymesh.checking.engines import ENGINES, sweep_in
-from anymesh.checking.engines.driving import STEP, as_record, drive, from_record, motors_of, readable
+from anymesh.checking.engines.driving import STEP, drive, from_record, motors_of, readable
 from anymesh.checking.engines.robot import read_urdf
 from anymesh.errors import InputError, MissingExtraError, OptionError
 
@@ -107,7 +108,7 @@ def test_mujoco_apart_tells_what_it_tells_here(tmp_path):
     path = chest(tmp_path)
     here, apart = sweep_in("mujoco", path), sweep_in("mujoco", path, apart=True)
     assert here.ok
-    assert here == apart == from_record(as_record(here))
+    assert here == apart == from_record(asdict(here))
 
 
 def test_a_file_that_cannot_be_loaded_is_one_error_from_the_other_process(tmp_path):

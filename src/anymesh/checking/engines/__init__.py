@@ -9,10 +9,11 @@ import json
 import subprocess
 import sys
 import tempfile
+from dataclasses import asdict
 from importlib import import_module
 from pathlib import Path
 
-from anymesh.checking.engines.driving import SweepReport, as_record, drive, from_record, motors_of, readable
+from anymesh.checking.engines.driving import SweepReport, drive, from_record, motors_of, readable
 from anymesh.checking.engines.robot import read_urdf
 from anymesh.errors import AnymeshError, InputError, MissingExtraError, OptionError
 
@@ -66,7 +67,7 @@ def _apart(engine: str, path: Path, python: str) -> SweepReport:
 def answer(engine: str, path: str, file: str) -> None:
     """Write the report or the error to `file` as JSON, atomically; main function of the process."""
     try:
-        record = as_record(sweep_in(engine, Path(path), apart=False))
+        record = asdict(sweep_in(engine, Path(path), apart=False))
     except Exception as error:
         kind = type(error).__name__
         told = str(error) if kind in KINDS else f"{engine} on {Path(path).name}: {kind}: {error}"

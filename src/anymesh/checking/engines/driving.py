@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from importlib import import_module
 from importlib.metadata import version
 from types import ModuleType
@@ -68,13 +68,8 @@ class SweepReport:
         return all(joint.ok for joint in self.joints)
 
 
-def as_record(report: SweepReport) -> dict[str, Any]:
-    """Convert the report to plain values for JSON."""
-    return asdict(report)
-
-
 def from_record(record: Mapping[str, Any]) -> SweepReport:
-    """Restore the report from the values of `as_record`."""
+    """Restore the report from plain values, as `dataclasses.asdict` makes them."""
     lists: list[dict[str, Any]] = [dict(j, faults=tuple(j["faults"]), opened=tuple(j["opened"])) for j in record["joints"]]
     joints = tuple(JointSweep(**values) for values in lists)
     return SweepReport(record["engine"], joints, tuple((a, b, why) for a, b, why in record["excluded"]))
