@@ -1,7 +1,7 @@
 """Completion of parts by HoloPart (Yang et al. 2025): they are scaled, thickened, sent, and matched in the result (paper, 3.4).
 
-HoloPart is the authors' released code. It needs a GPU and its own environment, so it is never imported: it runs in its checkout as a
-separate process, or behind HTTP. Both take a GLB with one geometry per part and return one with the completed parts.
+HoloPart is the authors' released code. It needs a GPU and its own environment, so it runs as a separate process in its own
+checkout, or behind HTTP. Both take a GLB with one geometry per part and return one with the completed parts.
 """
 
 from __future__ import annotations
