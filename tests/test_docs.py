@@ -125,7 +125,7 @@ def test_options_in_prose_exist_somewhere() -> None:
     }
     scripts = "".join(
         path.read_text(encoding="utf-8")
-        for folder in ("benchmarks", "training")
+        for folder in ("benchmarks", "training", "docs")
         for path in sorted((ROOT / folder).glob("**/*.py"))
     )
     foreign = {"--install-completion", "--mesh-input", "--output-dir"}

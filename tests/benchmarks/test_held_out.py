@@ -9,7 +9,7 @@ import pytest
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.training import trained_objects
-from benchmarks import held_out, still_models
+from benchmarks import held_out
 from training.kinds import __main__ as command
 from training.kinds import registry as kinds
 
@@ -68,11 +68,11 @@ def test_the_baseline_has_a_figure_of_each_kind() -> None:
 def test_no_model_that_should_stay_without_parts_is_trained_on() -> None:
     trained = set(trained_objects())
     assert "sweethome3d/fridgeFreezer" in trained
-    assert not {f"sweethome3d/{name}" for name in still_models.STILL} & trained
+    assert not {f"sweethome3d/{name}" for name in held_out.STILL} & trained
 
 
 def test_the_page_of_models_that_do_not_move_counts_objects_and_parts() -> None:
     records = [Record(ObjectScore(f"{name}-{name}", (), count, 0, 0)) for name, count in [("bed", 0), ("bath", 4), ("lamp", 1)]]
-    lines = still_models.page(records).splitlines()
+    lines = held_out.still_page(records).splitlines()
     assert "On 1 of them no part is found; on the others 5:" in lines
     assert "bath (4), lamp." in lines

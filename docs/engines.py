@@ -1,6 +1,6 @@
 """Which engines move which assets: every joint driven over its range, in each engine that is installed.
 
-python -m benchmarks.engines [--python ENGINE=INTERPRETER ...] [--engine NAME ...] [--page docs/engines.md] [ASSET ...]
+python docs/engines.py [--python ENGINE=INTERPRETER ...] [--engine NAME ...] [--page docs/engines.md] [ASSET ...]
 
 ASSET: a folder of an asset, a URDF or an MJCF; without any, the examples named below are made first. Engines do not get on
 in one environment, so each may have an interpreter of its own; it needs numpy, scipy and jaxtyping beside the engine. With

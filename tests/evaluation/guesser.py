@@ -1,26 +1,12 @@
-"""Does the visual method end with a result, whatever is answered? Valid answers drawn at random, over data sets.
-
-python -m benchmarks.guesses                                          the examples
-python -m benchmarks.guesses sweethome3d metaworld urdf:FOLDER --seeds 3 --pictures
-"""
+"""Answerer that draws random answers, valid by the schema of each question."""
 
 from __future__ import annotations
 
-import argparse
-import tempfile
-import time
-import traceback
 from collections.abc import Mapping
-from pathlib import Path
 from typing import Any, cast
 
 import numpy as np
 
-from anymesh.config import Config, GroundingConfig, ViewsConfig
-from anymesh.errors import InputError
-from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.evaluation.ground_truth import prepared
-from anymesh.pipeline.solving import solve
 from anymesh.prompted.questions.asking import check_schema
 from anymesh.prompted.questions.grounding import WhichMarks, WhichViews
 from anymesh.prompted.questions.motion_choice import WhichMotions
@@ -29,9 +15,6 @@ from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import Exchange
 from anymesh.types.motion import BASE
 from anymesh.types.questions import Answer, Question
-
-QUICK = Config(views=ViewsConfig(size=320), grounding=GroundingConfig(points=60_000))
-
 
 WORDS = ("door", "lid", "drawer", "knob", "wheel", "handle", "arm", "button")
 MAX_KINDS, MAX_PARTS = 4, 6  # maximum number of labels, and of parts in an answer about marks
@@ -138,39 +121,3 @@ class Guesser:
                 parts.append({"label": question.labels[k % len(question.labels)], "instance": k + 1, **at, "marks": own})
         split = {"split": self._some(every, RARE)} if question.splittable else {}
         return {"parts": parts, "unsure": self._some(every, RARE), **split}
-
-
-def main() -> None:
-    parser = argparse.ArgumentParser(description="Random valid answers to every question, over data sets: no crash.")
-    parser.add_argument("sets", nargs="*", default=["examples"], help="as for `anymesh eval`")
-    parser.add_argument("--seeds", type=int, default=1, help="runs of each object")
-    parser.add_argument("--pictures", action="store_true", help="draw the pictures too, as for a model")
-    parser.add_argument("--most", type=int, help="objects of each set, evenly spread")
-    options = parser.parse_args()
-    crashes = done = 0
-    for spec in options.sets:
-        dataset = open_dataset(spec)
-        names = list(dataset.objects())
-        for name in names[:: max(1, len(names) // options.most) if options.most else 1]:
-            try:
-                with tempfile.TemporaryDirectory() as folder:
-                    sample = prepared(dataset.truth(name, Path(folder)))
-            except InputError as error:
-                print(f"{name}: {error}", flush=True)
-                continue
-            for seed in range(options.seeds):
-                begin, done = time.perf_counter(), done + 1
-                try:
-                    guesser = Guesser(seed, pictured=options.pictures)
-                    segmentation, joints = solve(sample.mesh, config=QUICK, answerer_factory=lambda _, who=guesser: who)
-                    outcome = f"{len(segmentation.parts) - 1} parts, {len(joints)} joints"
-                except Exception:
-                    crashes += 1
-                    outcome = traceback.format_exc()
-                print(f"{dataset.name} {name}, seed {seed}: {outcome} ({time.perf_counter() - begin:.0f} s)", flush=True)
-    print(f"{crashes} crashes in {done} runs")
-    raise SystemExit(crashes > 0)
-
-
-if __name__ == "__main__":
-    main()
