@@ -211,7 +211,7 @@ def test_no_machine_paths_and_no_registry_addresses() -> None:
             assert not bad.search(path.read_text(errors="replace")), name
 
 
-@pytest.mark.parametrize("folder", ["benchmarks", "examples", "training"])
+@pytest.mark.parametrize("folder", ["benchmarks", "docs", "examples", "training"])
 def test_scripts_import_names_that_exist(folder):
     """No test imports them: a name renamed in the package would break them unseen."""
     missing = []
