@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from anymesh.types import Asset, Joint, JointType, Mesh, Part, Segmentation
     from anymesh.viewer.report_notebook import show
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"  # the only place: pyproject.toml reads it
 __all__ = [
     "AnymeshError",
     "Asset",
