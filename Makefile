@@ -1,7 +1,7 @@
 # The loop of a contributor; CONTRIBUTING.md explains it. PYTHON, JOBS and ARGS can be set: make test ARGS='-k sweep'.
 PYTHON ?= python
 JOBS ?= auto
-CORE = types loading geometry scoring motion segmentation articulation physics rendering export pipeline isolation
+CORE = types loading geometry scoring motion segmentation articulation physics rendering export pipeline isolation cli
 
 .PHONY: lint test test-all docs
 

@@ -22,6 +22,7 @@ DOCS = ROOT / "docs"
 OUTSIDE = {"mujoco", "sapien", "pxr", "isaaclab", "sqlite3"}
 FENCE = re.compile(r"^[ ]*```([\w{}-]*)\n(.*?)^[ ]*```", re.M | re.S)
 LINK = re.compile(r"!?\[(?:[^\[\]]|\[[^\]]*\])*\]\(([^)\s]+)\)")
+NAMED_FILE = re.compile(r"`([\w/]+\.py)`")
 HEADING = re.compile(r"^#{1,6} +(.+?) *#*$", re.M)
 
 
@@ -72,6 +73,15 @@ def test_links_lead_to_files_and_headings(path: Path) -> None:
         assert file == ROOT or ROOT in file.parents, f"{target} leads out of the repository"
         if anchor:
             assert anchor in slugs(file), f"{target}: valid are {sorted(slugs(file))}"
+
+
+def test_python_files_that_are_named_exist() -> None:
+    """A path may be given from any folder on; NAME stands for a file to be written."""
+    tracked = subprocess.run(["git", "ls-files", "*.py"], cwd=ROOT, capture_output=True, text=True).stdout.split()
+    known = {"/".join(parts[k:]) for parts in (name.split("/") for name in tracked) for k in range(len(parts))}
+    for path in (path for path in PAGES if path != HISTORY and tracked):
+        missing = {name for name in NAMED_FILE.findall(path.read_text(encoding="utf-8")) if name not in known}
+        assert not {name for name in missing if not re.search("[A-Z]", name)}, named(path)
 
 
 def commands(text: str) -> Iterator[list[str]]:
