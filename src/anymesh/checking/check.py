@@ -43,8 +43,8 @@ def check_asset(path: str | Path, *, engines: Sequence[str] = ("mujoco",)) -> Ch
     if any(f.check in (SCHEMA, "joints") and f.severity is Severity.FAILURE for f in findings):
         chosen = ()  # engines disagree on what is broken, or end the process
     for engine in chosen:
-        found, sweep = check_motion(file, engine)
-        findings += found
+        of_motion, sweep = check_motion(file, engine)
+        findings += of_motion
         sweeps += [] if sweep is None else [sweep]
     return CheckReport(str(path), tuple(findings), tuple(sweeps))
 
