@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.applications.plan.plans import PlanError
+from anymesh.applications.plan.robot_ import bodies_below, single_joints
 from anymesh.checking.engines.files import find_description
 from anymesh.checking.engines.mujoco_ import read_spec
 from anymesh.errors import InputError, OptionError
@@ -82,9 +83,9 @@ def open_object(path: str | Path, joint: str) -> ArticulatedObject:
         raise InputError(f"MuJoCo cannot load {file}: {' '.join(str(error).split())}") from error
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    number = _joint(mujoco, model, joint)
+    number = _joint(model, joint)
     body = int(model.jnt_bodyid[number])
-    carried = _carried(model, body)
+    carried = tuple(model.body(int(b)).name for b in np.flatnonzero(bodies_below(model, [body])))
     shown = _shown_geoms(model)
     mine = [geom_triangles(mujoco, model, data, g) for g in shown if int(model.geom_bodyid[g]) == body]
     others = [geom_triangles(mujoco, model, data, g) for g in shown if int(model.geom_bodyid[g]) != body]
@@ -115,23 +116,14 @@ def description(path: Path) -> Path:
     return beside if path.is_dir() and beside.is_file() else file
 
 
-def _joint(mujoco: Any, model: Any, name: str) -> int:
-    single = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
-    moving = [j for j in range(model.njnt) if int(model.jnt_type[j]) in single]
+def _joint(model: Any, name: str) -> int:
+    moving = single_joints(model)
     by_name = {model.joint(j).name: j for j in moving}
     by_part = {model.body(int(model.jnt_bodyid[j])).name: j for j in moving}
     index = by_name.get(name, by_part.get(name))
     if index is None:
         raise OptionError(f"--joint: found {name!r}; valid are {', '.join(by_name) or 'none, since no joint moves'}")
     return index
-
-
-def _carried(model: Any, body: int) -> tuple[str, ...]:
-    bodies = {body}
-    for b in range(1, model.nbody):
-        if int(model.body_parentid[b]) in bodies:
-            bodies.add(b)
-    return tuple(model.body(b).name for b in sorted(bodies))
 
 
 def _shown_geoms(model: Any) -> list[int]:

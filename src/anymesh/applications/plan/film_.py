@@ -14,7 +14,7 @@ from anymesh.applications.plan.asset_ import ArticulatedObject, geom_triangles
 from anymesh.applications.plan.hand_ import Hand
 from anymesh.applications.plan.plans import BasePose, Trajectory
 from anymesh.applications.plan.replay_ import Physics, moved
-from anymesh.applications.plan.robot_ import RobotArm
+from anymesh.applications.plan.robot_ import RobotArm, positions_of
 from anymesh.applications.plan.scene_ import OBJECT, ROBOT, compose
 from anymesh.errors import MissingExtraError, OptionError
 from anymesh.geometry.raycast_ import RayScene
@@ -57,11 +57,9 @@ class Film:
     def state(self, trajectory: Trajectory, row: int) -> Float[np.ndarray, " q"]:
         """Return the positions that a trajectory prescribes at one of its samples."""
         q = self.model.qpos0.copy()
-        for name, value in zip(trajectory.joints, trajectory.position[row], strict=True):
-            q[int(self.model.joint(ROBOT + name).qposadr[0])] = value
-        for name, value in zip(self.robot.fingers, self.hand.posture_at(float(trajectory.gap[row])), strict=True):
-            q[int(self.model.joint(ROBOT + name).qposadr[0])] = value
-        q[int(self.model.joint(OBJECT + self.thing.joint).qposadr[0])] = trajectory.value[row]
+        q[positions_of(self.model, trajectory.joints, ROBOT)] = trajectory.position[row]
+        q[positions_of(self.model, self.robot.fingers, ROBOT)] = self.hand.posture_at(float(trajectory.gap[row]))
+        q[positions_of(self.model, [self.thing.joint], OBJECT)] = trajectory.value[row]
         return q
 
     def camera(

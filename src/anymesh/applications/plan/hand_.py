@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.applications.plan.robot_ import RobotArm, without_visuals
+from anymesh.applications.plan.robot_ import RobotArm, finger_bodies, positions_of, without_visuals
 from anymesh.errors import OptionError
 from anymesh.mujoco_ import load_mujoco
 
@@ -102,14 +102,10 @@ class _Bench:
         self.mujoco, self.robot = mujoco, robot
         self.model = model = spec.compile()
         self.data = mujoco.MjData(model)
-        self.fingers = np.array([int(model.joint(n).qposadr[0]) for n in robot.fingers])
+        self.fingers = positions_of(model, robot.fingers)
         self.wrist = int(model.body(robot.wrist).id)
-        carried = {int(model.joint(n).bodyid[0]) for n in robot.fingers}
-        for body in range(model.nbody):
-            if int(model.body_parentid[body]) in carried:
-                carried.add(body)
         collides = (model.geom_contype | model.geom_conaffinity) != 0
-        self.geoms = np.flatnonzero(np.isin(model.geom_bodyid, sorted(carried)) & collides)
+        self.geoms = np.flatnonzero(finger_bodies(model, robot.fingers)[model.geom_bodyid] & collides)
         still = np.setdiff1d(np.arange(model.ngeom), self.geoms)
         model.geom_contype[still] = model.geom_conaffinity[still] = 0  # no longer neighbours of the fingers without joints
 
@@ -188,6 +184,3 @@ class _Bench:
         if not ((side > 0).any() and (side < 0).any()):
             return 0.0
         return float(pads[side > 0, 1].min() - pads[side < 0, 1].max())
-
-
-__all__ = ["PAD", "Hand", "measure_hand"]

@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.applications.plan.hand_ import Hand
-from anymesh.applications.plan.robot_ import RobotArm, without_visuals
+from anymesh.applications.plan.robot_ import RobotArm, quaternion, without_visuals
 from anymesh.errors import MissingExtraError
 from anymesh.mujoco_ import load_mujoco
 
@@ -97,7 +97,6 @@ def _arm_alone(mujoco: Any, robot: RobotArm, hand: Hand) -> Any:
     for body in spec.bodies[1:]:
         body.explicitinertial, body.mass, body.inertia = True, 1.0, [1.0, 1.0, 1.0]  # the shapes that gave inertia are deleted
         body.fullinertia = [np.nan] * 6
-    quat = np.zeros(4)
-    mujoco.mju_mat2Quat(quat, np.ascontiguousarray(hand.T_wrist_tool[:3, :3]).reshape(-1))
-    spec.body(robot.wrist).add_site(name=TOOL, pos=hand.T_wrist_tool[:3, 3], quat=quat)
+    T = hand.T_wrist_tool
+    spec.body(robot.wrist).add_site(name=TOOL, pos=T[:3, 3], quat=quaternion(T[:3, :3]))
     return spec.compile()

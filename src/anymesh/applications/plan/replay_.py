@@ -12,8 +12,8 @@ from jaxtyping import Float
 from anymesh.applications.plan.asset_ import ArticulatedObject
 from anymesh.applications.plan.hand_ import Hand
 from anymesh.applications.plan.plans import BasePose, Phase, Trajectory
-from anymesh.applications.plan.robot_ import RobotArm
-from anymesh.applications.plan.scene_ import OBJECT, ROBOT, compose
+from anymesh.applications.plan.robot_ import RobotArm, finger_bodies, positions_of
+from anymesh.applications.plan.scene_ import OBJECT, ROBOT, bodies_of, compose
 from anymesh.errors import OptionError
 from anymesh.mujoco_ import load_mujoco
 
@@ -108,8 +108,7 @@ class ReplaySimulation:
             model.body_inertia[body] *= physics.mass
         self.mujoco.mj_setConst(model, self.data)
         self.mujoco.mj_resetData(model, self.data)
-        self.arm = np.array([int(model.joint(ROBOT + n).qposadr[0]) for n in robot.joints])
-        self.fingers = np.array([int(model.joint(ROBOT + n).qposadr[0]) for n in robot.fingers], int)
+        self.arm, self.fingers = positions_of(model, robot.joints, ROBOT), positions_of(model, robot.fingers, ROBOT)
         self.joint = int(model.joint(OBJECT + thing.joint).qposadr[0])
         at_joint = int(self.mujoco.mjtTrn.mjTRN_JOINT)
         target = {
@@ -119,14 +118,8 @@ class ReplaySimulation:
         }
         self.arm_motors = np.array([target[ROBOT + n] for n in robot.joints])
         self.hand_motors = np.setdiff1d(np.arange(model.nu), self.arm_motors)
-        names = [model.body(b).name for b in range(model.nbody)]
-        self.is_part = np.array([n.startswith(OBJECT) and n.removeprefix(OBJECT) in thing.carried for n in names])
-        self.is_robot = np.array([n.startswith(ROBOT) for n in names])
-        below = {int(model.joint(ROBOT + n).bodyid[0]) for n in robot.fingers}
-        for b in range(model.nbody):
-            if int(model.body_parentid[b]) in below:
-                below.add(b)
-        self.is_finger = np.isin(np.arange(model.nbody), sorted(below))
+        self.is_part, self.is_robot = bodies_of(model, OBJECT, thing.carried), bodies_of(model, ROBOT)
+        self.is_finger = finger_bodies(model, robot.fingers, ROBOT)
         self.foot = {int(model.body(ROBOT + robot.root).id), int(model.joint(ROBOT + robot.joints[0]).bodyid[0])}
 
     def run(self, trajectory: Trajectory, wanted: float, rate: float) -> ReplayResult:

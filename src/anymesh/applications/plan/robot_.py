@@ -6,14 +6,14 @@ Where the robot's file has none, position servos are added.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float, Int
 
 from anymesh.applications.plan.robot_packages_ import RobotFiles
 from anymesh.checking.engines.files import find_file
@@ -69,7 +69,7 @@ def load_robot(files: RobotFiles, *, tool: str | None = None, gripper: Sequence[
         model = without_visuals(spec).compile()
     except (ValueError, mujoco.FatalError, OSError) as error:
         raise InputError(f"MuJoCo cannot load the robot {files.name}: {' '.join(str(error).split())}") from error
-    arm, fingers = _split(mujoco, model, files.name, tool, gripper)
+    arm, fingers = _split(model, files.name, tool, gripper)
     names = tuple(model.joint(j).name for j in arm)
     limits = np.where(model.jnt_limited[arm, None].astype(bool), model.jnt_range[arm], (-np.pi, np.pi))
     preset = files.preset
@@ -99,6 +99,37 @@ def load_robot(files: RobotFiles, *, tool: str | None = None, gripper: Sequence[
         lag,
         closing_force,
     )
+
+
+def quaternion(R: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, " 4"]:
+    """Return a rotation as MuJoCo writes it: w, x, y, z."""
+    quat = np.zeros(4)
+    load_mujoco().mju_mat2Quat(quat, np.ascontiguousarray(R, float).reshape(-1))
+    return quat
+
+
+def positions_of(model: Any, joints: Sequence[str], prefix: str = "") -> Int[np.ndarray, " n"]:
+    """Return where the positions of joints are in `qpos`. prefix: of the names in the model."""
+    return np.array([int(model.joint(prefix + name).qposadr[0]) for name in joints], int)
+
+
+def single_joints(model: Any) -> list[int]:
+    """Return the numbers of the hinges and slides of a model."""
+    kinds = load_mujoco().mjtJoint
+    return [j for j in range(model.njnt) if int(model.jnt_type[j]) in (int(kinds.mjJNT_HINGE), int(kinds.mjJNT_SLIDE))]
+
+
+def bodies_below(model: Any, bodies: Iterable[int]) -> Bool[np.ndarray, " b"]:
+    """Return whether each body is one of these or carried by one of them."""
+    below = np.isin(np.arange(model.nbody), list(bodies))
+    for body in range(1, model.nbody):  # parents come first
+        below[body] |= below[int(model.body_parentid[body])]
+    return below
+
+
+def finger_bodies(model: Any, joints: Sequence[str], prefix: str = "") -> Bool[np.ndarray, " b"]:
+    """Return whether each body is moved by the joints of a gripper."""
+    return bodies_below(model, [int(model.joint(prefix + name).bodyid[0]) for name in joints])
 
 
 def without_visuals(spec: Any) -> Any:
@@ -138,7 +169,7 @@ def add_servos(
         name = model.joint(joint).name
         if joint not in at:
             effort = float(model.jnt_actfrcrange[joint, 1]) if model.jnt_actfrclimited[joint] else USUAL_EFFORT
-            at[joint] = _add_servo(mujoco, spec, name, effort * STIFFNESS, effort * STIFFNESS * DAMPING, effort)
+            at[joint] = add_servo(spec, name, effort * STIFFNESS, effort * STIFFNESS * DAMPING, effort)
             made = spec.joint(name)
             made.armature = max(float(made.armature), ARMATURE)
             made.damping = [max(float(np.ravel(made.damping)[0]), FRICTION_DAMPING), 0, 0]
@@ -146,13 +177,14 @@ def add_servos(
     if not drives_fingers:
         for joint in fingers:
             force = closing_force / max(len(fingers), 1)
-            _add_servo(mujoco, spec, model.joint(joint).name, force * FINGER_STIFFNESS, force * FINGER_DAMPING, force)
+            add_servo(spec, model.joint(joint).name, force * FINGER_STIFFNESS, force * FINGER_DAMPING, force)
             spec.joint(model.joint(joint).name).armature = ARMATURE
     return np.array(lag)
 
 
-def _add_servo(mujoco: Any, spec: Any, joint: str, stiffness: float, damping: float, effort: float) -> Any:
-    servo = spec.add_actuator(name=joint, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
+def add_servo(spec: Any, joint: str, stiffness: float, damping: float, effort: float) -> Any:
+    """Add a position servo to a joint: stiffness, damping, and the limit of its force, in units of the joint."""
+    servo = spec.add_actuator(name=joint, target=joint, trntype=load_mujoco().mjtTrn.mjTRN_JOINT)
     servo.set_to_position(kp=stiffness, kv=damping)
     servo.forcelimited, servo.forcerange = 1, [-effort, effort]
     return servo
@@ -218,10 +250,9 @@ def _name_joints(spec: Any) -> None:
             thing.name = thing.name or f"{word}_{number}"
 
 
-def _split(mujoco: Any, model: Any, name: str, tool: str | None, gripper: Sequence[str]) -> tuple[list[int], list[int]]:
+def _split(model: Any, name: str, tool: str | None, gripper: Sequence[str]) -> tuple[list[int], list[int]]:
     """Return the joints of the arm, from its base on, and those of the gripper."""
-    single = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
-    moves = [j for j in range(model.njnt) if int(model.jnt_type[j]) in single]
+    moves = single_joints(model)
     bodies = [model.body(b).name for b in range(1, model.nbody)]
     if tool is not None and tool not in bodies:
         raise OptionError(f"--tool: {name} has no body {tool!r}; its bodies are {', '.join(bodies)}")

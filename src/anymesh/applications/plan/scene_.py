@@ -12,7 +12,7 @@ from jaxtyping import Bool, Float
 from anymesh.applications.plan.asset_ import ArticulatedObject
 from anymesh.applications.plan.hand_ import PAD, Hand
 from anymesh.applications.plan.plans import BasePose, GripperContact, Target
-from anymesh.applications.plan.robot_ import RobotArm, without_visuals
+from anymesh.applications.plan.robot_ import RobotArm, bodies_below, finger_bodies, positions_of, quaternion, without_visuals
 from anymesh.mujoco_ import load_mujoco
 
 OBJECT, ROBOT = "object/", "robot/"  # prefixes of names
@@ -61,9 +61,7 @@ def compose(
         (thing.spec, np.eye(4) if T_world_asset is None else T_world_asset, OBJECT),
         (robot.spec, np.eye(4) if base is None else base.transform, ROBOT),
     ):
-        quat = np.zeros(4)
-        mujoco.mju_mat2Quat(quat, np.ascontiguousarray(T[:3, :3]).reshape(-1))
-        frame = spec.worldbody.add_frame(pos=T[:3, 3], quat=quat)
+        frame = spec.worldbody.add_frame(pos=T[:3, 3], quat=quaternion(T[:3, :3]))
         spec.attach(child.copy() if visuals else without_visuals(child), frame=frame, prefix=prefix)
     for geom in spec.geoms:
         if geom.contype or geom.conaffinity:
@@ -71,6 +69,12 @@ def compose(
             geom.contype = ARM if mine else THINGS
             geom.conaffinity = ARM | THINGS if mine else ARM
     return spec
+
+
+def bodies_of(model: Any, prefix: str, names: Sequence[str] | None = None) -> Bool[np.ndarray, " b"]:
+    """Return whether each body's name has a prefix; names: without it, of those that count, None for all."""
+    own = [model.body(b).name for b in range(model.nbody)]
+    return np.array([n.startswith(prefix) and (names is None or n.removeprefix(prefix) in names) for n in own])
 
 
 @dataclass(frozen=True)
@@ -106,15 +110,12 @@ class CollisionWorld:
         self.model = model = spec.compile()
         self.data = self.mujoco.MjData(model)
         self.clearance, self.touch = clearance, touch
-        self.arm = np.array([int(model.joint(ROBOT + n).qposadr[0]) for n in robot.joints])
-        self.fingers = np.array([int(model.joint(ROBOT + n).qposadr[0]) for n in robot.fingers], int)
+        self.arm, self.fingers = positions_of(model, robot.joints, ROBOT), positions_of(model, robot.fingers, ROBOT)
         self.joint = int(model.joint(OBJECT + thing.joint).qposadr[0])
-        names = [model.body(b).name for b in range(model.nbody)]
-        self.is_robot = np.array([n.startswith(ROBOT) for n in names])
-        self._is_object = np.array([n.startswith(OBJECT) for n in names])
-        self.is_part = np.array([n.removeprefix(OBJECT) in thing.carried and n.startswith(OBJECT) for n in names])
-        self.is_finger = self._below({int(model.joint(ROBOT + n).bodyid[0]) for n in robot.fingers})
-        self.is_hand = self._below({int(model.body(ROBOT + robot.wrist).id)})
+        self.is_robot, self._is_object = bodies_of(model, ROBOT), bodies_of(model, OBJECT)
+        self.is_part = bodies_of(model, OBJECT, thing.carried)
+        self.is_finger = finger_bodies(model, robot.fingers, ROBOT)
+        self.is_hand = bodies_below(model, [int(model.body(ROBOT + robot.wrist).id)])
         model.geom_margin[self.is_robot[model.geom_bodyid]] = clearance
         self._root = int(model.body(ROBOT + robot.root).id)
         self._T_base_root = np.linalg.inv(base.transform) @ _transform(model.body_pos[self._root], model.body_quat[self._root])
@@ -124,18 +125,10 @@ class CollisionWorld:
         """Move the robot to another base of the same height."""
         T = base.transform @ self._T_base_root
         self.model.body_pos[self._root] = T[:3, 3]
-        self.mujoco.mju_mat2Quat(self.model.body_quat[self._root], np.ascontiguousarray(T[:3, :3]).reshape(-1))
+        self.model.body_quat[self._root] = quaternion(T[:3, :3])
         for geom in range(self.model.ngeom):
             if self.model.geom(geom).name == PEDESTAL:
                 self.model.geom_pos[geom, :2] = base.x, base.y
-
-    def _below(self, bodies: set[int]) -> Bool[np.ndarray, " b"]:
-        for b in range(self.model.nbody):
-            if int(self.model.body_parentid[b]) in bodies:
-                bodies.add(b)
-        mask = np.zeros(self.model.nbody, bool)
-        mask[sorted(bodies)] = True
-        return mask
 
     def _always(self, hand: Hand) -> set[tuple[int, int]]:
         """Return the pairs of robot links that touch at home, and the base with the ground; these contacts are by design."""
@@ -208,20 +201,10 @@ class HandWorld:
         self.mujoco.mj_kinematics(model, data)
         wrist = int(model.body(ROBOT + robot.wrist).id)
         self._T_wrist_root = np.linalg.inv(self._frame(wrist)) @ self._frame(int(model.body(ROBOT + robot.root).id))
-        self.fingers = np.array([int(model.joint(ROBOT + n).qposadr[0]) for n in robot.fingers], int)
-        below = {wrist}
-        for b in range(model.nbody):
-            if int(model.body_parentid[b]) in below:
-                below.add(b)
-        moving = {int(model.joint(ROBOT + n).bodyid[0]) for n in robot.fingers}
-        for b in range(model.nbody):
-            if int(model.body_parentid[b]) in moving:
-                moving.add(b)
-        self._finger = np.isin(np.arange(model.nbody), sorted(moving))
-        names = [model.body(b).name for b in range(model.nbody)]
-        self._part = np.array([n.startswith(OBJECT) and n.removeprefix(OBJECT) in thing.carried for n in names])
-        robot_geoms = np.array([names[b].startswith(ROBOT) for b in model.geom_bodyid])
-        outside = robot_geoms & ~np.isin(model.geom_bodyid, sorted(below))
+        self.fingers = positions_of(model, robot.fingers, ROBOT)
+        self._finger, self._part = finger_bodies(model, robot.fingers, ROBOT), bodies_of(model, OBJECT, thing.carried)
+        robot_geoms = bodies_of(model, ROBOT)[model.geom_bodyid]
+        outside = robot_geoms & ~bodies_below(model, [wrist])[model.geom_bodyid]
         model.geom_contype[outside] = model.geom_conaffinity[outside] = 0
         model.geom_conaffinity[robot_geoms] = 0  # no collisions within the robot
 
@@ -233,9 +216,7 @@ class HandWorld:
     def _clear(self, T_asset_tool: Float[np.ndarray, "4 4"], gap: float) -> bool:
         """Return whether fingers penetrate the part by at most `TOUCH` and nothing else of the hand touches anything."""
         T = T_asset_tool @ np.linalg.inv(self.hand.T_wrist_tool) @ self._T_wrist_root
-        quat = np.zeros(4)
-        self.mujoco.mju_mat2Quat(quat, np.ascontiguousarray(T[:3, :3]).reshape(-1))
-        self.data.mocap_pos[0], self.data.mocap_quat[0] = T[:3, 3], quat
+        self.data.mocap_pos[0], self.data.mocap_quat[0] = T[:3, 3], quaternion(T[:3, :3])
         self.data.qpos[self.fingers] = self.hand.posture_at(gap)
         self.mujoco.mj_kinematics(self.model, self.data)
         self.mujoco.mj_collision(self.model, self.data)

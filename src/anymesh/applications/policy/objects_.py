@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.applications.plan.asset_ import ArticulatedObject, description, open_object
+from anymesh.applications.plan.robot_ import single_joints
 from anymesh.applications.policy.tasks import AJAR, MAX_OPENING, MAX_TURN, JointGoal, PolicyTask, joint_goal
 from anymesh.checking.engines.files import kind_of
 from anymesh.checking.engines.mujoco_ import read_spec
@@ -85,8 +86,7 @@ def moving_joints(path: Path) -> tuple[str, ...]:
         model = read_spec(mujoco, file).compile()
     except (ValueError, mujoco.FatalError) as error:
         raise InputError(f"MuJoCo cannot load {file}: {' '.join(str(error).split())}") from error
-    single = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
-    return tuple(model.joint(j).name for j in range(model.njnt) if int(model.jnt_type[j]) in single)
+    return tuple(model.joint(j).name for j in single_joints(model))
 
 
 def task_object(path: str | Path, task: PolicyTask, joint: str | None = None, opening: float | None = None) -> TaskObject:

@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.applications.plan.hand_ import Hand, measure_hand
-from anymesh.applications.plan.robot_ import RobotArm, load_robot
+from anymesh.applications.plan.robot_ import RobotArm, add_servo, finger_bodies, load_robot, positions_of, quaternion
 from anymesh.applications.plan.robot_packages_ import find_robot
 from anymesh.errors import MissingExtraError, OptionError
 from anymesh.mujoco_ import load_mujoco
@@ -84,18 +84,10 @@ def _floating(R_world_tool: np.ndarray) -> tuple[Any, Any]:
         body.add_joint(name=name, type=mujoco.mjtJoint.mjJNT_HINGE, axis=axes[k], armature=0.02)
     body.mass, body.inertia, body.explicitinertial = MASS / 2, [1e-3] * 3, True
     for name in SLIDERS:
-        _add_servo(mujoco, spec, name, 1500.0, 80.0, MOVE_FORCE)
+        add_servo(spec, name, 1500.0, 80.0, MOVE_FORCE)
     for name in HINGES:
-        _add_servo(mujoco, spec, name, 60.0, 3.0, TURN_TORQUE)
-    quat = np.zeros(4)
-    mujoco.mju_mat2Quat(quat, np.ascontiguousarray(R_world_tool, float).reshape(-1))
-    return spec, body.add_body(name="hand", quat=quat, gravcomp=1.0)
-
-
-def _add_servo(mujoco: Any, spec: Any, joint: str, stiffness: float, damping: float, force: float) -> None:
-    servo = spec.add_actuator(name=joint, target=joint, trntype=mujoco.mjtTrn.mjTRN_JOINT)
-    servo.set_to_position(kp=stiffness, kv=damping)
-    servo.forcelimited, servo.forcerange = 1, [-force, force]
+        add_servo(spec, name, 60.0, 3.0, TURN_TORQUE)
+    return spec, body.add_body(name="hand", quat=quaternion(R_world_tool), gravcomp=1.0)
 
 
 def floating_gripper(R_world_tool: np.ndarray) -> TaskRobot:
@@ -112,7 +104,7 @@ def floating_gripper(R_world_tool: np.ndarray) -> TaskRobot:
             armature=0.02,
         )  # fmt: skip
         finger.add_geom(name=f"{name}_pad", type=box, size=PAD, pos=[0, 0, REACH - PAD[2]], mass=MASS / 8)
-        _add_servo(mujoco, spec, f"{name}_finger", 3000.0, 150.0, FINGER_FORCE)
+        add_servo(spec, f"{name}_finger", 3000.0, 150.0, FINGER_FORCE)
     servos = (*((n,) for n in (*SLIDERS, "turn_z", "turn_x")), ("left_finger", "right_finger"))
     rate = np.array([STEP, STEP, STEP, TURN_STEP, TURN_STEP, 0.0])
     high = np.array([LIMIT] * 5 + [STROKE / 2])
@@ -178,9 +170,8 @@ def arm_robot(name: str) -> TaskRobot:
     base = [TOOL_X, TOOL_Y - float(np.hypot(at[0], at[1])), 0.0]
     turn = [np.cos(yaw / 2), 0.0, 0.0, np.sin(yaw / 2)]
     spec.attach(arm.spec.copy(), frame=spec.worldbody.add_frame(pos=base, quat=turn), prefix="")
-    quat = np.zeros(4)
-    mujoco.mju_mat2Quat(quat, np.ascontiguousarray(hand.T_wrist_tool[:3, :3]).reshape(-1))
-    spec.body(arm.wrist).add_site(name="tool", pos=hand.T_wrist_tool[:3, 3], quat=quat)
+    T = hand.T_wrist_tool
+    spec.body(arm.wrist).add_site(name="tool", pos=T[:3, 3], quat=quaternion(T[:3, :3]))
     for body in spec.bodies:
         body.gravcomp = 1.0
     motors = [a for a in spec.actuators if a.target in arm.joints]
@@ -202,8 +193,7 @@ def _tool_at_home(mujoco: Any, arm: RobotArm, hand: Hand) -> Float[np.ndarray, "
     """Return the position of the tool in the frame of the arm's file, at home [m]."""
     model = arm.spec.compile()
     data = mujoco.MjData(model)
-    for name, value in zip(arm.joints, arm.home, strict=True):
-        data.qpos[int(model.joint(name).qposadr[0])] = value
+    data.qpos[positions_of(model, arm.joints)] = arm.home
     mujoco.mj_kinematics(model, data)
     wrist = int(model.body(arm.wrist).id)
     return data.xpos[wrist] + data.xmat[wrist].reshape(3, 3) @ hand.T_wrist_tool[:3, 3]
@@ -213,18 +203,13 @@ def _fingers(mujoco: Any, arm: RobotArm, hand: Hand) -> tuple[tuple[str, ...], .
     """Return the bodies of each finger: those that the gripper's joints move, by their side in the tool's frame."""
     model = arm.spec.compile()
     data = mujoco.MjData(model)
-    for name, value in zip(arm.fingers, hand.posture[-1], strict=True):
-        data.qpos[int(model.joint(name).qposadr[0])] = value
+    data.qpos[positions_of(model, arm.fingers)] = hand.posture[-1]
     mujoco.mj_kinematics(model, data)
-    moving = {int(model.joint(n).bodyid[0]) for n in arm.fingers}
-    for body in range(model.nbody):
-        if int(model.body_parentid[body]) in moving:
-            moving.add(body)
     wrist = int(model.body(arm.wrist).id)
     closing = data.xmat[wrist].reshape(3, 3) @ hand.T_wrist_tool[:3, 1]
     center = data.xpos[wrist] + data.xmat[wrist].reshape(3, 3) @ hand.T_wrist_tool[:3, 3]
     sides: tuple[list[str], list[str]] = ([], [])
-    for body in sorted(moving):
+    for body in np.flatnonzero(finger_bodies(model, arm.fingers)):
         geoms = np.flatnonzero(model.geom_bodyid == body)
         middle = data.geom_xpos[geoms].mean(0) if len(geoms) else data.xpos[body]
         sides[int((middle - center) @ closing < 0)].append(model.body(body).name)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from anymesh.applications.plan.robot_ import without_visuals
+from anymesh.applications.plan.robot_ import quaternion, without_visuals
 from anymesh.applications.policy.objects_ import TaskObject
 from anymesh.applications.policy.robots_ import TaskRobot
 from anymesh.mujoco_ import load_mujoco
@@ -57,9 +57,8 @@ def compose(object_: TaskObject, robot: TaskRobot, *, lifts: bool, visuals: bool
 def _attach_object(mujoco: Any, spec: Any, object_: TaskObject, lifts: bool, visuals: bool) -> None:
     """Attach the object to a body that a reset moves; a free object has a free joint in its place."""
     own = object_.thing.spec.copy() if visuals else without_visuals(object_.thing.spec)
-    quat = np.zeros(4)
-    mujoco.mju_mat2Quat(quat, np.ascontiguousarray(object_.T_world_asset[:3, :3]).reshape(-1))
-    stand = spec.worldbody.add_body(name=STAND, pos=object_.T_world_asset[:3, 3], quat=quat)
+    T = object_.T_world_asset
+    stand = spec.worldbody.add_body(name=STAND, pos=T[:3, 3], quat=quaternion(T[:3, :3]))
     if lifts:
         stand.add_freejoint()
         stand.mass, stand.inertia, stand.explicitinertial = 1e-3, [1e-6] * 3, True

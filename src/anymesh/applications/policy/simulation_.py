@@ -8,6 +8,8 @@ import numpy as np
 from jaxtyping import Bool, Float, UInt8
 
 from anymesh.applications.plan.film_ import draw_surfaces, drawn_geoms, geom_surface
+from anymesh.applications.plan.robot_ import positions_of, quaternion
+from anymesh.applications.plan.scene_ import bodies_of
 from anymesh.applications.policy.objects_ import TaskObject, apply
 from anymesh.applications.policy.robots_ import HINGES, SLIDERS, TaskRobot, make_robot
 from anymesh.applications.policy.scene_ import OBJECT, ROBOT, STAND, compose, limit_masses
@@ -66,20 +68,19 @@ class TaskSimulation:
     def _index(self, model: Any, robot: TaskRobot) -> None:
         """Look up the numbers of joints, actuators and shapes."""
         body = model.geom_bodyid
-        names = [model.body(b).name for b in range(model.nbody)]
-        part = np.array([n.startswith(OBJECT) and n.removeprefix(OBJECT) in self.object.thing.carried for n in names])
-        own = np.array([n.startswith(OBJECT) or n == STAND for n in names])
+        self.stand = int(model.body(STAND).id)
+        part, own = bodies_of(model, OBJECT, self.object.thing.carried), bodies_of(model, OBJECT)
+        self.own_bodies = np.flatnonzero(own)
+        own[self.stand] = True
         finger = np.full(model.nbody, -1)
         for k, bodies in enumerate(robot.fingers):
             finger[[int(model.body(ROBOT + b).id) for b in bodies]] = k
         self._is_part, self.is_object, self._finger = part[body], own[body], finger[body]
-        self.is_robot = np.array([n.startswith(ROBOT) for n in names])[body]
+        self.is_robot = bodies_of(model, ROBOT)[body]
         self._count = len(robot.fingers)
         self.joint = int(model.joint(OBJECT + self.object.thing.joint).qposadr[0])
         self.dof = int(model.joint(OBJECT + self.object.thing.joint).dofadr[0])
         self._part = int(model.body(OBJECT + self.object.thing.part).id)
-        self.stand = int(model.body(STAND).id)
-        self.own_bodies = np.array([b for b in range(model.nbody) if names[b].startswith(OBJECT)])
         self.tool_site = int(model.site(ROBOT + robot.tool).id)
         self._servos = [np.array([int(model.actuator(ROBOT + n).id) for n in group]) for group in robot.servos]
         self._first = np.array([group[0] for group in self._servos])
@@ -135,7 +136,7 @@ class TaskSimulation:
             data.mocap_pos[0], data.mocap_quat[0] = pos, quat
         data.qpos[self.joint] = goal.start + sample.start * (goal.goal - goal.start)
         for name, value in self.robot.positions:
-            data.qpos[int(model.joint(ROBOT + name).qposadr[0])] = value
+            data.qpos[positions_of(model, [name], ROBOT)] = value
         if self.robot.floating:
             self._place_hand()
         self.command = np.where(self.robot.rate > 0, data.qpos[self.command_at], self.robot.high)
@@ -149,9 +150,8 @@ class TaskSimulation:
         """Return position and quaternion of the object, turned about its middle."""
         c, s = np.cos(sample.yaw), np.sin(sample.yaw)
         turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
-        T, quat = self.object.T_world_asset, np.zeros(4)
-        self.mujoco.mju_mat2Quat(quat, np.ascontiguousarray(turn @ T[:3, :3]).reshape(-1))
-        return turn @ T[:3, 3] + [sample.x, sample.y, 0.0], quat
+        T = self.object.T_world_asset
+        return turn @ T[:3, 3] + [sample.x, sample.y, 0.0], quaternion(turn @ T[:3, :3])
 
     def _place_hand(self) -> None:
         """Move a floating hand before the front of the object, or above an object that is lifted, whatever the sample."""
@@ -161,8 +161,7 @@ class TaskSimulation:
         data, model = self.data, self.model
         self.mujoco.mj_kinematics(model, data)
         offset = data.site_xpos[self.tool_site].copy()
-        for name, value in zip(SLIDERS, at - offset, strict=True):
-            data.qpos[int(model.joint(ROBOT + name).qposadr[0])] = value
+        data.qpos[positions_of(model, SLIDERS, ROBOT)] = at - offset
 
     def act(self, action: Float[np.ndarray, " a"]) -> Situation:
         """Run one action in [-1, 1] and return what it led to."""
@@ -198,7 +197,7 @@ class TaskSimulation:
         for name, value in values.items():
             self.data.ctrl[int(self.model.actuator(ROBOT + name).id)] = value
             if jump:
-                self.data.qpos[int(self.model.joint(ROBOT + name).qposadr[0])] = value
+                self.data.qpos[positions_of(self.model, [name], ROBOT)] = value
 
     def _send(self) -> None:
         for number, group in enumerate(self._servos):
