@@ -183,7 +183,7 @@ def scanned(subject: EvalSample, task: Task, kind: str, work: Path) -> tuple[Pat
         report = module.scan(folder / "frames", folder / "scan.glb", force=True)
         truth = json.loads((folder / "frames" / "truth.json").read_text(encoding="utf-8"))
         T_glb_scan = np.eye(4)
-        T_glb_scan[:3, :3] = import_module("anymesh.applications.scan.output").TO_GLTF
+        T_glb_scan[:3, :3] = import_module("anymesh.applications.scan.scanning").TO_GLTF
         T = np.linalg.inv(T_glb_scan @ np.array(report.T_scan_world) @ np.array(truth["T_world_mesh"]))
         (folder / "T.json").write_text(json.dumps(T.tolist()), encoding="utf-8")
     if not (asset / "asset.json").exists():

@@ -23,8 +23,8 @@ import numpy as np
 
 import anymesh
 from anymesh.applications.scan import render_frames, scan
-from anymesh.applications.scan.output import TO_GLTF
 from anymesh.applications.scan.reading import read_frames
+from anymesh.applications.scan.scanning import TO_GLTF
 from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, read_ground_truth
 from anymesh.evaluation.score import same_motion, score
 from anymesh.geometry.distance_ import distance_to_mesh

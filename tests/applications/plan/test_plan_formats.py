@@ -6,7 +6,7 @@ import json
 import numpy as np
 import pytest
 
-from anymesh.applications.plan.formats import PlanFormat, gripper_commands, plan_text, read_plan, ros_record, write_plan
+from anymesh.applications.plan.plans import PlanFormat, gripper_commands, plan_text, read_plan, ros_record, write_plan
 from anymesh.cli import run
 from anymesh.errors import InputError, OptionError, OutputError
 

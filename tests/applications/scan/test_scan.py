@@ -9,8 +9,8 @@ from recordings import EXTENTS, VOXEL, thing
 
 from anymesh.applications.scan import scan
 from anymesh.applications.scan.frames import Frames, Observation, Pinhole, RgbdFrame
-from anymesh.applications.scan.output import TO_GLTF
 from anymesh.applications.scan.reading import read_frames
+from anymesh.applications.scan.scanning import TO_GLTF
 from anymesh.applications.scan.splatting_ import gaze, with_depth
 from anymesh.errors import MissingExtraError
 from anymesh.geometry.distance_ import distance_to_mesh

@@ -5,9 +5,20 @@ from typing import TYPE_CHECKING
 from anymesh.entry_points import on_first_use
 
 if TYPE_CHECKING:
-    from anymesh.applications.plan.formats import PlanFormat, gripper_commands, read_plan, write_plan
     from anymesh.applications.plan.planner import plan
-    from anymesh.applications.plan.plans import BasePose, GripperContact, MotionPlan, Phase, PlanError, Target, Trajectory
+    from anymesh.applications.plan.plans import (
+        BasePose,
+        GripperContact,
+        MotionPlan,
+        Phase,
+        PlanError,
+        PlanFormat,
+        Target,
+        Trajectory,
+        gripper_commands,
+        read_plan,
+        write_plan,
+    )
 
 __all__ = [
     "BasePose",
@@ -26,8 +37,7 @@ __all__ = [
 __getattr__ = on_first_use(
     __name__,
     {
-        **dict.fromkeys(("PlanFormat", "gripper_commands", "read_plan", "write_plan"), "formats"),
+        **dict.fromkeys(__all__, "plans"),
         "plan": "planner",
-        **dict.fromkeys(("BasePose", "GripperContact", "MotionPlan", "Phase", "PlanError", "Target", "Trajectory"), "plans"),
     },
 )

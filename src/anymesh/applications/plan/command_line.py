@@ -54,9 +54,8 @@ def plan(
     quiet: Quiet = False,
 ) -> None:
     """Plan how a robot arm moves a joint of ASSET: a grasp or a push, a free approach, the part's motion, in time."""
-    from anymesh.applications.plan.formats import write_plan
     from anymesh.applications.plan.planner import plan as find
-    from anymesh.applications.plan.plans import parse_value
+    from anymesh.applications.plan.plans import parse_value, write_plan
 
     joints = tuple(name for name in gripper.split(",") if name)
     with Shown(quiet or json_) as progress:

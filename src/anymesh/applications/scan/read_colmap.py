@@ -10,9 +10,8 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.applications.scan.frames import Frames, Observation, Pinhole, RgbdFrame
+from anymesh.applications.scan.frames import Frames, Observation, Pinhole, RgbdFrame, check_distortion, fitted, quaternion_pose
 from anymesh.applications.scan.pictures import clean_depth, file_reader, observed, picture_size, read_color, within
-from anymesh.applications.scan.poses import check_distortion, fitted, quaternion_pose
 from anymesh.errors import InputError, OptionError
 
 # Number, name and parameter count of each model (COLMAP's src/colmap/sensor/models.h); fisheye models are not supported.

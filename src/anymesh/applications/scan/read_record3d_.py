@@ -14,9 +14,8 @@ from typing import Any
 
 import numpy as np
 
-from anymesh.applications.scan.frames import FLIPPED, Frames, Observation, Pinhole, RgbdFrame
+from anymesh.applications.scan.frames import FLIPPED, Frames, Observation, Pinhole, RgbdFrame, quaternion_pose
 from anymesh.applications.scan.pictures import clean_depth, observed, read_color
-from anymesh.applications.scan.poses import quaternion_pose
 from anymesh.errors import InputError, MissingExtraError
 
 METADATA = ("metadata", "metadata.json")

@@ -7,9 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from anymesh.applications.scan.frames import Frames, RgbdFrame
+from anymesh.applications.scan.frames import AXES, Frames, RgbdFrame, check_distortion, fitted, pinhole, pose
 from anymesh.applications.scan.pictures import file_reader, picture_size, read_object, within
-from anymesh.applications.scan.poses import AXES, check_distortion, fitted, pinhole, pose
 from anymesh.applications.scan.read_colmap import model_folder, read_colmap
 from anymesh.applications.scan.read_record3d_ import is_record3d, read_record3d
 from anymesh.errors import InputError
