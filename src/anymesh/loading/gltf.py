@@ -16,7 +16,7 @@ from anymesh.loading.join import join, rgba, simple_mesh, unique_names, unit
 from anymesh.types import Material, Mesh, Node, Texture
 from anymesh.types.mesh import to_srgb
 
-TRIANGLES, STRIP, FAN = 4, 5, 6
+TRIANGLES = 4  # primitive mode
 READ = ("KHR_texture_transform", "KHR_mesh_quantization", "EXT_texture_webp")
 LEFT_OUT = {0: "points", 1: "lines", 2: "lines", 3: "lines"}
 
@@ -228,7 +228,7 @@ def _material(number: int, m: dict[str, Any], textures: list[dict[str, Any]], im
         "emissive": m.get("emissiveTexture"),
     }
     slot_textures = {slot: _texture(info, textures, images) for slot, info in named.items() if info is not None}
-    mode = m.get("alphaMode", "OPAQUE")
+    mode, cutoff = m.get("alphaMode", "OPAQUE"), float(m.get("alphaCutoff", 0.5))
     material = Material(
         name=str(m.get("name") or f"material_{number}"),
         base_color=_factor(color, 4),
@@ -237,7 +237,7 @@ def _material(number: int, m: dict[str, Any], textures: list[dict[str, Any]], im
         emissive=_factor(m.get("emissiveFactor", (0.0, 0.0, 0.0)), 3),
         double_sided=bool(m.get("doubleSided", False)),
         alpha_mode=mode if mode in ("OPAQUE", "MASK", "BLEND") else "OPAQUE",
-        alpha_cutoff=_cutoff(m.get("alphaCutoff", 0.5)),
+        alpha_cutoff=cutoff if np.isfinite(cutoff) else 0.5,
         textures={slot: t for slot, t in slot_textures.items() if t is not None},
     )
     main = base or next((info for info in named.values() if info is not None), {})
@@ -250,11 +250,6 @@ def _texture(info: dict[str, Any], textures: list[dict[str, Any]], images: list[
     extended = [e["source"] for e in texture.get("extensions", {}).values() if isinstance(e, dict) and "source" in e]
     sources = [texture["source"]] if "source" in texture else []
     return next((images[s] for s in (*extended, *sources) if images[s] is not None), None)
-
-
-def _cutoff(value: Any) -> float:
-    """Return a number, the default of the specification in place of one that is not finite."""
-    return float(value) if np.isfinite(float(value)) else 0.5
 
 
 def _factor(values: Any, width: int) -> Any:

@@ -13,7 +13,7 @@ import numpy as np
 
 from anymesh.errors import InputError
 from anymesh.loading.files import ASCII_STL, Folder, check_count
-from anymesh.loading.join import join, rgba, simple_mesh
+from anymesh.loading.join import check_geometry, join, rgba, simple_mesh
 from anymesh.loading.polygons_ import fans, recut
 from anymesh.types import Mesh
 
@@ -94,15 +94,12 @@ def read_off(data: bytes, folder: Folder) -> Mesh:
         raise InputError(f"{name} is truncated or broken: a face has fewer indices than it states")
     corner = np.array([int(i) for row, size in zip(rows, sizes, strict=True) for i in row[1 : size + 1]], np.int64)
     triangles, polygon = fans(sizes)
-    simple_mesh(name, folder.path.stem, vertices, corner[triangles])  # checks that the corners can be looked up
+    check_geometry(name, vertices, corner[triangles])  # the corners can be looked up
     faces = corner[recut(triangles, polygon, sizes, vertices, corner)]
-    mesh = simple_mesh(name, folder.path.stem, vertices, faces)
-    if color is None:
-        color = _colors([row[size + 1 :] for row, size in zip(rows, sizes, strict=True)])
-        corners = None if color is None else np.repeat(color[polygon][:, None], 3, 1)
-    else:
-        corners = color[faces]
-    return mesh if corners is None else simple_mesh(name, folder.path.stem, vertices, faces, corner_color=corners)
+    corners = None if color is None else color[faces]
+    if color is None and (color := _colors([row[size + 1 :] for row, size in zip(rows, sizes, strict=True)])) is not None:
+        corners = np.repeat(color[polygon][:, None], 3, 1)
+    return simple_mesh(name, folder.path.stem, vertices, faces, corner_color=corners)
 
 
 def _colors(rows: list[list[str]]) -> np.ndarray | None:

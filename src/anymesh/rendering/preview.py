@@ -25,7 +25,7 @@ from anymesh.rendering.drawing import (
     smoothed,
 )
 from anymesh.rendering.marks import AxisShape, axis_shapes, draw_axes, font
-from anymesh.rendering.viewpoints import orbit_camera
+from anymesh.rendering.viewpoints import SKETCH, orbit_camera
 from anymesh.types import Asset, Joint, JointType, Mesh
 from anymesh.types.camera import Camera
 
@@ -41,7 +41,6 @@ MAX_LEGEND_JOINTS = 18  # maximum number of joints in the legend
 AZIMUTHS = (35, -35, 145, -145, 65, -65)  # [deg] candidate views, in order of preference
 ELEVATION = 24  # [deg] elevation of all candidate views
 PREFERRED = 1.05  # factor by which a later view must show more of the moving parts than an earlier one
-SKETCH = 64  # [px] size of the pictures used to choose the view
 COMPRESSION = 3  # zlib level, 0..9: higher levels take twice the time for 7 % less
 
 

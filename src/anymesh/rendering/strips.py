@@ -18,6 +18,7 @@ from anymesh.geometry.raycast_ import Hits, RayScene
 from anymesh.rendering.marks import (
     HIGHLIGHT,
     PAD,
+    WHITE,
     Plate,
     axis_line,
     blend,
@@ -30,7 +31,7 @@ from anymesh.rendering.marks import (
     ring,
 )
 from anymesh.rendering.render import lit, shade, turned
-from anymesh.rendering.viewpoints import box_of, orbit_camera, zoom
+from anymesh.rendering.viewpoints import SKETCH, box_of, orbit_camera, zoom
 from anymesh.types import JointType, Mesh, Motion
 from anymesh.types.camera import Camera
 from anymesh.types.triangles import box_corners, transformed
@@ -40,7 +41,6 @@ MARGIN = 0.35  # margin around the moving part, as a share of its diagonal, so t
 AIR = 0.04  # further margin on each side, as a share of the picture
 AXIS_SCALE, RING = 3.0, 0.1  # shares of the part's diagonal: diagonal passed to `axis_line`; radius of the ring
 LEGIBLE = 0.5  # minimum size of the axis, as a share of the picture's side
-SKETCH = 64  # [px] size of the pictures used to choose the camera
 DEPTH = 0.02  # share of the diagonal above which a difference in depth counts
 # elevations and azimuths [deg] with their weights: people see objects from slightly above; oblique views show three dimensions
 ELEVATION_WEIGHTS = {24: 1.0, 55: 0.75, -24: 0.4}
@@ -52,7 +52,7 @@ MAX_LAYERS = 24  # maximum number of moving faces that a ray passes before it co
 COLUMNS = 4  # number of panels side by side (1600 px at most)
 GHOST = 0.3  # opacity of the part where it is hidden
 TITLE, WORD = 24, 18  # [px] font size of a panel's number, and of its motion label
-WHITE, BLOCKED = (255, 255, 255), (250, 200, 120)  # background of the motion label, and of that of a blocked motion
+BLOCKED = (250, 200, 120)  # background of the label of a blocked motion
 STILL_LINE, PART_LINE, LINE = (120, 120, 120), (8, 30, 90), 0.55  # colours of lines along creases, and their opacity
 CREASE = 0.82  # cosine (of 35 degrees) between normals below which a line is drawn
 

@@ -16,6 +16,7 @@ from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
 SIDES = ("front", "front right", "right", "back right", "back", "back left", "left", "front left")
+SKETCH = 64  # [px] size of the pictures used to choose a view
 MAX_LEVEL_DEG = 0.5  # elevation below which a view is level
 MIN_STEEP_DEG = 30.0  # elevation from which it is described as from above or below
 
