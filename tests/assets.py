@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable
-from dataclasses import FrozenInstanceError, fields, replace
-from typing import Any
+from dataclasses import replace
 
 import numpy as np
-import pytest
 from PIL import Image
 
 from anymesh.types import (
@@ -187,12 +184,3 @@ def read_obj(path) -> np.ndarray:
     rows = [line.split() for line in path.read_text().splitlines() if line]
     v = np.array([r[1:4] for r in rows if r[0] == "v"], float)
     return v[np.array([[int(c.split("/")[0]) - 1 for c in r[1:]] for r in rows if r[0] == "f"])]
-
-
-def assert_fixed(make: Callable[[], Any]) -> None:
-    """Check that what `make` returns cannot be changed, and equals itself only."""
-    one, other = make(), make()
-    assert len({one, other, one}) == 2
-    for field in fields(one):
-        with pytest.raises(FrozenInstanceError):
-            setattr(one, field.name, getattr(other, field.name))

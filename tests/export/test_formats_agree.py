@@ -1,5 +1,6 @@
 """Test that all formats agree: joint frames, limits, resistance, drives, poses, inertia, collision, base."""
 
+import sys
 from functools import cache
 from pathlib import Path
 
@@ -8,9 +9,21 @@ import pytest
 from assets import cabinet, poses, slanted, within_limits
 from models import CONFIG, desk, model_of, with_meshes
 from readers import READERS
+from scipy.spatial.transform import Rotation
 
-from anymesh.export.formats import Format, write_formats
+from anymesh.errors import MissingExtraError, OptionError
+from anymesh.export.formats import (
+    DEFAULT,
+    WRITERS,
+    ExportOptions,
+    Format,
+    load_libraries,
+    main_file,
+    parse_formats,
+    write_formats,
+)
 from anymesh.export.model import Base, Exclusion, drives
+from anymesh.export.notation import principal, quaternion, rpy, turning_x_to
 from anymesh.export.sdf import joint_names
 from anymesh.types import Box, Cylinder, JointType
 
@@ -135,3 +148,82 @@ def test_the_same_model_gives_the_same_bytes(tmp_path):
         contents.append({p.relative_to(tmp_path / run): p.read_bytes() for p in (tmp_path / run).rglob("*") if p.is_file()})
     assert contents[0] == contents[1]
     assert not [name for name, content in contents[0].items() if str(tmp_path).encode() in content]  # paths are relative
+
+
+POLES = [Rotation.from_euler("xyz", (0.3, sign * np.pi / 2, -0.7)).as_matrix() for sign in (1, -1)]
+HALF_TURNS = [Rotation.from_rotvec(np.pi * axis).as_matrix() for axis in np.eye(3)]
+ROTATIONS = [*Rotation.random(50, rng=1).as_matrix(), np.eye(3), *POLES, *HALF_TURNS]
+
+
+@pytest.mark.parametrize("R", ROTATIONS)
+def test_roll_pitch_yaw_and_quaternion_there_and_back(R):
+    np.testing.assert_allclose(Rotation.from_euler("xyz", rpy(R)).as_matrix(), R, atol=1e-9)
+    found = quaternion(R)
+    assert found[0] >= 0
+    np.testing.assert_allclose(Rotation.from_quat(found, scalar_first=True).as_matrix(), R, atol=1e-9)
+
+
+@pytest.mark.parametrize("axis", [*(R[0] for R in ROTATIONS), *np.eye(3), *-np.eye(3)])
+def test_x_is_turned_to_any_axis(axis):
+    R = turning_x_to(axis)
+    np.testing.assert_allclose(R[:, 0], axis, atol=1e-9)
+    np.testing.assert_allclose(R @ R.T, np.eye(3), atol=1e-9)
+    assert np.linalg.det(R) > 0
+
+
+@pytest.mark.parametrize("R", ROTATIONS[:10])
+def test_principal_axes_give_the_tensor_back(R):
+    tensor = (R * np.array([3.0, 1.0, 2.5])) @ R.T
+    moments, axes = principal(tensor)
+    np.testing.assert_allclose((axes * moments) @ axes.T, tensor, atol=1e-12)
+    np.testing.assert_allclose(moments, [1, 2.5, 3])
+    assert np.linalg.det(axes) == pytest.approx(1)
+
+
+def test_formats_are_read_once_each_in_the_order_of_the_set():
+    assert parse_formats("glb, URDF,glb") == (Format.URDF, Format.GLB)
+    assert parse_formats(",".join(Format)) == tuple(Format)
+    assert Format.USD not in DEFAULT  # requires the extra
+
+
+@pytest.mark.parametrize("text", ["", " , ", "urdf,stl", "xml"])
+def test_what_is_not_a_format_is_named_with_what_is(text):
+    with pytest.raises(OptionError, match="valid are urdf, mjcf, usd, sdf, glb") as error:
+        parse_formats(text)
+    assert text.rpartition(",")[2].strip() in str(error.value)
+
+
+def test_every_format_has_a_writer_and_writes_its_main_file(tmp_path):
+    assert set(WRITERS) == set(Format)
+    model = model_of(cabinet())
+    for kind in Format:
+        folder = tmp_path / kind
+        folder.mkdir()
+        write_formats(model, with_meshes(model, folder), [kind], CONFIG)
+        written = {p.name for p in folder.iterdir()} - {"meshes", "model.config"}
+        assert written == {main_file(kind, "cabinet")}
+
+
+@pytest.mark.parametrize(
+    ("kind", "package", "told"), [("usd", "pxr", r"articulate-anymesh\[usd\]"), ("mjcf", "mujoco", "reinstall")]
+)
+def test_a_missing_package_is_one_error_that_says_how_it_is_had(kind, package, told, tmp_path, monkeypatch):
+    monkeypatch.setitem(sys.modules, package, None)
+    with pytest.raises(MissingExtraError, match=told):
+        write_formats(model_of(cabinet()), tmp_path, [Format(kind)], CONFIG)
+    assert not list(tmp_path.iterdir())
+    if kind == "usd":
+        with pytest.raises(MissingExtraError, match=told):
+            load_libraries([Format.URDF, Format.USD])
+
+
+def test_the_options_of_an_asset_are_those_that_it_was_written_with() -> None:
+    asset = {"files": {"usd": "a.usda", "mjcf": "a.xml"}, "base": "free", "drives": "position"}
+    assert ExportOptions.of(asset) == ExportOptions.parse("free", "mjcf,usd", "position")
+    assert ExportOptions.of({}) == ExportOptions.parse("fixed", "urdf,mjcf,sdf,glb", "passive")
+
+
+@pytest.mark.parametrize("damaged", [{"base": "fixd"}, {"base": ["fixed"]}, {"drives": 1}])
+def test_a_damaged_record_of_an_asset_gives_one_clear_error(damaged: dict) -> None:
+    with pytest.raises(OptionError, match=r"found .*; valid are"):
+        ExportOptions.of(damaged)

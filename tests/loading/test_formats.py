@@ -1,6 +1,10 @@
 """Test that one solid is read alike from every format, with its materials and placement."""
 
+from __future__ import annotations
+
 import io
+import re
+import time
 import warnings
 from dataclasses import replace
 
@@ -18,16 +22,21 @@ from mesh_files import (
     UV,
     Gltf,
     all_files,
+    assert_refused,
     dae,
     obj,
+    plain_gltf,
     ply_header,
     put,
     rows,
+    stl_ascii,
+    stl_binary,
     triples,
 )
 from PIL import Image
 
 from anymesh.loading import load_mesh, place_mesh
+from anymesh.loading.trimesh_ import with_decimal_points
 from anymesh.types.mesh import to_linear
 
 FILES = all_files()
@@ -237,3 +246,129 @@ def test_obj_material_is_red_and_the_solid_keeps_shared_corners(tmp_path) -> Non
     assert MTL.startswith(b"newmtl red")
     assert mesh.materials[0] == replace(mesh.materials[0], name="red", base_color=(1.0, 0.0, 0.0, 1.0))
     assert len(mesh.vertices) == 8
+
+
+def test_dae_geometry_survives_a_broken_material(tmp_path) -> None:
+    """Exporters of Blender name surfaces that do not exist; the geometry with that material was lost."""
+    (tmp_path / "checker.png").write_bytes(checker())
+    broken = dae(look='<texture texture="p" texcoord="c"/>').replace(b"<source>s</source>", b"<source>gone</source>")
+    loaded = load_mesh(put(tmp_path, "box.dae", broken))
+    np.testing.assert_allclose(loaded.mesh.triangles, POINTS[FACES])
+    (warning,) = loaded.warnings
+    assert "its materials are left out" in warning
+
+
+def test_dae_decimal_commas_are_points(tmp_path) -> None:
+    """FBX exporters write them on computers that are set to German or French."""
+    plain = dae(unit='<unit meter="0.01"/>', look="<color>0.5 0.25 1.0 1</color>").replace(b"0 0 9", b"0.0 0.0 9.5")
+    commas = re.sub(rb"(?<=[\d> \"-])(\d+)\.(\d+)(?=[\s<\"])", rb"\1,\2", plain).replace(b'version="1,', b'version="1.')
+    assert b"0,5 0,25" in commas
+    assert b'"0,01"' in commas
+    first, second = (load_mesh(put(tmp_path, name, data)) for name, data in (("a.dae", plain), ("b.dae", commas)))
+    np.testing.assert_array_equal(first.mesh.triangles, second.mesh.triangles)
+    assert first.mesh.materials[0].base_color == second.mesh.materials[0].base_color
+    assert first.unit_in_metres == second.unit_in_metres == 0.01
+    assert second.warnings == ("found decimal commas, which are taken for points",)
+    assert first.warnings == ()
+
+
+@pytest.mark.parametrize(
+    "text", [b"<a>1,2,3</a>", b"<a>0,5 1.5</a>", b"<a>p, q</a>", b'<a n="Box 1,5"/>', b'<a id="1,5"/>', b"<a>1,5 x</a>"]
+)
+def test_other_commas_of_a_dae_stay(text: bytes) -> None:
+    assert with_decimal_points(text) == text
+
+
+@pytest.mark.parametrize("name", ["ascii.stl", "box.obj"])
+@pytest.mark.parametrize("end", [b"\r", b"\r\n"])
+def test_lines_may_end_with_a_carriage_return(tmp_path, name, end) -> None:
+    mesh = load_mesh(put(tmp_path, name, all_files()[name].replace(b"\n", end))).mesh
+    np.testing.assert_allclose(mesh.triangles, POINTS[FACES], atol=1e-6)
+
+
+@pytest.mark.parametrize("value", ["nan", "inf", "1e37", "1e300"])
+def test_texture_coordinates_that_mean_no_place_are_0(tmp_path, value) -> None:
+    uv = "\n".join(f"vt {value if k == 0 else u} {v}" for k, (u, v) in enumerate(UV))
+    corners = "\n".join("f " + " ".join(f"{c + 1}/{c + 1}" for c in face) for face in FACES)
+    read = load_mesh(put(tmp_path, "box.obj", (rows("v ", POINTS) + uv + "\n" + corners + "\n").encode()))
+    uv_read = read.mesh.corner_uv
+    assert uv_read is not None
+    assert np.isfinite(uv_read).all()
+    first = np.array(FACES) == 0
+    assert (uv_read[first][:, 0] == 0).all()
+    assert uv_read[~first] == pytest.approx(UV[np.array(FACES)][~first])
+    if value != "nan":  # the OBJ reader takes NaN for 0 without a warning
+        assert any("texture coordinates" in w for w in read.warnings)
+
+
+@pytest.mark.parametrize(("cutoff", "kept"), [(float("nan"), 0.5), (float("inf"), 0.5), (0.3, 0.3), (1.5, 1.5)])
+def test_a_cutoff_is_finite(tmp_path, cutoff, kept) -> None:
+    document = plain_gltf()
+    document.doc["materials"] = [{"alphaMode": "MASK", "alphaCutoff": cutoff}]
+    document.doc["meshes"][0]["primitives"][0]["material"] = 0
+    assert load_mesh(put(tmp_path, "a.glb", document.glb())).mesh.materials[0].alpha_cutoff == kept
+
+
+def test_a_mesh_that_does_not_exist_is_refused(tmp_path) -> None:
+    document = plain_gltf()
+    document.doc["nodes"][0]["mesh"] = -1
+    assert_refused(put(tmp_path, "a.glb", document.glb()), "index -1")
+
+
+def test_what_moves_or_repeats_a_mesh_is_told(tmp_path) -> None:
+    document = plain_gltf()
+    document.doc["nodes"][0]["extensions"] = {"EXT_mesh_gpu_instancing": {"attributes": {}}}
+    document.doc["meshes"][0]["primitives"][0]["targets"] = [{}]
+    document.doc["extensionsRequired"] = ["KHR_materials_unlit", "ACME_gravity"]
+    warnings = " ".join(load_mesh(put(tmp_path, "a.glb", document.glb())).warnings)
+    assert "instances" in warnings
+    assert "morph targets" in warnings
+    assert "ACME_gravity" in warnings
+    assert "unlit" not in warnings
+
+
+def test_an_obj_counts_from_1_also_in_its_errors(tmp_path) -> None:
+    data = (rows("v ", POINTS) + triples() + "f 1 2 1000\n").encode()
+    assert_refused(put(tmp_path, "a.obj", data), "vertex 1000; valid are 1 to 8")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        bytes.upper,
+        lambda d: b"\xef\xbb\xbf" + d,
+        lambda d: d.replace(b"\n", b" "),
+        lambda d: d.replace(b"\n", b"\r"),
+        lambda d: b"\f" + d,
+        lambda d: re.sub(rb" normal [^\n]*", b"", d),
+        lambda d: re.sub(rb"solid[^\n]*", b"solid my facet normal map, vertex one two three", d, count=1),
+        lambda d: re.sub(rb"endsolid[^\n]*", b"endsolid facet normal vertex a b c", d),
+        lambda d: d.replace(b"outer loop", b"outer loop ; a vertex of the box here"),
+    ],
+    ids=["capitals", "mark", "one line", "returns", "feed", "no normals", "title", "end", "comments"],
+)
+def test_spellings_of_ascii_stl(tmp_path, change) -> None:
+    plain = load_mesh(put(tmp_path, "a.stl", stl_ascii())).mesh
+    assert (load_mesh(put(tmp_path, "b.stl", change(stl_ascii()))).mesh.triangles == plain.triangles).all()
+
+
+def test_a_binary_stl_may_have_text_in_its_header(tmp_path) -> None:
+    data = b"solid made of facets".ljust(80) + stl_binary()[80:]
+    assert len(load_mesh(put(tmp_path, "a.stl", data)).mesh.faces) == len(FACES)
+
+
+def seconds(path) -> float:
+    begin = time.process_time()
+    load_mesh(path)
+    return time.process_time() - begin
+
+
+def test_the_time_of_large_outlines_and_empty_lines_does_not_explode(tmp_path) -> None:
+    rng = np.random.default_rng(0)
+    outline = np.c_[rng.random((3000, 2)), np.zeros(3000)]  # crosses itself thousands of times
+    polygon = put(tmp_path, "a.obj", (rows("v ", outline) + "f " + " ".join(map(str, range(1, 3001))) + "\n").encode())
+    empty = put(tmp_path, "b.stl", stl_ascii().replace(b"endfacet\n", b"endfacet" + b"\n" * 50_000))
+    assert len(load_mesh(polygon).mesh.faces) == 2998
+    assert seconds(polygon) < 2  # 0.1 s; with the triangles of one corner after the other it took hours
+    assert seconds(empty) < 2
+    assert seconds(put(tmp_path, "c.stl", stl_ascii() + stl_ascii().replace(b"solid", b"solid" + b" " * 100_000, 1))) < 2

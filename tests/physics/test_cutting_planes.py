@@ -223,3 +223,16 @@ def test_a_trimmed_tetrahedron_keeps_the_share_below() -> None:
     assert trimmed(whole, Z, -1.0) is None
     assert (planes(left)[:, :3] @ [0.5, 0.5, 0.5] + planes(left)[:, 3]).max() < 0
     assert len(planes(left)) == len(left.faces)
+
+
+@pytest.mark.parametrize("scale", [0.1, 10.0])
+def test_cutting_planes_are_between_the_inner_corners_too(scale: float) -> None:
+    """A step in the middle of a bar gives a plane at the step."""
+    v, f = box((0, 0, 0), (1, 0.2, 0.2))
+    step, g = box((0, 0, 0.2), (0.4, 0.2, 0.4))
+    triangles = scale * np.concatenate([v[f], step[g]])
+    found = [abs(o) / scale for n, o in cutting_planes(triangles, 0.01 * scale) if abs(n[0]) > 0.9]
+    assert sorted(round(o, 6) for o in set(found)) == [0.01, 0.4, 0.5, 0.99]
+    for n, offset in cutting_planes(triangles, 0.01 * scale):
+        along = triangles.reshape(-1, 3) @ n
+        assert along.min() + 0.0099 * scale < offset < along.max() - 0.0099 * scale

@@ -33,6 +33,7 @@ from anymesh.physics.decompose import (
     component_shapes,
     load_shapes,
     save_shapes,
+    smallest_box,
     split_components,
 )
 from anymesh.physics.split import concave_planes, cutting_planes, least_volume_first, outline, patch_of, split_surface
@@ -264,3 +265,11 @@ def test_a_concave_solid_is_divided_alike_however_careless_its_faces_are(change:
     assert component.solid
     assert len(component.triangles) == len(solid)
     assert len(component_shapes(component, resolution)) == len(component_shapes(plain, resolution)) > 4
+
+
+def test_the_smallest_box_is_around_the_link_and_as_thick_as_a_wall() -> None:
+    point = as_hull(smallest_box(np.full((1, 3, 3), 5.0), 0.002)).vertices
+    assert point.min(0) == pytest.approx([4.999] * 3)
+    assert point.max(0) == pytest.approx([5.001] * 3)
+    line = as_hull(smallest_box(np.array([[[0.0, 0, 0], [2, 0, 0], [1, 0, 0]]]), 0.5)).vertices
+    assert np.stack([line.min(0), line.max(0)]) == pytest.approx(np.array([[0, -0.25, -0.25], [2, 0.25, 0.25]]))

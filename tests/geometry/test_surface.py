@@ -6,7 +6,7 @@ from assets import box, mesh_of
 from rigid import apply, move
 from test_triangle_set import outwardness
 
-from anymesh.geometry.surface import mesh_surface, plain_triangles, without_copies
+from anymesh.geometry.surface import ground_faces, mesh_surface, plain_triangles, without_copies
 from anymesh.geometry.topology import MAX_AROUND, components, edge_pairs
 from anymesh.physics.inertia import InertiaConfig, raw_inertia
 from anymesh.types import Mesh
@@ -232,3 +232,37 @@ def test_a_surface_is_the_same_however_it_is_wound_and_doubled(seed: int) -> Non
         np.testing.assert_allclose(other.shape.normals, plain.shape.normals)
         assert other.components.edges.aligned.all()
         np.testing.assert_allclose(other.shape.triangles[other.row].mean(1), mesh.vertices[faces].mean(1))
+
+
+CABINET = [box((-0.3, -0.2, 0), (0.3, 0.2, 0.8)), box((-0.3, -0.22, 0), (0, -0.2, 0.8))]
+
+
+def ground(*shapes: tuple[np.ndarray, np.ndarray]) -> list[int]:
+    """Return the shapes of which all faces are ground, and check that no other face is."""
+    mesh = mesh_of(list(shapes))[0]
+    faces = ground_faces(mesh).reshape(len(shapes), -1)
+    assert (faces.all(1) == faces.any(1)).all()
+    return np.flatnonzero(faces.all(1)).tolist()
+
+
+@pytest.mark.parametrize(("low", "high"), [((-1, -1, -0.02), (1, 1, 0)), ((-0.37, -0.3, -0.02), (0.37, 0.3, 0.01))])
+def test_a_slab_that_reaches_beyond_a_cabinet_is_its_ground(low: tuple, high: tuple) -> None:
+    assert ground(*CABINET, box(low, high)) == [2]
+
+
+@pytest.mark.parametrize(
+    ("low", "high"),
+    [
+        ((-0.3, -0.22, -0.02), (0.3, 0.2, 0)),  # a plinth as wide as the cabinet
+        ((-1, -0.22, -0.02), (1, 0.2, 0)),  # a shelf that is no deeper
+        ((-0.1, -0.1, -0.02), (1.9, 1.9, 0)),  # beside it
+        ((-1, -1, -0.2), (1, 1, 0)),  # a pedestal
+        ((-1, -1, 0.8), (1, 1, 0.82)),  # a table top
+    ],
+)
+def test_what_is_as_small_thick_or_high_is_no_ground(low: tuple, high: tuple) -> None:
+    assert ground(*CABINET, box(low, high)) == []
+
+
+def test_an_object_of_one_component_has_no_ground() -> None:
+    assert ground(box((-1, -1, 0), (1, 1, 0.02))) == []

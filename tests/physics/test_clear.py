@@ -184,3 +184,62 @@ def test_false_contacts_stay_after_the_deadline() -> None:
     hull = hull_of(np.concatenate([as_hull(cube(0)).vertices, [[0, 0, 0.9]]]))
     assert hull is not None
     assert not isinstance(fitted(hull), Box)
+
+
+def test_no_components_give_no_faults() -> None:
+    found = scene_of({"a": at()}).faults([])
+    assert (found.found, found.poses) == ([], ())
+
+
+def solid(low, high) -> np.ndarray:
+    v, f = box(low, high)
+    return v[f]
+
+
+def cleared_boxes(first: tuple, second: tuple, levels: int = 1, rounds: int = 3, refined: list | None = None):
+    """Clear a contact of two boxes of links whose surfaces do not cross."""
+    surfaces = {"a": LinkSurface(solid((0, 0, 0), (0.1, 0.1, 0.1))), "b": LinkSurface(solid((9, 9, 9), (9.1, 9.1, 9.1)))}
+    scene = ContactScene(surfaces, [dict.fromkeys("ab", np.eye(4))], 1e-4, 1e-3)
+    cubes = {"a": solid(*first), "b": solid(*second)}
+    shapes = [ComponentShapes(n, Component(t, True), 0, (fitted(hull_of(t.reshape(-1, 3))),)) for n, t in cubes.items()]
+
+    def refine(components, to):
+        assert refined is not None
+        refined.append(list(to))
+        return [(fitted(hull_of(c.triangles.reshape(-1, 3) * 0.5)),) for c in components]
+
+    found = clear(scene, shapes, refine, levels=levels, rounds=rounds)
+    return found, [sum(volume(as_hull(s)) for s in p.shapes) for p in found.pieces]
+
+
+BIG, SMALL = ((0, 0, 0), (1, 1, 1)), ((0.4, 0.4, 0.98), (0.6, 0.6, 1.18))
+
+
+@pytest.mark.parametrize("scale", [0.05, 1.0, 20.0])
+@pytest.mark.parametrize("swapped", [False, True])
+def test_the_smaller_share_is_trimmed_at_any_size(scale: float, swapped: bool) -> None:
+    """Two centimetres of a cube of 1 m and of one of 0.2 m, all of them scaled."""
+    cubes = [np.asarray(v * scale)[f] for v, f in (box(*corners) for corners in ((SMALL, BIG) if swapped else (BIG, SMALL)))]
+    far = [LinkSurface(scale * (0.1 * cubes[0] / scale + shift)) for shift in (0.0, 9.0)]
+    scene = ContactScene(dict(zip("ab", far, strict=True)), [dict.fromkeys("ab", np.eye(4))], 1e-4 * scale, 1e-3 * scale)
+    shapes = [
+        ComponentShapes(name, Component(t, True), 0, (fitted(hull_of(t.reshape(-1, 3))),))
+        for name, t in zip("ab", cubes, strict=True)
+    ]
+    found = clear(scene, shapes, lambda components, levels: [], levels=1, rounds=3)
+    large, small = sorted((sum(volume(as_hull(s)) for s in p.shapes) / scale**3 for p in found.pieces), reverse=True)
+    assert small == pytest.approx(0.008)
+    assert large == pytest.approx(0.98, abs=0.002)
+
+
+def test_a_contact_that_would_cost_much_refines_its_components_first_and_is_trimmed_at_the_last_level() -> None:
+    """Both cubes would lose a fifth."""
+    deep = ((0, 0, 0.8), (1, 1, 1.8))
+    refined: list = []
+    _, volumes = cleared_boxes(BIG, deep, levels=2, refined=refined)
+    assert refined[0] == [1, 1]
+    _, last = cleared_boxes(BIG, deep, levels=1)
+    assert sorted(last) == pytest.approx([0.8, 1.0], abs=0.002)
+    kept, _ = cleared_boxes(BIG, deep, levels=1, rounds=0)
+    assert (kept.before, kept.left) == (1, (("a", "b"),))
+    assert len(volumes) == 2
