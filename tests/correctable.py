@@ -11,8 +11,8 @@ from assets import cabinet
 
 from anymesh.export import write_asset
 from anymesh.pipeline.results import CompletionResult, JointResult, LoadResult, SegmentationResult
-from anymesh.pipeline.storage.packing import COMPLETION, JOINTS, MESH, SEGMENTATION
-from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.run_folder import RunFolder
+from anymesh.pipeline.stage_files import COMPLETION, JOINTS, MESH, SEGMENTATION
 from anymesh.types import Asset
 
 

@@ -45,7 +45,7 @@ MANY_PARAMETERS = {
     "pipeline/api.py:articulate", "pipeline/api.py:segment", "pipeline/api.py:export_asset", "finishing/finishing.py:finish",
     "viewer/live_serve_.py:serve", "viewer/pictures_write.py:write_picture",
     # inner functions
-    "articulation/estimate.py:joint_of", "geometry/creases.py:_folds_inwards", "pipeline/storage/assemble.py:assemble",
+    "articulation/estimate.py:joint_of", "geometry/creases.py:_folds_inwards", "pipeline/stage_files.py:assemble",
 }  # fmt: skip
 OUTSIDE = set(
     "trimesh embreex igl mujoco torch transformers onnxruntime huggingface_hub "

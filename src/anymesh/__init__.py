@@ -8,7 +8,7 @@ Functions and classes are loaded on first use, so that importing this package is
 
 from typing import TYPE_CHECKING
 
-from anymesh.entry_points import API, load
+from anymesh.entry_points import API, resolve
 from anymesh.errors import AnymeshError, InputError, MissingExtraError, OptionError, OutputError
 
 if TYPE_CHECKING:
@@ -52,10 +52,10 @@ __all__ = [
 
 def __getattr__(name: str) -> object:
     if name in API:
-        return load(f"{API[name]}:{name}")
+        return resolve(f"{API[name]}:{name}")
     raise AttributeError(f"module 'anymesh' has no attribute {name!r}")
 
 
 def load_ipython_extension(shell: object) -> None:
     """Show the assets of lists and dictionaries too, not only alone, after `%load_ext anymesh` in a notebook."""
-    load("viewer.report_notebook:register")(shell)
+    resolve("viewer.report_notebook:register")(shell)

@@ -34,12 +34,12 @@ API = {
 
 # The commands, in the order of `anymesh --help`.
 COMMANDS = {
-    "articulate": "cli.articulate:articulate",
+    "articulate": "cli.commands:articulate",
     "generate": "applications.generate.command_line:generate",
     "annotate": "applications.annotate.command_line:annotate",
-    "segment": "cli.stages:segment",
-    "joints": "cli.stages:joints",
-    "export": "cli.stages:export",
+    "segment": "cli.commands:segment",
+    "joints": "cli.commands:joints",
+    "export": "cli.commands:export",
     "answer": "prompted.command_line:answer",
     "models": "prompted.command_line:models",
     "mcp": "agents.command_line:mcp",
@@ -56,7 +56,7 @@ COMMANDS = {
 }
 
 
-def load(place: str) -> Any:
+def resolve(place: str) -> Any:
     """Import what stands at a place."""
     module, _, name = place.partition(":")
     return getattr(import_module(f"anymesh.{module}"), name)

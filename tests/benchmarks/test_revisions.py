@@ -17,7 +17,7 @@ from benchmarks.same_bytes import contents, differences
         ("models/meshy_task.py", "finishing"),
         ("models/sam.py", "prompted"),
         ("checking/command_line.py", "checking"),
-        ("cli/stages.py", "core"),
+        ("cli/commands.py", "core"),
         ("applications/plan/__init__.py", "applications and their commands"),
     ],
 )

@@ -10,7 +10,7 @@ from called import FACES, PARTS, called, contents
 from PIL import Image
 
 from anymesh import __version__
-from anymesh.pipeline import geometry_stages, results
+from anymesh.pipeline import results, solving
 
 
 @pytest.mark.parametrize("command", [[], ["articulate"], ["segment"], ["joints"], ["export"]])
@@ -71,7 +71,7 @@ def test_an_interrupt_is_an_object_where_one_is_asked_for(mesh, monkeypatch, cap
     def interrupted(*_, **__):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(geometry_stages, "segment_parts", interrupted)
+    monkeypatch.setattr(solving, "segment_parts", interrupted)
     code, out, err = called(capfd, "articulate", mesh, "-o", "out", "--json")
     assert (code, err) == (130, "interrupted\n")
     assert json.loads(out) == {"error": "interrupted", "kind": "KeyboardInterrupt", "exit_code": 130}

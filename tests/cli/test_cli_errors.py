@@ -10,7 +10,7 @@ from called import FACES, PARTS, called, contents
 from anymesh.cli import run
 from anymesh.cli.defect import write_defect
 from anymesh.errors import MissingExtraError
-from anymesh.pipeline import geometry_stages
+from anymesh.pipeline import solving
 
 
 def faulty_calls() -> dict[str, tuple[int, list[str], str]]:
@@ -98,7 +98,7 @@ def test_other_ends(raised, code: int, word: str, mesh, monkeypatch, capfd) -> N
     def fails(*_, **__):
         raise raised
 
-    monkeypatch.setattr(geometry_stages, "segment_parts", fails)
+    monkeypatch.setattr(solving, "segment_parts", fails)
     before = contents(Path.cwd())
     found, out, err = called(capfd, "articulate", mesh, "-o", "out")
     assert (found, out) == (code, "")

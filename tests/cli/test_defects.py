@@ -12,7 +12,7 @@ import trimesh
 from anymesh import __version__, pipeline
 from anymesh.cli import run
 from anymesh.errors import InputError, redacted
-from anymesh.pipeline import geometry_stages, stages
+from anymesh.pipeline import solving, stages
 
 KEY = "sk-0123456789abcdefghijklmnopqrstuvwxyz"
 CALL = ["articulate", "my mesh.stl", "-o", "out", "--up", "z", "--formats", "glb"]
@@ -35,15 +35,15 @@ def fail_joints(monkeypatch, told: str) -> None:
         except ValueError as error:
             raise ValueError(told) from error
 
-    monkeypatch.setattr(geometry_stages, "estimate_joints", fails)
+    monkeypatch.setattr(solving, "estimate_joints", fails)
 
 
 def counted(monkeypatch) -> list[str]:
     """The stages that are computed from now on."""
     made: list[str] = []
     for name in ("segment_parts", "estimate_joints"):
-        true = getattr(geometry_stages, name)
-        monkeypatch.setattr(geometry_stages, name, lambda *a, true=true, name=name, **k: made.append(name) or true(*a, **k))
+        true = getattr(solving, name)
+        monkeypatch.setattr(solving, name, lambda *a, true=true, name=name, **k: made.append(name) or true(*a, **k))
     return made
 
 

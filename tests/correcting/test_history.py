@@ -42,8 +42,8 @@ from anymesh.correcting import (
 from anymesh.correcting.history import KINDS, pack_log, unpack_log
 from anymesh.errors import OutputError
 from anymesh.pipeline.results import JointResult
-from anymesh.pipeline.storage.packing import JOINTS
-from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.run_folder import RunFolder
+from anymesh.pipeline.stage_files import JOINTS
 from anymesh.types import JointType
 
 ONE_OF_EACH = (

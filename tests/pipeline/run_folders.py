@@ -7,8 +7,8 @@ from assets import cabinet
 
 from anymesh.export import write_asset
 from anymesh.pipeline.results import JointResult, LoadResult, SegmentationResult
-from anymesh.pipeline.storage.packing import JOINTS, MESH, SEGMENTATION
-from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.run_folder import RunFolder
+from anymesh.pipeline.stage_files import JOINTS, MESH, SEGMENTATION
 
 
 def results(asset):

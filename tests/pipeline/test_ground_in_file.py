@@ -6,8 +6,7 @@ import trimesh
 from assets import box, mesh_of
 
 from anymesh.geometry.surface import ground_faces
-from anymesh.pipeline.geometry_stages import GROUND_WARNING
-from anymesh.pipeline.solving import Solver, solve
+from anymesh.pipeline.solving import GROUND_WARNING, Solver, solve
 
 SIDES = [((-0.4, -0.3, 0), (-0.38, 0.3, 0.5)), ((0.38, -0.3, 0), (0.4, 0.3, 0.5)), ((-0.4, 0.28, 0), (0.4, 0.3, 0.5))]
 LEVELS = [((-0.4, -0.3, z), (0.4, 0.3, z + 0.02)) for z in (0, 0.24, 0.48)]

@@ -9,9 +9,8 @@ from run_folders import files, results, write_all
 
 from anymesh.errors import OpenQuestionError, OutputError
 from anymesh.export import write_asset
-from anymesh.pipeline.storage.packing import JOINTS, MESH, SEGMENTATION
-from anymesh.pipeline.storage.run_folder import RunFolder
-from anymesh.pipeline.storage.stage_files import stage_key
+from anymesh.pipeline.run_folder import RunFolder
+from anymesh.pipeline.stage_files import JOINTS, MESH, SEGMENTATION, stage_key
 
 
 def assert_same(a, b):

@@ -12,8 +12,8 @@ from assets import cabinet
 from run_folders import files, results, write_all
 
 from anymesh.errors import OutputError
-from anymesh.pipeline.storage.packing import MESH
-from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.run_folder import RunFolder
+from anymesh.pipeline.stage_files import MESH
 
 
 def test_an_exception_leaves_nothing_or_the_old(tmp_path, source):
@@ -95,8 +95,8 @@ import sys, time
 sys.path[:0] = sys.argv[3:]
 from pathlib import Path
 from test_run_folder import results, cabinet
-from anymesh.pipeline.storage.packing import MESH
-from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.stage_files import MESH
+from anymesh.pipeline.run_folder import RunFolder
 with RunFolder.create(Path(sys.argv[1]), source=Path(sys.argv[2])) as run:
     run.save(MESH, "m", results(cabinet())[0])
     print("ready", flush=True)

@@ -15,7 +15,7 @@ from typer.core import TyperCommand
 from anymesh import __version__
 from anymesh.cli.output import plain
 from anymesh.cli.quiet import quiet_libraries
-from anymesh.entry_points import COMMANDS, load
+from anymesh.entry_points import COMMANDS, resolve
 from anymesh.errors import DEFECT, AnymeshError, OpenQuestionError
 
 EXIT_CODES = (
@@ -58,7 +58,7 @@ def make_app(*names: str) -> typer.Typer:
     )
     app.callback()(_main)
     for name in names or COMMANDS:
-        app.command(name, cls=_Command, epilog=EXIT_CODES)(load(COMMANDS[name]))
+        app.command(name, cls=_Command, epilog=EXIT_CODES)(resolve(COMMANDS[name]))
     return app
 
 

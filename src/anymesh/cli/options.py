@@ -1,14 +1,28 @@
-"""Options shared by several commands."""
+"""Options of commands, generated from the classes of options of the Python functions, and those shared by several."""
 
 from __future__ import annotations
 
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import Field, dataclass, field
+from functools import wraps
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated, Any, get_args, get_type_hints
 
 import typer
 
-from anymesh.cli.from_options import OptionsOf, option_of
-from anymesh.pipeline.options import AnswererOptions, CompletionOptions, FormatOptions, PlacementOptions, RunOptions
+from anymesh.pipeline.options import (
+    FLAGS,
+    HELP,
+    KIND,
+    METAVAR,
+    AnswererOptions,
+    CompletionOptions,
+    FormatOptions,
+    PlacementOptions,
+    RunOptions,
+    command_fields,
+)
 
 MeshPath = Annotated[Path, typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF or DAE.")]
 Folder = Annotated[Path, typer.Argument(metavar="DIR", help="A folder that `anymesh segment` made.")]
@@ -17,6 +31,82 @@ FolderPath = Annotated[
 ]
 Out = Annotated[Path, typer.Option("--out", "-o", metavar="DIR", help="Folder to write.")]
 Parts = Annotated[str, typer.Option(help="auto, nodes (the scene's nodes), or a .npy/.json file of face labels.")]
+Package = Annotated[
+    Path | None, typer.Option(metavar="DIR", help="Also write a ROS 2 package of the URDF, as a new folder in DIR.")
+]
+Zip = Annotated[Path | None, typer.Option("--zip", metavar="FILE", help="Also write the asset as one .zip file.")]
+Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.")]
+
+
+@dataclass(frozen=True)
+class OptionsOf:
+    """Annotation of a command's parameter: it receives the values of a class of options.
+
+    without: fields that the command does not have; helps, flags: help texts and names that differ from those of the class.
+    """
+
+    kind: type
+    without: tuple[str, ...] = ()
+    helps: Mapping[str, str] = field(default_factory=dict)
+    flags: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+
+    def parameters(self) -> list[inspect.Parameter]:
+        """Return one parameter per option."""
+        return [self._parameter(f) for f in command_fields(self.kind) if f.name not in self.without]
+
+    def _parameter(self, f: Field[Any]) -> inspect.Parameter:
+        kind: Any = f.metadata[KIND]
+        default: Any = f.default
+        if kind is tuple:
+            kind, default = str, ",".join(default)
+        hint: Any = kind | None if default is None else kind
+        value = _typer_option(f, self.helps.get(f.name), self.flags.get(f.name))
+        annotation = Annotated[hint, value]
+        return inspect.Parameter(f.name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
+
+    def values(self, given: dict[str, Any]) -> dict[str, Any]:
+        """Take the values of these options out of a command's arguments."""
+        options = {}
+        for f in command_fields(self.kind):
+            if f.name in given:
+                value = given.pop(f.name)
+                options[f.name] = tuple(v for v in value.split(",") if v.strip()) if f.metadata[KIND] is tuple else value
+        return options
+
+
+def option_of(kind: type, name: str) -> Any:
+    """Return the option of one field, for a command that has no other field of the class."""
+    option_field = next(f for f in command_fields(kind) if f.name == name)
+    return _typer_option(option_field)
+
+
+def _typer_option(f: Field[Any], text: str | None = None, flags: tuple[str, ...] | None = None) -> Any:
+    names = flags or f.metadata[FLAGS] or (f"--{f.name.replace('_', '-')}",)
+    return typer.Option(*names, metavar=f.metadata[METAVAR], help=text or f.metadata[HELP])
+
+
+def with_options(function: Callable[..., None]) -> Callable[..., None]:
+    """Replace each parameter of a command that is annotated with `OptionsOf` by the options of its class."""
+    hints = get_type_hints(function, include_extras=True)
+    classes = {name: k for name, hint in hints.items() for k in get_args(hint)[1:] if isinstance(k, OptionsOf)}
+    parameters: list[inspect.Parameter] = []
+    for name, parameter in inspect.signature(function).parameters.items():
+        if name in classes:
+            parameters += classes[name].parameters()
+        else:
+            parameters.append(parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY, annotation=hints[name]))
+
+    @wraps(function)
+    def command(**given: Any) -> None:
+        options = {name: of.values(given) for name, of in classes.items()}
+        function(**given, **options)
+
+    command.__signature__ = inspect.Signature(parameters)  # ty: ignore[missing-attribute]
+    command.__annotations__ = {p.name: p.annotation for p in parameters}
+    return command
+
+
 Answering = Annotated[dict[str, Any], OptionsOf(AnswererOptions)]
 Placement = Annotated[dict[str, Any], OptionsOf(PlacementOptions)]
 Completion = Annotated[dict[str, Any], OptionsOf(CompletionOptions)]
@@ -27,9 +117,3 @@ Force = Annotated[bool, option_of(RunOptions, "force")]
 MaxCalls = Annotated[int | None, option_of(AnswererOptions, "max_calls")]
 Root = Annotated[Path | None, option_of(PlacementOptions, "root")]
 Seed = Annotated[int, option_of(AnswererOptions, "seed")]
-Package = Annotated[
-    Path | None, typer.Option(metavar="DIR", help="Also write a ROS 2 package of the URDF, as a new folder in DIR.")
-]
-Zip = Annotated[Path | None, typer.Option("--zip", metavar="FILE", help="Also write the asset as one .zip file.")]
-Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.")]

@@ -16,13 +16,10 @@ from anymesh.correcting.edits import apply
 from anymesh.errors import OutputError
 from anymesh.export import write_asset
 from anymesh.export.formats import ExportOptions
+from anymesh.pipeline.atomic_folder import CORRECTIONS, locked
 from anymesh.pipeline.results import CorrectionResult
-from anymesh.pipeline.storage.atomic_folder import locked
-from anymesh.pipeline.storage.outputs import CORRECTIONS
-from anymesh.pipeline.storage.packing import CORRECTION
-from anymesh.pipeline.storage.run_folder import RunFolder
-from anymesh.pipeline.storage.saved import Saved
-from anymesh.pipeline.storage.stage_files import stage_key
+from anymesh.pipeline.run_folder import RunFolder, Saved
+from anymesh.pipeline.stage_files import CORRECTION, stage_key
 from anymesh.rendering.preview import write_preview
 from anymesh.runtime import cache_folder, read_json, write_json
 from anymesh.types import Asset, JointType

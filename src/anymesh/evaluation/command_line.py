@@ -8,10 +8,9 @@ from typing import Annotated, Any
 
 import typer
 
-from anymesh.cli.from_options import OptionsOf, with_options
-from anymesh.cli.options import Json, Quiet
+from anymesh.cli.options import Json, OptionsOf, Quiet, with_options
 from anymesh.cli.output import Shown, plain, print_result
-from anymesh.entry_points import EVALUATE_INTERACTION, INTERACTION_SUMMARY, load
+from anymesh.entry_points import EVALUATE_INTERACTION, INTERACTION_SUMMARY, resolve
 from anymesh.pipeline.options import AnswererOptions
 
 DatasetName = Annotated[
@@ -104,7 +103,7 @@ def evaluate(
 
 
 def _interaction(assets: str, out: Path, only: tuple[str, ...], seed: int, force: bool, json_: bool, quiet: bool) -> None:
-    evaluate_interaction, summary = load(EVALUATE_INTERACTION), load(INTERACTION_SUMMARY)
+    evaluate_interaction, summary = resolve(EVALUATE_INTERACTION), resolve(INTERACTION_SUMMARY)
     with Shown(quiet or json_) as progress:
         rows = evaluate_interaction(assets, out, only=only, seed=seed, force=force, progress=progress)
     shares = summary(rows)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from anymesh.entry_points import WRITE_TRANSCRIPT, load
+from anymesh.entry_points import WRITE_TRANSCRIPT, resolve
 from anymesh.export.asset_json import TIMING_FILE, asset_record, json_text
 from anymesh.export.formats import DEFAULT, Format, load_libraries, parse_formats, write_formats
 from anymesh.export.meshes import write_meshes
@@ -41,7 +41,7 @@ def write_asset(
     write_meshes(model, folder, config)
     write_formats(model, folder, formats, config)
     if asset.exchanges:
-        load(WRITE_TRANSCRIPT)(asset.exchanges, folder / TRANSCRIPT)
+        resolve(WRITE_TRANSCRIPT)(asset.exchanges, folder / TRANSCRIPT)
     texts = {
         TIMING_FILE: json_text({stage: round(float(seconds), 4) for stage, seconds in asset.timing.items()}),
         "asset.json": json_text(asset_record(model, formats)),

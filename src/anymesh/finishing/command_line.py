@@ -7,8 +7,7 @@ from typing import Annotated
 
 import typer
 
-from anymesh.cli.from_options import with_options
-from anymesh.cli.options import Completion, Formats, Json, MaxCalls, Out, Quiet, Running
+from anymesh.cli.options import Completion, Formats, Json, MaxCalls, Out, Quiet, Running, with_options
 from anymesh.cli.output import Shown, print_asset
 
 Asset = Annotated[Path, typer.Argument(metavar="DIR", help="An output of `anymesh articulate`.")]

@@ -21,10 +21,9 @@ from anymesh.finishing.protocol import Completer, Finished, ShapeConfig
 from anymesh.finishing.retexture import Remote
 from anymesh.finishing.texture import Carried, Retexturer
 from anymesh.pipeline.results import CompletionResult
+from anymesh.pipeline.run_folder import RunFolder
+from anymesh.pipeline.stage_files import COMPLETION, stage_key
 from anymesh.pipeline.stages import write_files
-from anymesh.pipeline.storage.packing import COMPLETION
-from anymesh.pipeline.storage.run_folder import RunFolder
-from anymesh.pipeline.storage.stage_files import stage_key
 from anymesh.runtime import DEFAULT_SECONDS, Deadline, Progress, silent
 from anymesh.types import Asset
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from threading import Event
 
 from anymesh.config import Config, SegmentationConfig
-from anymesh.entry_points import OPEN_ANSWERER, load
+from anymesh.entry_points import OPEN_ANSWERER, resolve
 from anymesh.errors import OptionError
 from anymesh.pipeline.options import GEOMETRY, AnswererOptions, Answering
 from anymesh.runtime import Deadline
@@ -73,7 +73,7 @@ def choose_answerer(
     )
     config = replace(config, views=replace(config.views, around=chosen.viewpoints))
     if chosen.answerer != GEOMETRY:
-        return load(OPEN_ANSWERER)(chosen, config, about, deadline or Deadline(), stop)
+        return resolve(OPEN_ANSWERER)(chosen, config, about, deadline or Deadline(), stop)
     if chosen.parts_list:
         raise OptionError("--parts-list: geometry cannot find parts by name; choose a model or files with --answerer")
     return AnswererSetup(config, GEOMETRY, None)

@@ -2,24 +2,60 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
-from contextlib import contextmanager
+import logging
+from collections.abc import Generator, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Unpack
 
-from anymesh.errors import OptionError
+from anymesh.entry_points import REMOVE_TRANSCRIPT, WRITE_TRANSCRIPT, resolve
+from anymesh.errors import OpenQuestionError, OptionError, OutputError
 from anymesh.export import Base, Driven, Format
 from anymesh.export.formats import DEFAULT, ExportOptions
 from anymesh.export.package import check_zip, write_package, write_zip
 from anymesh.isolation import AHEAD, shared_pool
-from anymesh.pipeline.answering import choose_answerer, object_name
+from anymesh.pipeline.answering import AnswererSetup, choose_answerer, object_name
 from anymesh.pipeline.options import Answering, PlacementOptions
-from anymesh.pipeline.stages import Keyed, Run, estimate_joints, load, recognize, segment_parts, write_files
-from anymesh.pipeline.stopped_run import kept_transcript
-from anymesh.pipeline.storage.packing import MESH, SEGMENTATION
-from anymesh.pipeline.storage.run_folder import LAST, RunFolder
+from anymesh.pipeline.run_folder import LAST, RunFolder
+from anymesh.pipeline.stage_files import JOINTS, MESH, RECOGNITION, SEGMENTATION
+from anymesh.pipeline.stages import Keyed, Run, estimate_joints, find_parts, load, recognize, write_files
 from anymesh.runtime import DEFAULT_SECONDS, Deadline, Progress, read_json, silent
-from anymesh.types import Asset, Joint, Segmentation
+from anymesh.types import Asset, Exchange, Joint, Segmentation
+
+log = logging.getLogger("anymesh")
+
+
+@contextmanager
+def kept_transcript(run: RunFolder, who: AnswererSetup) -> Generator[None]:
+    """Write OUT.transcript beside the output if the run ends early, else remove that of an earlier run."""
+    folder = run.target.parent / f"{run.target.name}.transcript"
+    try:
+        yield
+    except OpenQuestionError:
+        raise  # the folders of its questions contain them
+    except BaseException:
+        _write(run, who, folder)
+        raise
+    if folder.exists():
+        with suppress(OSError):
+            resolve(REMOVE_TRANSCRIPT)(folder)
+
+
+def _write(run: RunFolder, who: AnswererSetup, folder: Path) -> None:
+    saved = list(_saved(run))
+    exchanges = [*saved, *(e for e in who.exchanges() if e not in saved)]
+    if exchanges:
+        try:
+            resolve(WRITE_TRANSCRIPT)(exchanges, folder)
+            log.warning("what was asked and answered until then: %s", folder / "index.html")
+        except OSError as error:  # the error that ended the run is more important
+            log.warning("the transcript cannot be written to %s: %s", folder, error.strerror or error)
+
+
+def _saved(run: RunFolder) -> Iterator[Exchange]:
+    for stage in (RECOGNITION, SEGMENTATION, JOINTS):
+        with suppress(OutputError):
+            yield from run.need(stage).exchanges
 
 
 def articulate(
@@ -55,7 +91,7 @@ def articulate(
         shared_pool().warm(*AHEAD)
         loaded = load(run, Path(mesh_path), PlacementOptions(up, scale, root))
         solver, recognized = recognize(run, loaded, parts, sized=scale == "auto")
-        segmented = segment_parts(run, solver, recognized, parts)
+        segmented = find_parts(run, solver, recognized, parts)
         estimate_joints(run, solver, recognized.result, segmented)
         return write_files(run.folder, how, run.deadline, progress)
 
@@ -77,7 +113,7 @@ def segment(
     with _new_run(mesh_path, out, answering, force, time_limit, progress) as run:
         loaded = load(run, Path(mesh_path), PlacementOptions(up, scale, root))
         solver, recognized = recognize(run, loaded, parts, sized=scale == "auto")
-        return segment_parts(run, solver, recognized, parts).result.segmentation
+        return find_parts(run, solver, recognized, parts).result.segmentation
 
 
 @contextmanager

@@ -11,8 +11,7 @@ from typing import Any
 from anymesh import pipeline
 from anymesh.errors import AnymeshError, BudgetError, InputError, MissingExtraError, OpenQuestionError, OptionError, OutputError
 from anymesh.loading.files import FORMATS
-from anymesh.pipeline.options import FILES, GEOMETRY
-from anymesh.pipeline.spending import Spent
+from anymesh.pipeline.options import FILES, GEOMETRY, Spent
 from anymesh.runtime import Progress, read_json, silent
 
 ENDING = (BudgetError, MissingExtraError, OptionError)  # errors that would recur for every other object

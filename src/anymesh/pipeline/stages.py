@@ -14,10 +14,9 @@ from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline.answering import AnswererSetup
 from anymesh.pipeline.options import PlacementOptions
 from anymesh.pipeline.results import JointResult, LoadResult, RecognitionResult, SegmentationResult
+from anymesh.pipeline.run_folder import RunFolder
 from anymesh.pipeline.solving import Solver
-from anymesh.pipeline.storage.packing import JOINTS, MESH, RECOGNITION, SEGMENTATION, Stage
-from anymesh.pipeline.storage.run_folder import RunFolder
-from anymesh.pipeline.storage.stage_files import stage_key
+from anymesh.pipeline.stage_files import JOINTS, MESH, RECOGNITION, SEGMENTATION, Stage, stage_key
 from anymesh.rendering.preview import write_legend, write_preview
 from anymesh.runtime import PREVIEW, Deadline, Progress, cache_folder
 from anymesh.segmentation.given import GIVEN
@@ -97,7 +96,7 @@ def recognize(run: Run, loaded: Keyed[LoadResult], parts: str, *, sized: bool) -
     return (solver if final is loaded.result else run.solver(final.mesh)), Keyed(recognized, key)
 
 
-def segment_parts(run: Run, solver: Solver, recognized: Keyed[RecognitionResult], parts: str) -> Keyed[SegmentationResult]:
+def find_parts(run: Run, solver: Solver, recognized: Keyed[RecognitionResult], parts: str) -> Keyed[SegmentationResult]:
     """Find the movable parts (paper, 3.2)."""
     settings = {**run.who.settings("verify"), "parts": parts, "labels": _bytes_of_labels(parts), "limit": run.deadline.limit}
     key = stage_key(SEGMENTATION, previous=recognized.key, config=settings)

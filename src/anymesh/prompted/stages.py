@@ -6,8 +6,8 @@ from dataclasses import replace
 from functools import cached_property, partial
 
 from anymesh.articulation.freedom import stays_free
-from anymesh.pipeline.geometry_stages import GeometryStages
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
+from anymesh.pipeline.solving import GeometryStages
 from anymesh.prompted.answerers.reference import Reference, reference_of
 from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
 from anymesh.prompted.grounding.ask_marks import MarkQuestioner

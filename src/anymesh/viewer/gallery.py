@@ -13,8 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from anymesh.errors import OutputError
-from anymesh.pipeline.storage.atomic_folder import locked
-from anymesh.pipeline.storage.outputs import written_files
+from anymesh.pipeline.atomic_folder import locked, written_files
 from anymesh.runtime import read_json
 
 REVIEW = "review.json"

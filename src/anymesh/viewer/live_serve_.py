@@ -12,7 +12,7 @@ from pathlib import Path
 
 from anymesh import pipeline
 from anymesh.errors import OptionError
-from anymesh.pipeline.storage.outputs import CORRECTIONS, written_files
+from anymesh.pipeline.atomic_folder import CORRECTIONS, written_files
 from anymesh.runtime import Progress, silent
 from anymesh.viewer.bench_ import WorkbenchFolders
 from anymesh.viewer.live import Clock

@@ -15,7 +15,7 @@ from typing import Any
 
 from anymesh.applications.annotate import work
 from anymesh.errors import InputError, ModelError, OpenQuestionError, OutputError
-from anymesh.pipeline.spending import Limit
+from anymesh.pipeline.options import Limit
 from anymesh.prompted.models.retry import UnavailableError
 
 

@@ -22,7 +22,7 @@ from anymesh.applications.annotate.states import AttemptOutcome, Result
 from anymesh.applications.annotate.work import ObjectAccount
 from anymesh.applications.annotate.workers import object_limits
 from anymesh.errors import InputError, OptionError, OutputError
-from anymesh.pipeline.spending import Limit
+from anymesh.pipeline.options import Limit
 
 HERE = Path(__file__).parent
 

@@ -10,8 +10,7 @@ from loopback import guard
 from meshy_wire import MeshyServer, serving
 
 from anymesh import pipeline
-from anymesh.pipeline.storage.run_folder import RunFolder
-from anymesh.pipeline.storage.saved import Saved
+from anymesh.pipeline.run_folder import RunFolder, Saved
 from anymesh.runtime import Progress
 from anymesh.types import Asset
 

@@ -17,7 +17,7 @@ from anymesh.applications.generate.protocol import Unit
 from anymesh.applications.generate.work import WorkFolder
 from anymesh.checking import check_asset
 from anymesh.errors import OutputError
-from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.run_folder import RunFolder
 
 CABINET = BOX.with_name("cabinet_fused.glb")
 

@@ -12,7 +12,7 @@ from anymesh.applications.generate import explain_generation, generate
 from anymesh.applications.generate.work import STILL, WorkFolder
 from anymesh.errors import AnymeshError, BudgetError, InputError, ModelError, OptionError, OutputError
 from anymesh.finishing.retexture import Remote
-from anymesh.pipeline.storage.atomic_folder import locked
+from anymesh.pipeline.atomic_folder import locked
 from anymesh.types import JointType
 
 

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from anymesh.cli.from_options import OptionsOf, with_options
-from anymesh.cli.options import Formats, Json, Parts, Quiet, Time
+from anymesh.cli.options import Formats, Json, OptionsOf, Parts, Quiet, Time, with_options
 from anymesh.cli.output import ended_by_signal, plain
 from anymesh.errors import InputError, OpenQuestionError, OptionError
 from anymesh.pipeline.options import AnswererOptions, PlacementOptions

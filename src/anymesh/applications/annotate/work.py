@@ -27,7 +27,7 @@ from anymesh.errors import (
     OptionError,
     failed_stage,
 )
-from anymesh.pipeline.spending import Limit, Spent
+from anymesh.pipeline.options import Limit, Spent
 from anymesh.prompted.models.retry import UnavailableError
 from anymesh.runtime import read_json, write_whole
 

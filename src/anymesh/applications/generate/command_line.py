@@ -9,8 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from anymesh.cli.from_options import OptionsOf, with_options
-from anymesh.cli.options import Completion, Formats, Json, Out, Placement, Quiet, Running
+from anymesh.cli.options import Completion, Formats, Json, OptionsOf, Out, Placement, Quiet, Running, with_options
 from anymesh.cli.output import Shown, ended_by_signal, plain, print_asset
 from anymesh.pipeline.options import AnswererOptions
 

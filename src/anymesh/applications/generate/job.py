@@ -20,6 +20,7 @@ from anymesh.finishing.finishing import open_completer, open_retexturer
 from anymesh.loading import place_mesh
 from anymesh.loading.load import LoadedMesh, usual_size
 from anymesh.pipeline.answering import choose_answerer
+from anymesh.pipeline.atomic_folder import FOLDER_PREFIX, check_replaceable
 from anymesh.pipeline.options import (
     FILES,
     AnswererOptions,
@@ -30,8 +31,6 @@ from anymesh.pipeline.options import (
     RunOptions,
     defaults,
 )
-from anymesh.pipeline.storage.atomic_folder import FOLDER_PREFIX
-from anymesh.pipeline.storage.outputs import check_replaceable
 from anymesh.runtime import Deadline
 from anymesh.types import Mesh, Node
 

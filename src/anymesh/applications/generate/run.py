@@ -27,10 +27,8 @@ from anymesh.errors import ModelError, OutputError, note_stage
 from anymesh.export.formats import ExportOptions
 from anymesh.finishing.finishing import finish
 from anymesh.finishing.meshy_api import RETEXTURE
-from anymesh.pipeline.options import GEOMETRY
-from anymesh.pipeline.spending import Account, Spent
-from anymesh.pipeline.storage.run_folder import RunFolder
-from anymesh.pipeline.storage.saved import Saved
+from anymesh.pipeline.options import GEOMETRY, Account, Spent
+from anymesh.pipeline.run_folder import RunFolder, Saved
 from anymesh.runtime import Progress, silent
 from anymesh.types import Asset, JointType
 

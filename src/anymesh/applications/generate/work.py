@@ -22,9 +22,8 @@ from anymesh.finishing.meshy import Bought
 from anymesh.finishing.meshy_api import RETEXTURE
 from anymesh.geometry.topology import components
 from anymesh.loading import load_mesh
-from anymesh.pipeline.storage.atomic_folder import locked
-from anymesh.pipeline.storage.outputs import GENERATED, GENERATION
-from anymesh.pipeline.storage.run_folder import RunFolder
+from anymesh.pipeline.atomic_folder import GENERATED, GENERATION, locked
+from anymesh.pipeline.run_folder import RunFolder
 from anymesh.runtime import read_json, write_json, write_whole
 
 MADE = "made.json"

@@ -17,7 +17,7 @@ from scipy import ndimage
 
 from anymesh.errors import OutputError
 from anymesh.geometry.raycast_ import RayScene, SurfaceHits
-from anymesh.pipeline.storage.atomic_folder import make_locked_folder, replace_folder
+from anymesh.pipeline.atomic_folder import make_locked_folder, replace_folder
 from anymesh.rendering.render import base_colors, lit
 from anymesh.rendering.viewpoints import away
 from anymesh.types import Mesh

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from anymesh.errors import OptionError
-from anymesh.pipeline.spending import Account, Limit, Spent
+from anymesh.pipeline.options import Account, Limit, Spent
 from anymesh.prompted.models.prices import cost_of, max_input_tokens
 from anymesh.prompted.models.vision import Reply, Request, VisionModel
 

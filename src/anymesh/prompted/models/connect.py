@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from anymesh.errors import OptionError
-from anymesh.pipeline.spending import Account
+from anymesh.pipeline.options import Account
 from anymesh.prompted.models.budget import Budgeted
 from anymesh.prompted.models.cache import Cached
 from anymesh.prompted.models.pydantic_ai_ import connect

@@ -1,4 +1,4 @@
-"""Write outputs atomically: build them in a locked hidden folder, then replace the target."""
+"""Write outputs atomically, in a locked hidden folder that replaces the target, and recognize what may be replaced."""
 
 from __future__ import annotations
 
@@ -11,6 +11,9 @@ from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
 
+from anymesh.errors import OutputError
+from anymesh.runtime import read_json, write_json
+
 try:
     import fcntl
 except ImportError:  # Windows: no folder is recognized as stale there
@@ -18,6 +21,11 @@ except ImportError:  # Windows: no folder is recognized as stale there
 
 FOLDER_PREFIX = ".anymesh."  # prefix of hidden folders inside an output
 IGNORED = frozenset({"Thumbs.db", "desktop.ini", ".DS_Store"})  # created by file managers
+GENERATOR = "articulate-anymesh"
+MANIFEST = "stages/files.json"  # list of files written by this program; nothing else is ever removed
+CORRECTIONS = "corrections.json"  # manual corrections; a new run never removes them
+GENERATION = "generation.json"  # where a generated mesh came from
+GENERATED = "generated"  # the folder of that mesh
 
 
 @dataclass(frozen=True)
@@ -167,3 +175,60 @@ def cannot_write(error: OSError, folder: Path) -> bool:
     """Return whether an error is about writing the files of a folder: its disk, or a file in it."""
     full = error.errno in (errno.ENOSPC, errno.EROFS, getattr(errno, "EDQUOT", errno.ENOSPC))
     return full or (error.filename is not None and str(error.filename).startswith(str(folder)))
+
+
+def atomic_prefix(target: Path, word: str) -> str:
+    """Return the prefix of the work folders beside an output."""
+    return f".{target.name[:100]}.{word}-"
+
+
+def is_origin(name: str) -> bool:
+    """Whether a file of an output states where its mesh came from: it goes along with the stages that were made from it."""
+    return name == GENERATION or name.startswith(f"{GENERATED}/")
+
+
+def written_files(target: Path) -> list[str] | None:
+    """Return the files that this program wrote into a folder, None if it is no output."""
+    manifest = read_json(target / MANIFEST)
+    files = manifest.get("files") if manifest is not None and manifest.get("generator") == GENERATOR else None
+    return files if isinstance(files, list) else None
+
+
+def existing_files(target: Path) -> list[str]:
+    """Return the files that this program wrote into an output, after recovery from a killed run.
+
+    Raise OutputError if the folder is no output.
+    """
+    recover(target, atomic_prefix(target, "old"))
+    written = written_files(target)
+    if written is None:
+        raise OutputError(f"{target} is not an output of anymesh; `anymesh segment MESH -o {target}` makes one")
+    return written
+
+
+def write_manifest(folder: Path, files: set[str]) -> None:
+    """Write the list of files of an output."""
+    (folder / MANIFEST).parent.mkdir(exist_ok=True)
+    write_json(folder / MANIFEST, {"generator": GENERATOR, "files": sorted(files)})
+
+
+def check_replaceable(target: Path, force: bool) -> None:
+    """Raise OutputError unless a non-empty folder may be replaced by a new output."""
+    written = written_files(target)
+    if not force:
+        hint = " (--force replaces an older output)" if written is not None else ""
+        raise OutputError(f"the output folder {target} is not empty; choose another{hint}")
+    check_uncorrected(target)
+    if written is None:
+        raise OutputError(f"{target} is not empty and not an output of anymesh, so it is not replaced; choose another folder")
+    foreign = sorted(set(list_files(target)) - set(written))
+    if foreign:
+        shown = ", ".join(foreign[:5]) + (", ..." if len(foreign) > 5 else "")
+        raise OutputError(f"{target} also holds files that anymesh did not write ({shown}); move them away first")
+
+
+def check_uncorrected(target: Path) -> None:
+    """Raise OutputError if an output holds manual corrections."""
+    if (target / CORRECTIONS).exists():
+        raise OutputError(f"{target} contains manual corrections, which a new run would lose; choose another folder, or remove "
+                          f"{CORRECTIONS} to discard them")  # fmt: skip
