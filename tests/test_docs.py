@@ -36,7 +36,7 @@ def pages() -> list[Path]:
 
 PAGES = pages()
 GUIDES = [path for path in PAGES if path.parent in (ROOT, DOCS) or DOCS in path.parents]
-HISTORY = ROOT / "CHANGELOG.md"  # also names what is gone
+HISTORY = ROOT / "CHANGELOG.md"  # also names options that are gone
 
 
 def named(path: Path) -> str:
@@ -79,9 +79,13 @@ def test_python_files_that_are_named_exist() -> None:
     """A path may be given from any folder on; NAME stands for a file to be written."""
     tracked = subprocess.run(["git", "ls-files", "*.py"], cwd=ROOT, capture_output=True, text=True).stdout.split()
     known = {"/".join(parts[k:]) for parts in (name.split("/") for name in tracked) for k in range(len(parts))}
-    for path in (path for path in PAGES if path != HISTORY and tracked):
-        missing = {name for name in NAMED_FILE.findall(path.read_text(encoding="utf-8")) if name not in known}
-        assert not {name for name in missing if not re.search("[A-Z]", name)}, named(path)
+    missing = {
+        (named(path), name)
+        for path in PAGES
+        for name in NAMED_FILE.findall(path.read_text(encoding="utf-8"))
+        if name not in known and not re.search("[A-Z]", name)
+    }
+    assert not tracked or not missing
 
 
 def commands(text: str) -> Iterator[list[str]]:
