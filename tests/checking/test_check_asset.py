@@ -2,16 +2,20 @@
 
 import json
 import re
+import struct
 import sys
 
 import mujoco
 import numpy as np
 import pytest
-from assets import cabinet
+import typer
+from assets import cabinet, slanted
 from drawn import chest
+from typer.testing import CliRunner
 
 from anymesh.checking import Severity, check_asset
-from anymesh.errors import OptionError
+from anymesh.checking.command_line import NOT_IN_ORDER, check
+from anymesh.errors import InputError, OptionError
 from anymesh.export import write_asset
 
 INWARD = ('axis xyz="0 -1 0"', 'axis xyz="0 1 0"')
@@ -248,3 +252,72 @@ def test_random_poses_of_the_hull_question():
     corners = np.array([[x, y, z] for x in (0, 1) for y in (0, 2) for z in (0, 3)], float)
     points = rng.uniform(-1, 4, (500, 3))
     assert (_in_hull(corners, points) == ((points >= 0) & (points <= (1, 2, 3))).all(1)).all()
+
+
+def test_what_is_checked_in_a_folder(tmp_path):
+    with pytest.raises(InputError, match="no URDF and no MJCF"):
+        check_asset(tmp_path)
+    path = chest(tmp_path)
+    assert check_asset(tmp_path, engines=()).ok
+    (tmp_path / "other.urdf").write_text(path.read_text())
+    with pytest.raises(InputError, match=r"chest\.urdf, other\.urdf"):
+        check_asset(tmp_path)
+    with pytest.raises(InputError, match="not there"):
+        check_asset(tmp_path / "none")
+    (tmp_path / "a.xml").write_text("<svg/>")
+    with pytest.raises(InputError, match="neither URDF nor MJCF"):
+        check_asset(tmp_path / "a.xml")
+
+
+def test_the_mjcf_of_our_own_output_is_in_order_too(tmp_path):
+    write_asset(slanted(), tmp_path)  # with a fixed joint
+    report = check_asset(tmp_path / "slanted.xml")
+    assert report.ok, "\n".join(report.lines())
+
+
+@pytest.mark.parametrize("file", ["cabinet.urdf", "cabinet.xml", "."])
+def test_a_relative_path_is_as_good_as_an_absolute_one(file, tmp_path, monkeypatch):
+    """An MJCF names its pictures relative to its own folder."""
+    (tmp_path / "out").mkdir()
+    write_asset(cabinet(), tmp_path / "out")
+    monkeypatch.chdir(tmp_path)
+    report = check_asset(f"out/{file}", engines=())
+    assert report.ok, "\n".join(report.lines())
+
+
+def test_a_file_that_is_no_xml_is_a_finding(tmp_path):
+    (tmp_path / "a.urdf").write_bytes(struct.pack("<4I", *range(4)))
+    report = check_asset(tmp_path)
+    assert not report.ok
+    assert report.findings[0].check == "schema"
+
+
+app = typer.Typer()
+app.command()(check)
+
+
+def run(*arguments):
+    return CliRunner().invoke(app, [str(a) for a in arguments])
+
+
+def test_a_good_asset_is_told_in_lines_with_exit_code_0(tmp_path):
+    done = run(chest(tmp_path))
+    assert done.exit_code == 0
+    assert done.output.splitlines()[-1].endswith("passed, 0 failures, 0 warnings")
+
+
+def test_a_bad_one_ends_with_its_own_exit_code_and_json_alone(tmp_path):
+    path = chest(tmp_path, ('axis xyz="0 -1 0"', 'axis xyz="0 0 0"'))
+    done = run(path, "--json", "--engine", "mujoco")
+    assert done.exit_code == NOT_IN_ORDER == 8
+    record = json.loads(done.output)
+    assert not record["ok"]
+    assert [f["subject"] for f in record["findings"] if f["severity"] == "failure"] == ["slide"]
+
+
+def test_quiet_says_nothing_and_names_cannot_steer_the_terminal(tmp_path):
+    path = chest(tmp_path, ('"drawer"', '"dra\u0085\u202ewer"'))
+    assert run(path, "--quiet").output == ""
+    told = run(path).output
+    assert "dra??wer" in told
+    assert "\u202e" not in told

@@ -10,8 +10,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.checking.engines.files import find_file
-from anymesh.checking.engines.robot import Geometry, Robot, shape_triangles
+from anymesh.checking.engines.robot import Geometry, Robot, find_file, shape_triangles
 from anymesh.errors import InputError
 from anymesh.loading.files import Folder, check_file
 from anymesh.loading.load import READERS

@@ -13,8 +13,7 @@ from typing import Any
 from xml.etree import ElementTree
 
 from anymesh.checking.content import Content
-from anymesh.checking.engines.files import PACKAGE
-from anymesh.checking.engines.robot import Robot
+from anymesh.checking.engines.robot import PACKAGE, Robot
 from anymesh.checking.report import Finding, failure, warning
 from anymesh.names import legal_name
 

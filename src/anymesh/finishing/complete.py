@@ -8,8 +8,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.finishing.boards import add_box, add_walls
-from anymesh.finishing.panels import find_panel
+from anymesh.finishing.boards import add_box, add_walls, find_panel
 from anymesh.finishing.protocol import Completer, Finished, PartMesh, ShapeConfig
 from anymesh.finishing.scenes import Growing, Scenes, moves_freely, seen_from_outside, visible_faces
 from anymesh.finishing.solids import close_part

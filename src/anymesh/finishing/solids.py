@@ -2,24 +2,211 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
-from anymesh.finishing.closing import backed, shelled, with_caps, without_folds
 from anymesh.finishing.protocol import ShapeConfig
 from anymesh.finishing.scenes import SKIP, Growing, Scenes, room, scene_of
 from anymesh.finishing.sheets import Sheet, SheetVisibility, is_laid_open, open_sheets, sheet_visibility
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.geometry.topology import components
-from anymesh.geometry.triangle_set import SurfacePoints
+from anymesh.geometry.topology import components, weld
+from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
+from anymesh.loading.polygons_ import triangulate
 
+MITER = 2.5  # maximum offset of a skin at a corner, as a multiple of its thickness
+STIFF = 0.03  # share of the largest eigenvalue of the normals' moment at a vertex, below which a direction is unconstrained
+PROBES = 120  # sample points on a cap
+PARALLEL = 0.99  # minimum cosine between the normals of borders in one plane
+UNCOVERED = 0.5  # minimum share of a hole's points uncovered by motion
+AWAY = 0.1  # minimum distance by which the cover must move, as a share of the hole's size; at least two walls
 FACING = 0.7  # minimum cosine between a face's normal and its plate's
 SHARES = (0.93, 0.87, 0.8)  # shares of the thickness, tried until a solid is separated from those that it lies in
 SHELL = 0.9  # below this share, plates become shells, because a back may lie in the face of another sheet
 OWN = 0.4  # maximum thickness of a shell, as a share of the distance to its other side
+
+
+def frame(normal: Float[np.ndarray, " 3"]) -> tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 3"]]:
+    """Return unit vectors u, v with u x v = normal."""
+    u = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
+    u /= np.linalg.norm(u)
+    return u, np.cross(normal, u)
+
+
+def cap(
+    points: Float[np.ndarray, "V 3"], loops: Sequence[Int[np.ndarray, " _"]], normal: Float[np.ndarray, " 3"]
+) -> Int[np.ndarray, "m 3"]:
+    """Return faces over the vertices of borders that close them; a border within another is a hole.
+
+    loops: in the direction of the faces along them, as in `Sheet`; normal: unit normal of the new faces.
+    """
+    u, v = frame(normal)
+    back = [loop[::-1] for loop in loops]
+    return np.concatenate(back)[triangulate([np.stack([points[loop] @ u, points[loop] @ v], 1) for loop in back])]
+
+
+def backed(
+    sheet: Sheet, inward: Float[np.ndarray, " 3"], level: float, *, faces_out: bool, draft: float = 0.0
+) -> tuple[Float[np.ndarray, "k 3"], Int[np.ndarray, "m 3"]]:
+    """Return points and faces that make a sheet a solid with a flat back at `level` [m] along `inward`.
+
+    The faces refer to the sheet's points followed by the new ones, and consist of walls from its borders and the back.
+    faces_out: whether the sheet's faces are wound to the visible side; draft: [m] by which the back is narrowed on each side.
+    """
+    border = np.concatenate(sheet.loops)
+    foot = sheet.points[border] + np.outer(level - sheet.points[border] @ inward, inward)
+    center = (foot.min(0) + foot.max(0)) / 2
+    for axis in frame(inward):
+        off = (foot - center) @ axis
+        foot -= np.outer(off * min(draft / max(float(np.abs(off).max()), 1e-12), 0.5), axis)
+    begin = len(sheet.points) + np.cumsum([0, *(len(loop) for loop in sheet.loops)])
+    copies = [begin[k] + np.arange(len(loop)) for k, loop in enumerate(sheet.loops)]
+    back = cap(np.concatenate([sheet.points, foot]), copies, inward if faces_out else -inward)
+    return foot, np.concatenate([_walls(sheet.loops, copies), back])
+
+
+def shelled(sheet: Sheet, thickness: float, *, faces_out: bool) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "m 3"]]:
+    """Return points and faces that make a sheet a shell of a thickness [m], in the form of `backed`.
+
+    The shell has a skin on the hidden side, and walls at its borders.
+    """
+    foot = sheet.points + _offsets(sheet) * (-thickness if faces_out else thickness)
+    count = len(sheet.points)
+    walls = _walls(sheet.loops, [loop + count for loop in sheet.loops])
+    return foot, np.concatenate([walls, sheet.faces[:, ::-1] + count])
+
+
+def _walls(loops: Sequence[np.ndarray], copies: Sequence[np.ndarray]) -> Int[np.ndarray, "m 3"]:
+    """Return walls from each border edge to the same edge of its copy."""
+    a, p = (np.concatenate(list(chains)) for chains in (loops, copies))
+    b, q = (np.concatenate([np.roll(x, -1) for x in chains]) for chains in (loops, copies))
+    return np.concatenate([np.stack([b, a, p], 1), np.stack([b, p, q], 1)])
+
+
+def covers_itself(faces: Int[np.ndarray, "F 3"], new: Int[np.ndarray, "m 3"]) -> bool:
+    """Return whether a new face coincides with an existing one, so that the two would enclose nothing."""
+    known = {tuple(sorted(f)) for f in faces.tolist()}
+    return any(tuple(sorted(f)) in known for f in new.tolist())
+
+
+def _offsets(sheet: Sheet) -> Float[np.ndarray, "V 3"]:
+    """Return the offset per unit thickness at every vertex: to where the planes of all adjacent faces, moved by 1, meet."""
+    t = sheet.triangles
+    side = np.roll(t, -1, axis=1) - t
+    back = -np.roll(side, 1, axis=1)
+    length = np.linalg.norm(side, axis=2) * np.linalg.norm(back, axis=2)
+    angle = np.arccos(np.clip(np.einsum("ijk,ijk->ij", side, back) / np.maximum(length, 1e-300), -1, 1))
+    moment = np.zeros((len(sheet.points), 3, 3))
+    total = np.zeros((len(sheet.points), 3))
+    for k in range(3):
+        weighted = angle[:, k, None] * sheet.normals
+        np.add.at(total, sheet.faces[:, k], weighted)
+        np.add.at(moment, sheet.faces[:, k], weighted[:, :, None] * sheet.normals[:, None])
+    values, axes = np.linalg.eigh(moment)
+    held = values > STIFF * np.maximum(values[:, -1:], 1e-300)
+    along = np.einsum("nij,ni->nj", axes, total)
+    way = np.einsum("nij,nj->ni", axes, np.where(held, along / np.where(held, values, 1.0), 0.0))
+    size = np.linalg.norm(way, axis=1, keepdims=True)
+    return way * np.minimum(1.0, MITER / np.maximum(size, 1e-300))
+
+
+def without_folds(new: Float[np.ndarray, "n 3 3"], beside: Float[np.ndarray, "m 3 3"]) -> Float[np.ndarray, "k 3 3"]:
+    """Remove new faces that enclose nothing: those with two corners in one place, or in pairs of opposite faces.
+
+    beside: adjacent faces, which determine the weld tolerance. Closed surfaces stay closed, because each edge loses its faces
+    in pairs.
+    """
+    number = weld(np.concatenate([beside, new]).reshape(-1, 3))[3 * len(beside) :].reshape(-1, 3)
+    whole = (number != np.roll(number, 1, axis=1)).all(1)
+    new, number = new[whole], number[whole]
+    if len(new) == 0:
+        return new
+    turn = (number.argmin(1)[:, None] + np.arange(3)) % 3
+    a, b, c = np.take_along_axis(number, turn, 1).T
+    side = np.where(b < c, 1, -1)
+    kind = np.unique(np.stack([a, np.minimum(b, c), np.maximum(b, c)], 1), axis=0, return_inverse=True)[1].reshape(-1)
+    excess = np.bincount(kind, side)
+    order = np.lexsort((np.arange(len(new)), side, kind))
+    rank = np.empty(len(new), np.int64)
+    start = np.r_[True, np.diff(kind[order]) + np.abs(np.diff(side[order])) != 0]
+    rank[order] = np.arange(len(new)) - np.maximum.accumulate(np.where(start, np.arange(len(new)), 0))
+    return new[(side * excess[kind] > 0) & (rank < np.abs(excess[kind]))]
+
+
+def with_caps(seen: SheetVisibility, part: int, scenes: Scenes, config: ShapeConfig) -> tuple[Sheet, bool]:
+    """Close the flat holes of a sheet that are permanently covered.
+
+    Also return whether a hole stays open because its cover moves away.
+    """
+    sheet = seen.sheet
+    done, capped, opens = [], sheet, False
+    for normal, numbers in _flat_holes(sheet, config):
+        points, faces = np.zeros((0, 3)), cap(sheet.points, [sheet.loops[k] for k in numbers], normal)
+        hidden, opened = _covered(sheet.points[faces], seen.sign * normal, part, scenes, config)
+        opens |= opened
+        if not hidden or opened:
+            continue
+        if covers_itself(sheet.faces, faces):  # then the cap is placed slightly in front of the hole
+            rim, out = replace(capped, loops=tuple(sheet.loops[k] for k in numbers)), seen.sign * normal
+            level = float((sheet.points[np.concatenate(rim.loops)] @ out).max()) + config.sheet * scenes.diagonal / 2
+            points, faces = backed(rim, out, level, faces_out=seen.faces_out)
+        capped = capped.with_faces(points, faces)
+        done += numbers
+    return capped.without(done), opens
+
+
+def _flat_holes(sheet: Sheet, config: ShapeConfig) -> list[tuple[np.ndarray, list[int]]]:
+    """Return the normals of a sheet's flat holes, and the indices of the borders in the plane of each."""
+    groups: list[tuple[np.ndarray, np.ndarray, list[int]]] = []
+    for k, loop in enumerate(sheet.loops):
+        flat = _flat_hole(sheet, loop, config)
+        if flat is None:
+            continue
+        near = config.flat * sheet.size
+        same = [g for g in groups if abs(g[0] @ flat[0]) > PARALLEL and abs((g[1] - flat[1]) @ flat[0]) < near]
+        if same:
+            same[0][2].append(k)
+        else:
+            groups.append((*flat, [k]))
+    return [(normal, numbers) for normal, _, numbers in groups]
+
+
+def _flat_hole(sheet: Sheet, loop: np.ndarray, config: ShapeConfig) -> tuple[np.ndarray, np.ndarray] | None:
+    """Return normal (as a cap of the loop is wound) and centre of a border's plane.
+
+    None if it is not a flat hole of a body: the border leaves the plane, or the body lies in it.
+    """
+    points = sheet.points[loop]
+    middle = (points.min(0) + points.max(0)) / 2
+    size = float(np.linalg.norm(np.ptp(points, axis=0)))
+    around = points - middle
+    normal = -np.cross(around, np.roll(around, -1, axis=0)).sum(0)
+    length = float(np.linalg.norm(normal))
+    if length < 1e-6 * size**2:
+        return None
+    normal /= length
+    off = np.abs(around @ normal).max()
+    depth = np.ptp((sheet.points - middle) @ normal)
+    return (normal, middle) if off < config.flat * size and depth > 2 * max(off, config.flat * size / 2) else None
+
+
+def _covered(triangles: np.ndarray, outward: np.ndarray, part: int, scenes: Scenes, config: ShapeConfig) -> tuple[bool, bool]:
+    """Return whether a hole is hidden at rest, and whether its cover moves away."""
+    probe = sample_surface(triangles, PROBES, 0)
+    if len(probe) == 0:
+        return True, False
+    ways = np.repeat(outward[None], len(probe), 0)
+    if not scenes.on_the_ground(probe.points) and scenes.seen(probe.points, ways)[:, 0].mean() > config.shown:
+        return False, False
+    far, skip = 2 * scenes.diagonal, SKIP * scenes.diagonal
+    before = room(scenes.rest, probe.points, ways, far, skip)
+    after = room(scenes.scene_opened(part), probe.points, ways, far, skip)
+    size = float(np.linalg.norm(np.ptp(probe.points, axis=0)))
+    away = (before < far) & (after > before + max(2 * config.wall * scenes.diagonal, AWAY * size))
+    return True, bool(away.mean() > UNCOVERED)
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,10 +5,9 @@ import numpy as np
 import pytest
 from drawn import chest
 
-from anymesh.checking.engines.files import find_file
 from anymesh.checking.engines.mjcf_ import read_mjcf
 from anymesh.checking.engines.mujoco_ import rest_contacts, sweep_joints
-from anymesh.checking.engines.robot import Geometry, read_urdf, shape_triangles
+from anymesh.checking.engines.robot import Geometry, find_file, read_urdf, shape_triangles
 from anymesh.errors import InputError
 from anymesh.geometry.topology import components
 

@@ -20,7 +20,7 @@ from anymesh.checking.engines.driving import (
     motor_faults,
     place_faults,
 )
-from anymesh.checking.engines.files import find_file
+from anymesh.checking.engines.robot import find_file
 from anymesh.errors import InputError
 from anymesh.loading import load_mesh
 from anymesh.mujoco_ import load_mujoco

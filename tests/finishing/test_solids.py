@@ -9,8 +9,8 @@ from surfaces import is_closed, shell
 
 from anymesh.errors import MissingExtraError
 from anymesh.finishing.boards import board, tray
-from anymesh.finishing.closing import backed, cap, covers_itself, shelled, without_folds
 from anymesh.finishing.sheets import open_sheets
+from anymesh.finishing.solids import backed, cap, covers_itself, shelled, without_folds
 from anymesh.loading.polygons_ import triangulate
 
 
@@ -115,3 +115,14 @@ def test_without_manifold3d_one_error_says_so(monkeypatch):
     monkeypatch.setitem(sys.modules, "manifold3d", None)
     with pytest.raises(MissingExtraError, match="manifold3d is missing"):
         triangulate([np.array([[0, 0], [1, 0], [0, 1.0]])])
+
+
+def test_a_cap_leaves_out_a_hole_with_another_number_of_corners() -> None:
+    """A square of area 4 with a triangular hole of area .5: the cap has area 3.5 and faces along the normal."""
+    square = np.array([[0, 0, 0], [0, 2, 0], [2, 2, 0], [2, 0, 0]], float)  # clockwise from above, as the faces around it run
+    hole = np.array([[0.5, 0.5, 0], [1.5, 0.5, 0], [0.5, 1.5, 0]], float)
+    points = np.concatenate([square, hole])
+    faces = cap(points, [np.arange(4), np.arange(4, 7)], np.array([0, 0, 1.0]))
+    cross = np.cross(points[faces[:, 1]] - points[faces[:, 0]], points[faces[:, 2]] - points[faces[:, 0]])
+    assert (cross[:, 2] > 0).all()
+    assert cross[:, 2].sum() / 2 == pytest.approx(3.5)
