@@ -23,7 +23,7 @@ from anymesh.pipeline.solving import Solver
 HEAD = """# Cost of a model
 
 `python -m benchmarks.cost --change {change} --markdown FILE`. Answers are the oracle's, so no question is repeated. Tokens
-are estimated as `{like}` counts them, dollars by the table in `prompted/models/prices.py`; seconds are those of this program,
+are estimated as `{like}` counts them, dollars by the table in `prompted/models/budget.py`; seconds are those of this program,
 without the model: of the first run (wall and processor), and of a second one, which takes every answer from the cache,
 without calls or cost.
 

@@ -24,7 +24,7 @@ from anymesh.pipeline.solving import solve
 from anymesh.prompted.answerers.question_files import CHECK, QuestionFolder
 from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer
 from anymesh.prompted.models.replay import Replay
-from anymesh.prompted.questions.motion_choice import MotionPick, MotionTable, PartFit, WhichMotions
+from anymesh.prompted.questions.prompting import MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.prompted.questions.saved_question import unpack_question
 from anymesh.types import Exchange, JointType, Motion
 from anymesh.types.questions import Answer, Question, VisualAnswerer

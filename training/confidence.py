@@ -1,4 +1,4 @@
-"""How often joints are right, and how sure, if answers are wrong on purpose (`prompted/motions/answer_evidence.py`).
+"""How often joints are right, and how sure, if answers are wrong on purpose (`prompted/motions/verify.py`).
 
 python -m training.confidence DATASET... [--step 1] [--rounds 2] [--markdown FILE]      data sets as `anymesh eval` names them
 
@@ -25,7 +25,7 @@ from anymesh.evaluation.oracle import Noisy, Random, oracle
 from anymesh.evaluation.score import score
 from anymesh.evaluation.summary import right
 from anymesh.prompted.motions import offers
-from anymesh.prompted.motions.prompted import Questions, prompt_joints
+from anymesh.prompted.motions.joints import Questions, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import MOVING

@@ -32,8 +32,7 @@ from anymesh.errors import InputError
 from anymesh.evaluation.ground_truth import example_truths, prepared
 from anymesh.evaluation.oracle import oracle
 from anymesh.prompted.answerers.question_files import find_questions
-from anymesh.prompted.questions.answer_json import answer_object
-from anymesh.prompted.questions.saved_question import unpack_question
+from anymesh.prompted.questions.saved_question import answer_object, unpack_question
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 TOOLS = {"articulate", "open_questions", "answer", "inspect", "correct", "check", "export"}

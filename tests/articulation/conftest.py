@@ -3,7 +3,8 @@
 import pytest
 from known import cases_once, scored_once
 
-from anymesh.prompted.motions import offers, prompted
+from anymesh.prompted.motions import joints as prompted
+from anymesh.prompted.motions import offers
 
 
 @pytest.fixture

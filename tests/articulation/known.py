@@ -13,11 +13,10 @@ from scenes import Scene, built, case, door, drawer, lid, slider, wheel
 from anymesh.articulation.motion_question import MotionQuestion
 from anymesh.config import Config, PromptConfig, ViewsConfig
 from anymesh.geometry.patches import ObjectShape
-from anymesh.prompted.answerers.reference import Reference
-from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
+from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer
 from anymesh.prompted.motions.cases import PartCase, make_cases
+from anymesh.prompted.motions.joints import Questions, prompt_joints
 from anymesh.prompted.motions.offers import scored_motions
-from anymesh.prompted.motions.prompted import Questions, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Exchange, Joint, JointType, KnownJoint, Mesh, Segmentation

@@ -9,7 +9,9 @@ from known import the_case
 from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND
 from scenes import door
 
-from anymesh.prompted.motions.answer_evidence import (
+from anymesh.prompted.motions.cases import PartCase
+from anymesh.prompted.motions.offers import MotionOffers
+from anymesh.prompted.motions.verify import (
     FIXED_SHARE,
     RELIABILITIES,
     SHARES,
@@ -18,8 +20,6 @@ from anymesh.prompted.motions.answer_evidence import (
     answered_confidence,
     posteriors,
 )
-from anymesh.prompted.motions.cases import PartCase
-from anymesh.prompted.motions.offers import MotionOffers
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import JointType
 from anymesh.types.motion import RecognizedLabel

@@ -15,16 +15,19 @@ from scenes import door, prism
 from anymesh.articulation.estimate import motion_questions
 from anymesh.articulation.freedom import stays_free
 from anymesh.config import Config, PromptConfig
-from anymesh.prompted.motions.answer_evidence import answered_confidence
-from anymesh.prompted.motions.candidate_points import axis_points, cluster_points, followed, with_more
-from anymesh.prompted.motions.cases import PartCase, make_cases
-from anymesh.prompted.motions.decode import hinge, plane_normal
+from anymesh.prompted.motions.cases import PartCase, labels_by_name, make_cases, relabelled, unlabelled
+from anymesh.prompted.motions.joints import _joint, as_answered, normal_outwards
+from anymesh.prompted.motions.lines import (
+    axis_points,
+    cluster_points,
+    followed,
+    hinge,
+    plane_normal,
+    round_patches,
+    with_more,
+)
 from anymesh.prompted.motions.offers import MAX_SHOWN_ANGLE_RAD, make_offers, scored_motions, shown_amount
-from anymesh.prompted.motions.own_axes import round_patches
-from anymesh.prompted.motions.prompted import _joint
-from anymesh.prompted.motions.relabel import labels_by_name, relabelled, unlabelled
-from anymesh.prompted.motions.unverified import as_answered, normal_outwards
-from anymesh.prompted.motions.verify import Choice
+from anymesh.prompted.motions.verify import Choice, answered_confidence
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.runtime import Deadline
 from anymesh.types import JointType, Part, Segmentation

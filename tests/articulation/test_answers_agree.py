@@ -9,12 +9,9 @@ from known import KNOWN, QUICK, Watched, prompted, ready, true_answers, visual_p
 from scenes import Scene, prism, wheel
 
 from anymesh.pipeline.solving import Solver
-from anymesh.prompted.motions.cases import make_cases
-from anymesh.prompted.motions.prompted import PromptedJoints, Questions, prompt_joints
-from anymesh.prompted.motions.relabel import labels_by_name
-from anymesh.prompted.motions.unverified import normal_outwards, opening_slide
-from anymesh.prompted.questions.motion_choice import MotionPick, PartFit
-from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
+from anymesh.prompted.motions.cases import labels_by_name, make_cases
+from anymesh.prompted.motions.joints import PromptedJoints, Questions, normal_outwards, opening_slide, prompt_joints
+from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, MotionPick, PartFit
 from anymesh.types import JointType, Part, Segmentation
 from anymesh.types.motion import Recognition, RecognizedLabel
 

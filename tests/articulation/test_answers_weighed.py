@@ -13,13 +13,11 @@ from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, Z, candidate, turn
 from scenes import door
 
 from anymesh.articulation.motion_question import Candidate
-from anymesh.prompted.motions.cases import PartCase
-from anymesh.prompted.motions.contradictions import contradictions
+from anymesh.prompted.motions.cases import PartCase, contradictions
 from anymesh.prompted.motions.offers import MotionOffers, _crowding, _pages, fits, moves_as
 from anymesh.prompted.motions.verify import MotionQuestioner, choose_motions
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
-from anymesh.prompted.questions.motion_choice import MotionPick, PartFit, WhichMotions
-from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
+from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, MotionPick, PartFit, WhichMotions
 from anymesh.types import Exchange, Joint, JointType
 from anymesh.types.motion import RecognizedLabel
 

@@ -15,7 +15,7 @@ from trimesh.creation import annulus
 
 from anymesh.articulation.motion_question import PartFacts
 from anymesh.articulation.part_values import part_values
-from anymesh.prompted.motions.prompted import PromptedJoints, Questions, prompt_joints
+from anymesh.prompted.motions.joints import PromptedJoints, Questions, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, PointTable
 from anymesh.types import JointType

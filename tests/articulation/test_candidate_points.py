@@ -13,7 +13,7 @@ from scipy.spatial.distance import pdist
 
 from anymesh.config import GroundingConfig, PromptConfig
 from anymesh.geometry.triangle_set import sample_surface
-from anymesh.prompted.motions.candidate_points import axis_points, cluster_points, superpoint_centres, with_more
+from anymesh.prompted.motions.lines import axis_points, cluster_points, superpoint_centres, with_more
 from anymesh.types import JointType, Motion
 from anymesh.types.camera import Camera
 

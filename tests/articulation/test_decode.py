@@ -9,8 +9,8 @@ from known import KNOWN, the_case
 from scenes import drawer
 from scipy.spatial.transform import Rotation
 
-from anymesh.prompted.motions.decode import hinge, plane_normal, prismatic, surface_directions
-from anymesh.prompted.motions.prompted import opening_slide
+from anymesh.prompted.motions.joints import opening_slide
+from anymesh.prompted.motions.lines import hinge, plane_normal, prismatic, surface_directions
 from anymesh.types import JointType
 
 X, Y, Z = np.eye(3)

@@ -9,7 +9,7 @@ from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.config import Config
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.cases import make_cases
-from anymesh.prompted.motions.moved_points import MovedPoints
+from anymesh.prompted.motions.offers import MovedPoints
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion
 

@@ -17,8 +17,7 @@ from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.motion_question import Candidate, MotionQuestion
 from anymesh.prompted.motions import offers
 from anymesh.prompted.motions.cases import PartCase
-from anymesh.prompted.motions.moved_points import MovedPoints
-from anymesh.prompted.motions.offers import MotionOffers, make_offers, scored_motions
+from anymesh.prompted.motions.offers import MotionOffers, MovedPoints, make_offers, scored_motions
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import JointType
 from anymesh.types.motion import RecognizedLabel

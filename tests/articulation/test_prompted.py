@@ -11,9 +11,8 @@ from scenes import Scene
 
 from anymesh.evaluation.score import angle_error, line_distance, opens_both_ways
 from anymesh.prompted.motions.cases import ask_each
-from anymesh.prompted.motions.prompted import Questions, prompt_joints
-from anymesh.prompted.questions.motion_choice import MotionPick, WhichMotions
-from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
+from anymesh.prompted.motions.joints import Questions, prompt_joints
+from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, MotionPick, WhichMotions
 from anymesh.types import Joint, JointType, KnownJoint, Motion, Part
 from anymesh.types.motion import Recognition, RecognizedLabel
 

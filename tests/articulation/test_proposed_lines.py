@@ -22,7 +22,7 @@ from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE
 from anymesh.articulation.repeated_parts import in_a_row, same_size
 from anymesh.articulation.tree import parents
 from anymesh.motion.part_context import PartContext
-from anymesh.prompted.motions.own_axes import pivots
+from anymesh.prompted.motions.lines import pivots
 from anymesh.types import JointType
 
 

@@ -20,7 +20,7 @@ from anymesh.articulation.repeated_parts import ScoredMotions, in_one_manner, sh
 from anymesh.articulation.tree import descendants
 from anymesh.config import ArticulationConfig
 from anymesh.motion.part_context import PartContext
-from anymesh.prompted.motions.moved_points import MovedPoints
+from anymesh.prompted.motions.offers import MovedPoints
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType
 

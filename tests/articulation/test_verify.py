@@ -11,6 +11,7 @@ from scenes import Scene, door, prism
 
 from anymesh.articulation.motion_question import Candidate
 from anymesh.prompted.motions.cases import PartCase
+from anymesh.prompted.motions.lines import CENTRAL
 from anymesh.prompted.motions.offers import (
     BLOCKED_SHOWN_RATIO,
     DUPLICATE_MOTION_RATIO,
@@ -22,7 +23,6 @@ from anymesh.prompted.motions.offers import (
     make_offers,
     shown_amount,
 )
-from anymesh.prompted.motions.own_axes import CENTRAL
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.types import JointType, Motion
 

@@ -9,8 +9,7 @@ import numpy as np
 
 from anymesh.prompted.questions.asking import check_schema
 from anymesh.prompted.questions.grounding import WhichMarks, WhichViews
-from anymesh.prompted.questions.motion_choice import WhichMotions
-from anymesh.prompted.questions.prompting import WhichArrows, WhichKinds, WhichPoints
+from anymesh.prompted.questions.prompting import WhichArrows, WhichKinds, WhichMotions, WhichPoints
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import Exchange
 from anymesh.types.motion import BASE

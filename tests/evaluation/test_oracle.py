@@ -10,17 +10,17 @@ from assets import cabinet
 from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.oracle import Noisy, oracle, true_reference
 from anymesh.geometry.kinematics import joint_transform
-from anymesh.prompted.answerers.reference import Reference
-from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
+from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer
 from anymesh.prompted.questions.grounding import WhichMarks
-from anymesh.prompted.questions.motion_choice import MotionTable, WhichMotions
 from anymesh.prompted.questions.prompting import (
     ArrowTable,
     JointAppearance,
+    MotionTable,
     PartShown,
     PointTable,
     WhichArrows,
     WhichKinds,
+    WhichMotions,
     WhichPoints,
 )
 from anymesh.types import Joint, JointType, KnownJoint, Motion, Part

@@ -10,15 +10,17 @@ from assets import checker
 from hypothesis import strategies as st
 
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
-from anymesh.prompted.questions.motion_choice import MotionPick, MotionTable, WhichMotions
 from anymesh.prompted.questions.prompting import (
     ArrowTable,
     JointAppearance,
     KindAnswer,
+    MotionPick,
+    MotionTable,
     PartShown,
     PointTable,
     WhichArrows,
     WhichKinds,
+    WhichMotions,
     WhichPoints,
 )
 from anymesh.prompted.questions.recognition import Recognize

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from anymesh.prompted.pictures.marks import draw_marks, mark_positions
+from anymesh.prompted.pictures.drawing import draw_marks, mark_positions
 from anymesh.rendering.marks import beside, contrast, highlight, mark_color, plate_size, rim, window_sums
 
 SIZE = 640

@@ -10,7 +10,7 @@ from model_wire import ANSWER, Connect, Service, a_request, png
 from PIL import Image
 
 from anymesh.errors import ModelError
-from anymesh.prompted.models.limits import LIMITS, RequestLimits, fit
+from anymesh.prompted.models.pydantic_ai_wire_ import LIMITS, RequestLimits, fit
 from anymesh.types import Picture
 
 

@@ -6,8 +6,7 @@ from assets import box, mesh_of
 
 from anymesh.config import ViewsConfig
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.prompted.pictures.arrows import clearest_view, distinctness, draw_arrows
-from anymesh.prompted.pictures.points import DOT, draw_points, labels_apart
+from anymesh.prompted.pictures.drawing import DOT, clearest_view, distinctness, draw_arrows, draw_points, labels_apart
 from anymesh.rendering.marks import mark_color
 from anymesh.rendering.viewpoints import hidden_points, views
 from anymesh.types.camera import Camera

@@ -18,11 +18,10 @@ from anymesh.evaluation.ground_truth import example_truths, prepared
 from anymesh.evaluation.oracle import oracle
 from anymesh.prompted.answerers import answering
 from anymesh.prompted.answerers import file_answerer as files
-from anymesh.prompted.answerers.answers import open_in, record_answer
+from anymesh.prompted.answerers.file_answerer import open_in, record_answer
 from anymesh.prompted.answerers.question_files import find_questions
 from anymesh.prompted.models.replay import Replay
-from anymesh.prompted.questions.answer_json import answer_object
-from anymesh.prompted.questions.saved_question import unpack_question
+from anymesh.prompted.questions.saved_question import answer_object, unpack_question
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MESH = EXAMPLES / "meshes" / "storage_box.glb"

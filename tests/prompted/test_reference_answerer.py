@@ -7,24 +7,25 @@ import numpy as np
 import pytest
 from asked import X, Y, Z, part
 
-from anymesh.prompted.answerers.reference import Reference
-from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
+from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer
 from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer
 from anymesh.prompted.models.scripted import ScriptedModel
-from anymesh.prompted.questions.answer_json import answer_object
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
-from anymesh.prompted.questions.motion_choice import MotionPick, MotionTable, WhichMotions
 from anymesh.prompted.questions.prompting import (
     ArrowTable,
     JointAppearance,
     KindAnswer,
+    MotionPick,
+    MotionTable,
     PartShown,
     PointTable,
     WhichArrows,
     WhichKinds,
+    WhichMotions,
     WhichPoints,
 )
 from anymesh.prompted.questions.recognition import Recognize
+from anymesh.prompted.questions.saved_question import answer_object
 from anymesh.types import JointType, KnownJoint, Motion
 from anymesh.types.motion import RecognizedLabel
 from anymesh.types.questions import Question, VisualAnswerer

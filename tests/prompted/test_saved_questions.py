@@ -9,10 +9,10 @@ import pytest
 from asked import ASKED, PICTURE, parts
 
 from anymesh.errors import InputError, OptionError
+from anymesh.prompted.answerers.file_answerer import answer_text
+from anymesh.prompted.answerers.question_files import example_answer, explain_schema
 from anymesh.prompted.questions.asking import BadAnswerError, a_list, an_object, check_schema, one_of
-from anymesh.prompted.questions.question_words import example_answer, explain_schema
 from anymesh.prompted.questions.saved_question import pack_question, unpack_question
-from anymesh.prompted.questions.shorthand import answer_text
 
 
 @pytest.mark.parametrize("name", ASKED)

@@ -13,9 +13,8 @@ from model_wire import SECRET, Service, a_request
 
 from anymesh.cli import run
 from anymesh.errors import OptionError
-from anymesh.prompted.models.address import parse_address
 from anymesh.prompted.models.connect import open_model
-from anymesh.prompted.models.servers import SERVERS, probe_servers
+from anymesh.prompted.models.servers import SERVERS, parse_address, probe_servers
 
 VARIABLES = [v for server in SERVERS.values() for v in (*server.variables, *server.keys)]
 

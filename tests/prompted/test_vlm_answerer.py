@@ -10,8 +10,7 @@ from asked import ASKED, picks
 from anymesh import runtime as deadline
 from anymesh.errors import BudgetError, ModelError
 from anymesh.pipeline.answering import choose_answerer
-from anymesh.prompted.answerers.patience import Patience
-from anymesh.prompted.answerers.vlm_answerer import SYSTEM, VlmAnswerer
+from anymesh.prompted.answerers.vlm_answerer import SYSTEM, Patience, VlmAnswerer
 from anymesh.prompted.models import connect
 from anymesh.prompted.models.budget import Budgeted
 from anymesh.prompted.models.cache import Cached, request_key

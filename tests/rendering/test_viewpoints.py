@@ -10,7 +10,7 @@ from scipy import ndimage
 from anymesh.config import PAPER_VIEWS, ViewsConfig
 from anymesh.errors import OptionError
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.prompted.pictures.insides import inside_views
+from anymesh.prompted.pictures.visual_prompts import inside_views
 from anymesh.rendering.render import render
 from anymesh.rendering.viewpoints import (
     best_view,

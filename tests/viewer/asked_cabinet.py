@@ -8,14 +8,15 @@ import numpy as np
 from assets import cabinet, checker
 
 from anymesh.prompted.questions.grounding import WhichMarks
-from anymesh.prompted.questions.motion_choice import MotionTable, WhichMotions
 from anymesh.prompted.questions.prompting import (
     ArrowTable,
     JointAppearance,
+    MotionTable,
     PartShown,
     PointTable,
     WhichArrows,
     WhichKinds,
+    WhichMotions,
     WhichPoints,
 )
 from anymesh.prompted.questions.recognition import Recognize

@@ -7,11 +7,10 @@ import pytest
 from asked_cabinet import FACE_PART, MESH, marks, motions, part, points, questions
 
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.prompted.answerers.question_store import QuestionStore
+from anymesh.prompted.answerers.question_files import QuestionStore
 from anymesh.prompted.models.vision import Request
-from anymesh.prompted.questions.answer_json import answer_object
 from anymesh.prompted.questions.asking import BadAnswerError
-from anymesh.prompted.questions.saved_question import pack_question
+from anymesh.prompted.questions.saved_question import answer_object, pack_question
 from anymesh.viewer.ask_forms import LabelRow, form_of
 from anymesh.viewer.ask_marks import SPLIT, MarksForm
 from anymesh.viewer.ask_shapes import (

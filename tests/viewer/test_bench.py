@@ -12,7 +12,7 @@ from asked_cabinet import MESH, questions
 from fake_bench import CUBE, FakeWork, until, upload
 
 from anymesh.correcting import CorrectionError, FlipSign
-from anymesh.prompted.answerers.question_store import QuestionStore
+from anymesh.prompted.answerers.question_files import QuestionStore
 from anymesh.prompted.models.vision import Request
 from anymesh.prompted.questions.saved_question import pack_question
 from anymesh.viewer import bench_

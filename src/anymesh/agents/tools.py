@@ -17,7 +17,7 @@ from anymesh.correcting.history import pack_entry, unpack_log
 from anymesh.errors import InputError, OpenQuestionError, OptionError, OutputError
 from anymesh.export.formats import DEFAULT
 from anymesh.pipeline.options import FILES
-from anymesh.prompted.answerers.answers import open_in, record_answer
+from anymesh.prompted.answerers.file_answerer import open_in, record_answer
 from anymesh.prompted.answerers.question_files import QuestionFolder, find_questions
 from anymesh.runtime import DEFAULT_SECONDS, Progress, read_json, silent
 

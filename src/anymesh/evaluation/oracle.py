@@ -11,24 +11,24 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from anymesh.evaluation.ground_truth import EvalSample
-from anymesh.prompted.answerers.reference import Reference
-from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
+from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer
 from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer
+from anymesh.prompted.models.budget import cost_of, max_picture_tokens
 from anymesh.prompted.models.cache import Cached
-from anymesh.prompted.models.prices import cost_of, max_picture_tokens
 from anymesh.prompted.models.vision import Reply, Request
-from anymesh.prompted.questions.answer_json import answer_object
 from anymesh.prompted.questions.grounding import WhichMarks
-from anymesh.prompted.questions.motion_choice import MotionPick, WhichMotions
 from anymesh.prompted.questions.prompting import (
     JointAppearance,
     KindAnswer,
+    MotionPick,
     PartShown,
     PointTable,
     WhichArrows,
     WhichKinds,
+    WhichMotions,
     WhichPoints,
 )
+from anymesh.prompted.questions.saved_question import answer_object
 from anymesh.types import Exchange, KnownJoint
 from anymesh.types.questions import Answer, Question, VisualAnswerer
 from anymesh.vocabulary import recognize

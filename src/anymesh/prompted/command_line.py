@@ -29,7 +29,7 @@ Value = Annotated[
 
 def answer(folder: QuestionsPath, value: Value = None, json_: Json = False, quiet: Quiet = False) -> None:
     """Show the open question in FOLDER, or answer it with VALUE, which is checked immediately."""
-    from anymesh.prompted.answerers.answers import open_in, record_answer
+    from anymesh.prompted.answerers.file_answerer import open_in, record_answer
 
     if value is not None:
         saved = record_answer(folder, _read(value))
@@ -65,8 +65,7 @@ def question_record(question: QuestionFolder) -> dict[str, Any]:
 
 
 def _shown(questions: list[QuestionFolder]) -> str:
-    from anymesh.prompted.answerers.question_files import SHEET
-    from anymesh.prompted.questions.question_words import example_answer, explain_schema
+    from anymesh.prompted.answerers.question_files import SHEET, example_answer, explain_schema
 
     first, record = questions[0], questions[0].record
     lines = [f"{first.path}: {first.kind}", "", record["text"], ""]
@@ -93,8 +92,7 @@ def _read(value: str) -> str:
 
 def models(json_: Json = False) -> None:
     """List the models available on this machine, and which keys are set (without their values)."""
-    from anymesh.prompted.models.address import KEYS
-    from anymesh.prompted.models.servers import SERVERS, probe_servers
+    from anymesh.prompted.models.servers import KEYS, SERVERS, probe_servers
 
     probes = probe_servers()
     keys = [

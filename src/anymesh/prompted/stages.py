@@ -8,18 +8,14 @@ from functools import cached_property, partial
 from anymesh.articulation.freedom import stays_free
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.pipeline.solving import GeometryStages
-from anymesh.prompted.answerers.reference import Reference, reference_of
-from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
-from anymesh.prompted.grounding.ask_marks import MarkQuestioner
+from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer, reference_of
 from anymesh.prompted.grounding.cloud import seen_points
-from anymesh.prompted.grounding.ground_exact import ground_exactly
-from anymesh.prompted.grounding.ground_masks import ground_by_masks
-from anymesh.prompted.grounding.grounded import ground_parts
-from anymesh.prompted.grounding.grounded_parts import EXACT, Ground, SampledObject, sample_object
-from anymesh.prompted.grounding.hidden import MIN_RECOGNITION_PATCH_RATIO, inner_faces
+from anymesh.prompted.grounding.ground import Ground, ground_by_masks, ground_exactly, ground_parts
+from anymesh.prompted.grounding.mark_questions import MarkQuestioner
 from anymesh.prompted.grounding.regrounding import ground_again
-from anymesh.prompted.masks.sam_onnx_ import load_sam
-from anymesh.prompted.motions.prompted import Questions, Reground, prompt_joints
+from anymesh.prompted.grounding.sam_onnx_ import load_sam
+from anymesh.prompted.grounding.views import EXACT, MIN_RECOGNITION_PATCH_RATIO, SampledObject, inner_faces, sample_object
+from anymesh.prompted.motions.joints import Questions, Reground, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.recognition import answered_scale, recognize
 from anymesh.runtime import Progress, silent

@@ -7,14 +7,16 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol, runtime_checkable
 
 from anymesh.prompted.questions.grounding import WhichMarks
-from anymesh.prompted.questions.motion_choice import MotionTable, PartFit, WhichMotions
 from anymesh.prompted.questions.prompting import (
     OTHER,
     JointAppearance,
+    MotionTable,
+    PartFit,
     PartShown,
     PointTable,
     WhichArrows,
     WhichKinds,
+    WhichMotions,
     WhichPoints,
 )
 from anymesh.prompted.questions.recognition import Recognize

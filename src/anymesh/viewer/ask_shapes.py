@@ -9,8 +9,7 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.simplify_ import simplify
-from anymesh.prompted.questions.motion_choice import MotionTable
-from anymesh.prompted.questions.prompting import ArrowTable, PartShown, PointTable
+from anymesh.prompted.questions.prompting import ArrowTable, MotionTable, PartShown, PointTable
 from anymesh.rendering.marks import axis_line
 from anymesh.rendering.viewpoints import away
 from anymesh.types import JointType, Mesh

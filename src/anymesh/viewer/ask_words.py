@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from html import escape
 
-from anymesh.prompted.questions.motion_choice import MotionTable, PartFit
-from anymesh.prompted.questions.prompting import JointAppearance
+from anymesh.prompted.questions.prompting import JointAppearance, MotionTable, PartFit
 from anymesh.types import JointType
 from anymesh.viewer.ask_forms import ArrowsForm, Form, KindsForm, LabelRow, MotionsForm, PartsForm, PointsForm, RecognizeForm
 from anymesh.viewer.ask_marks import SPLIT, Group, MarksForm

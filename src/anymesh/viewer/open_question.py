@@ -8,8 +8,7 @@ from pathlib import Path
 
 from anymesh.errors import InputError
 from anymesh.prompted.answerers.file_answerer import check_answer
-from anymesh.prompted.answerers.question_files import CHECK, LEAVE, QuestionFolder
-from anymesh.prompted.answerers.question_store import QuestionStore
+from anymesh.prompted.answerers.question_files import CHECK, LEAVE, QuestionFolder, QuestionStore
 from anymesh.prompted.questions.asking import BadAnswerError
 from anymesh.prompted.questions.saved_question import unpack_question
 from anymesh.viewer.ask_forms import Form, form_of

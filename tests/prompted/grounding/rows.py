@@ -5,7 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from anymesh.prompted.grounding.cloud import Cloud
-from anymesh.prompted.masks.fuse import Counts
+from anymesh.prompted.grounding.fuse import Counts
 
 
 def row_cloud(places: Sequence[float], each: int = 20, diagonal: float = 1.0) -> Cloud:

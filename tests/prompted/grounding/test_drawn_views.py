@@ -12,11 +12,9 @@ from rows import counts_of, row_cloud
 
 from anymesh.config import Config, GroundingConfig
 from anymesh.prompted.grounding import regions
-from anymesh.prompted.grounding.ask_marks import MarkQuestioner, ask_exact, ask_masks
-from anymesh.prompted.grounding.mark_pictures import MarkPicture, choose_pictures
+from anymesh.prompted.grounding.fuse import Proposal, fuse_masks, masks_to_labels, propose_masks
+from anymesh.prompted.grounding.mark_questions import MarkPicture, MarkQuestioner, ask_exact, ask_masks, choose_pictures
 from anymesh.prompted.grounding.regions import Marks, min_pixels, number_regions
-from anymesh.prompted.masks.fuse import fuse_masks
-from anymesh.prompted.masks.propose import Proposal, masks_to_labels, propose_masks
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.rendering.render import View

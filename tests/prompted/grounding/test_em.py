@@ -7,8 +7,8 @@ import pytest
 from rows import counts_of, row_cloud
 
 from anymesh.config import GroundingConfig
-from anymesh.prompted.masks.em import loss_and_gradient, match, maximise, near_superpoints, probabilities, refine_instances
-from anymesh.prompted.masks.fuse import Counts, Instances
+from anymesh.prompted.grounding.em import loss_and_gradient, match, maximise, near_superpoints, probabilities, refine_instances
+from anymesh.prompted.grounding.fuse import Counts, Instances
 
 CONFIG = GroundingConfig()
 # Four superpoints: two of part A, one of part B, one of the rest.

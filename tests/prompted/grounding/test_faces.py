@@ -12,11 +12,11 @@ from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.score import match_parts, part_ious
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud, seen_points
+from anymesh.prompted.grounding.em import refine_instances
 from anymesh.prompted.grounding.faces import face_parts, mark_parts, point_parts
-from anymesh.prompted.grounding.hidden import unseen_patches
+from anymesh.prompted.grounding.fuse import Instances, Mask, count_points, fuse_masks
 from anymesh.prompted.grounding.regions import Marks, face_regions, number_regions
-from anymesh.prompted.masks.em import refine_instances
-from anymesh.prompted.masks.fuse import Instances, Mask, count_points, fuse_masks
+from anymesh.prompted.grounding.views import unseen_patches
 from anymesh.rendering.render import View, render
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.naming import named_parts

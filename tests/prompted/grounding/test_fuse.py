@@ -7,8 +7,7 @@ from rows import counts_of, row_cloud
 
 from anymesh.config import GroundingConfig
 from anymesh.prompted.grounding.cloud import sample_cloud, sight
-from anymesh.prompted.masks.fuse import Instances, Mask, count_points, fuse_masks, label_superpoints, marked_masks
-from anymesh.prompted.masks.propose import Proposal
+from anymesh.prompted.grounding.fuse import Instances, Mask, Proposal, count_points, fuse_masks, label_superpoints, marked_masks
 from anymesh.prompted.questions.grounding import MarkedPart
 from anymesh.rendering.render import render
 from anymesh.segmentation.divide import object_shape

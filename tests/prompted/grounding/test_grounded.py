@@ -15,8 +15,8 @@ from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline.results import SegmentationResult
 from anymesh.pipeline.solving import Solver
 from anymesh.prompted import stages as prompted_stages
-from anymesh.prompted.grounding import ground_masks
-from anymesh.prompted.grounding.grounded_parts import UNSURE
+from anymesh.prompted.grounding import ground as ground_masks
+from anymesh.prompted.grounding.ground import UNSURE
 from anymesh.rendering.viewpoints import part_pixels
 from anymesh.types import Mesh, Segmentation
 from anymesh.types.motion import Recognition, RecognizedLabel

@@ -7,11 +7,18 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
-from anymesh.prompted.grounding import ask_marks
-from anymesh.prompted.grounding.ask_marks import MarkQuestioner, ask_exact, ask_masks
-from anymesh.prompted.grounding.mark_pictures import MAX_MARKS_PER_PICTURE, MIN_MARK_PIXELS, WELL, choose_pictures
+from anymesh.prompted.grounding import mark_questions as ask_marks
+from anymesh.prompted.grounding.fuse import Proposal
+from anymesh.prompted.grounding.mark_questions import (
+    MAX_MARKS_PER_PICTURE,
+    MIN_MARK_PIXELS,
+    WELL,
+    MarkQuestioner,
+    ask_exact,
+    ask_masks,
+    choose_pictures,
+)
 from anymesh.prompted.grounding.regions import Marks
-from anymesh.prompted.masks.propose import Proposal
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.types import Mesh

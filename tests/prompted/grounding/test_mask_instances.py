@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 from rows import counts_of
 
-from anymesh.prompted.masks.fuse import Instances, Mask
-from anymesh.prompted.masks.mask_instances import join_numbered, lost_parts
+from anymesh.prompted.grounding.fuse import Instances, Mask, join_numbered, lost_parts
 
 OUTSIDE = counts_of([[9, 0], [0, 0], [0, 9]], ["door"])  # of three superpoints, one view sees the first and the last
 INSIDE = counts_of([[0, 0], [9, 0], [0, 9]], ["door"])

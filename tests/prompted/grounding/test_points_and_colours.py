@@ -12,12 +12,12 @@ from drawn_views import blocks, drawn_view
 from rows import counts_of, row_cloud
 
 from anymesh.config import Config, GroundingConfig
-from anymesh.prompted.grounding import ground_masks
+from anymesh.prompted.grounding import ground as ground_masks
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud, seen_points, sight
+from anymesh.prompted.grounding.em import maximise, near_superpoints, refine_instances
+from anymesh.prompted.grounding.fuse import Instances, Mask, count_points
 from anymesh.prompted.grounding.regions import face_regions
-from anymesh.prompted.masks.em import maximise, near_superpoints, refine_instances
-from anymesh.prompted.masks.fuse import Instances, Mask, count_points
-from anymesh.prompted.masks.sam import ProposedMask
+from anymesh.prompted.grounding.sam import ProposedMask
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Material, Mesh
 
@@ -192,7 +192,7 @@ def test_masks_of_both_pictures_of_a_view_are_proposed_and_exact_regions_on_requ
     def masks(_, image: np.ndarray) -> list[ProposedMask]:
         images.append(image)
         shown = blocks(SIZE, (0, 0, 20, 40) if len(images) % 2 else (0, 41, 0, 0)) == 0
-        return [ProposedMask(shown, 0.9, 0.9, (0, 0, 1, 1))] if shown.any() else []
+        return [ProposedMask(np.packbits(shown), shown.shape, 0.9, 0.9, (0, 0, 1, 1))] if shown.any() else []
 
     monkeypatch.setattr(ground_masks, "automatic_masks", masks)
     few = replace(GroundingConfig(), least_mask=1600)

@@ -4,7 +4,7 @@ import numpy as np
 from assets import box, mesh_of
 
 from anymesh.config import GroundingConfig
-from anymesh.prompted.masks.propose import masks_to_labels, propose_masks
+from anymesh.prompted.grounding.fuse import masks_to_labels, propose_masks
 from anymesh.rendering.render import render
 from anymesh.types.camera import Camera
 

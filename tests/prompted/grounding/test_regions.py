@@ -9,9 +9,9 @@ from assets import box, mesh_of
 
 from anymesh.config import GroundingConfig, ViewsConfig
 from anymesh.prompted.grounding import regions
-from anymesh.prompted.grounding.close_ups import close_ups
 from anymesh.prompted.grounding.cloud import sample_cloud
 from anymesh.prompted.grounding.regions import face_regions, number_regions, split_marks
+from anymesh.prompted.grounding.views import close_ups
 from anymesh.rendering.render import render
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Material, Mesh

@@ -10,10 +10,9 @@ from assets import box, mesh_of
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.pipeline.solving import solve
-from anymesh.prompted.answerers.reference import Reference
-from anymesh.prompted.answerers.reference_answerer import ReferenceAnswerer
+from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer
-from anymesh.prompted.questions.motion_choice import PartFit
+from anymesh.prompted.questions.prompting import PartFit
 from anymesh.types import JointType, KnownJoint
 
 CASE = [box((0, 0, 0), (0.6, 0.4, 0.6))]

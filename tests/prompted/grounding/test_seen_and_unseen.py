@@ -11,11 +11,10 @@ from trimesh.remesh import subdivide_to_size
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.geometry.patches import ObjectShape
-from anymesh.prompted.grounding.close_ups import MAX_CLOSE_UPS, close_ups
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud
-from anymesh.prompted.grounding.faces import face_parts, mark_parts
-from anymesh.prompted.grounding.hidden import add_hidden_parts, inner_faces, unseen_patches
-from anymesh.prompted.grounding.unseen import join_unseen
+from anymesh.prompted.grounding.faces import face_parts, join_unseen, mark_parts
+from anymesh.prompted.grounding.ground import add_hidden_parts
+from anymesh.prompted.grounding.views import MAX_CLOSE_UPS, close_ups, inner_faces, unseen_patches
 from anymesh.rendering.render import render
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.surface_regions import patch_sizes

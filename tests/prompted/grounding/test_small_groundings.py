@@ -11,14 +11,13 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.config import Config, GroundingConfig, ViewsConfig
-from anymesh.prompted.grounding.ask_marks import MarkQuestioner
-from anymesh.prompted.grounding.ground_exact import ground_exactly
-from anymesh.prompted.grounding.grounded import ground_parts
-from anymesh.prompted.grounding.grounded_parts import SampledObject, sample_object
+from anymesh.prompted.grounding.ground import ground_exactly, ground_parts
+from anymesh.prompted.grounding.mark_questions import MarkQuestioner
 from anymesh.prompted.grounding.regrounding import ground_again
+from anymesh.prompted.grounding.views import SampledObject, sample_object
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks
-from anymesh.prompted.questions.motion_choice import PartFit
+from anymesh.prompted.questions.prompting import PartFit
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Exchange, Mesh, Part, Segmentation
 from anymesh.types.motion import Recognition, RecognizedLabel

@@ -7,7 +7,7 @@ from anymesh.articulation.freedom import stays_free
 from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.pipeline.solving import Solver
-from anymesh.prompted.grounding.unseen import join_unseen
+from anymesh.prompted.grounding.faces import join_unseen
 from anymesh.types import JointType
 
 WALLS = [box((0, 0, 0), (1, 1, 0.02)), box((0, 0, 0.98), (1, 1, 1)), box((0, 0, 0.02), (0.02, 1, 0.98)),

@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from anymesh.prompted.masks import sam
-from anymesh.prompted.masks.sam import (
+from anymesh.prompted.grounding import sam
+from anymesh.prompted.grounding.sam import (
     AutomaticMasks,
     Frame,
     PromptedSegmenter,

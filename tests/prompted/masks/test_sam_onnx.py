@@ -11,8 +11,8 @@ pytest.importorskip("onnxruntime")
 from sam_graphs import RADII, SIDE, decoder, encoder, pair
 
 from anymesh.errors import MissingExtraError, ModelError
-from anymesh.prompted.masks.sam import AutomaticMasks, Frame, PromptedSegmenter, automatic_masks
-from anymesh.prompted.masks.sam_onnx_ import OnnxSam, load_sam
+from anymesh.prompted.grounding.sam import AutomaticMasks, Frame, PromptedSegmenter, automatic_masks
+from anymesh.prompted.grounding.sam_onnx_ import OnnxSam, load_sam
 
 KINDS = ["sam", "sam2", "hf-sam", "hf-sam2"]
 HEIGHT, WIDTH = 90, 160

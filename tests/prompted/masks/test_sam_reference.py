@@ -14,8 +14,8 @@ import warnings
 import numpy as np
 import pytest
 
-from anymesh.prompted.masks.sam import AutomaticMasks, Frame, automatic_masks, mask_box, point_grid, stability
-from anymesh.prompted.masks.sam_onnx_ import OnnxSam
+from anymesh.prompted.grounding.sam import AutomaticMasks, Frame, automatic_masks, mask_box, point_grid, stability
+from anymesh.prompted.grounding.sam_onnx_ import OnnxSam
 
 pytestmark = pytest.mark.slow
 SIDE = 128

@@ -10,7 +10,7 @@ import threading
 import pytest
 
 from anymesh.errors import MissingExtraError, ModelError, OptionError
-from anymesh.prompted.masks.sam_weights_ import REGISTRY, Hub, Published, choose, resolve
+from anymesh.prompted.grounding.sam_weights_ import REGISTRY, Hub, Published, choose, resolve
 
 COMMIT = "0123456789abcdef0123456789abcdef01234567"
 ENCODER, DECODER = b"the encoder", b"the decoder"

@@ -22,7 +22,7 @@ from anymesh.errors import SECRET, InputError, ModelError, OptionError, redacted
 from anymesh.finishing.meshy_api import KEY
 from anymesh.loading import load_mesh
 from anymesh.loading.load import LoadedMesh
-from anymesh.prompted.models.address import KEYS
+from anymesh.prompted.models.servers import KEYS
 from anymesh.runtime import Progress
 
 PROGRAM = "command:"

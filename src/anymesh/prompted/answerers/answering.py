@@ -11,7 +11,7 @@ from anymesh.config import Config
 from anymesh.errors import OptionError
 from anymesh.pipeline.answering import AnswererSetup
 from anymesh.pipeline.options import FILES, AnswererOptions
-from anymesh.prompted.answerers.patience import Patience
+from anymesh.prompted.answerers.vlm_answerer import Patience
 from anymesh.prompted.models.servers import SERVERS
 from anymesh.prompted.questions.recognition import parse_labels
 from anymesh.runtime import Deadline, cache_folder
@@ -75,7 +75,7 @@ def _from_files(
     config: Config, name: str, options: AnswererOptions, about: str | None, deadline: Deadline, stop: Event | None
 ) -> AnswererSetup:
     from anymesh.prompted.answerers.file_answerer import FileAnswerer, still_answered
-    from anymesh.prompted.answerers.question_store import QuestionStore
+    from anymesh.prompted.answerers.question_files import QuestionStore
 
     folder = name.removeprefix(FILES)
     if not folder.strip():

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import json
+import re
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext, suppress
+from dataclasses import dataclass
 from pathlib import Path
 from threading import Event
+from typing import Any
 
-from anymesh.errors import InputError, OpenQuestionError
+from anymesh.errors import InputError, OpenQuestionError, OptionError
 from anymesh.prompted.answerers.question_files import (
     ANSWER,
     CHECK,
@@ -19,20 +22,119 @@ from anymesh.prompted.answerers.question_files import (
     SHEET,
     WORDS,
     QuestionFolder,
+    QuestionStore,
+    find_questions,
     is_left_to_geometry,
+    question_page,
     wait_for_answer,
 )
-from anymesh.prompted.answerers.question_store import QuestionStore
 from anymesh.prompted.answerers.vlm_answerer import exchange_of, request_of
 from anymesh.prompted.models.vision import Reply, Request
 from anymesh.prompted.pictures.sheet import question_sheet
-from anymesh.prompted.questions.answer_json import answer_object
-from anymesh.prompted.questions.asking import BadAnswerError
-from anymesh.prompted.questions.question_words import question_page
-from anymesh.prompted.questions.reply_text import reply_object
-from anymesh.prompted.questions.saved_question import pack_question, unpack_question
+from anymesh.prompted.questions.asking import BadAnswerError, reply_object
+from anymesh.prompted.questions.saved_question import answer_object, pack_question, unpack_question
 from anymesh.types import Exchange
 from anymesh.types.questions import Answer, Question, VisualAnswerer
+
+ASSIGNMENT = re.compile(r"([^=\s#][^=#]*?)(?:#(-?\d+))?=([^=\s]*)(?=\s|$)")
+Schema = Mapping[str, Any]
+USUAL = {"instance": 1, "part_is": "right"}  # values of properties that need not be given
+
+
+def answer_text(text: str, schema: Schema) -> str:
+    """Convert a user's input to the JSON of an answer; JSON is returned unchanged.
+
+    Raise OptionError if the input is not valid.
+    """
+    text = text.strip()
+    if text.startswith(("{", "[", '"')) or not ASSIGNMENT.match(text):
+        return text
+    lists = [n for n, part in schema["properties"].items() if part["type"] == "array" and part["items"]["type"] == "object"]
+    if len(lists) != 1:
+        raise OptionError(f"this question takes a JSON object with {list(schema['properties'])}, not the short form")
+    items = schema["properties"][lists[0]]["items"]
+    rest = ASSIGNMENT.sub("", text).strip()
+    if rest:
+        raise OptionError(f"the short form is NAME=VALUE,VALUE ..., found {rest[:40]!r} besides")
+    answer: dict[str, Any] = {name: _blank(name, part) for name, part in schema["properties"].items() if name != lists[0]}
+    answer[lists[0]] = [_assignment(*match.groups(), items) for match in ASSIGNMENT.finditer(text)]
+    return json.dumps({name: answer[name] for name in schema["properties"]})
+
+
+def _assignment(name: str, number: str | None, text: str, items: Schema) -> dict[str, Any]:
+    properties = dict(items["properties"])
+    named = (item for item in properties.items() if item[1]["type"] == "integer" or "enum" in item[1])
+    first, part = next(named, next(iter(properties.items())))  # explanatory text may come before
+    entry = {first: _value(name.strip(), part, first)}
+    del properties[first]
+    integers = [n for n, p in properties.items() if p["type"] == "integer"]
+    if number is not None:
+        if not integers:
+            raise OptionError(f"{name}#{number}: an entry of this question has no second number")
+        entry[integers[0]] = int(number)
+        del properties[integers[0]]
+    values = [v for v in text.split(",") if v]
+    for key, part in properties.items():
+        entry[key] = _take(key, part, values, defaults=any(p["type"] == "array" for p in properties.values()))
+    if values:
+        raise OptionError(f"{name}: found {values} besides what {list(items['properties'])} take")
+    return {key: entry[key] for key in items["properties"]}
+
+
+def _take(name: str, schema: Schema, values: list[str], *, defaults: bool) -> Any:
+    """Take from the values those of a property.
+
+    defaults: plain numbers go to a list, so that other properties get 0 or 1.
+    """
+    match schema["type"]:
+        case "boolean":
+            if name in values:
+                values.remove(name)
+                return True
+            return False
+        case "array":
+            fitting = [v for v in values if _fits(v, schema["items"])]
+            values[:] = [v for v in values if v not in fitting]
+            return [_value(v, schema["items"], name) for v in fitting]
+        case "string" if "enum" not in schema:
+            return ""
+        case kind:
+            if defaults and kind in ("integer", "number"):
+                return USUAL.get(name, 0)
+            fitting = next((v for v in values if _fits(v, schema)), None)
+            if fitting is None:
+                return _blank(name, schema)
+            values.remove(fitting)
+            return _value(fitting, schema, name)
+
+
+def _fits(text: str, schema: Schema) -> bool:
+    if "enum" in schema:
+        return text in schema["enum"]
+    pattern = {"integer": r"-?\d+", "number": r"-?\d+(\.\d+)?"}.get(schema["type"], r".*")
+    return re.fullmatch(pattern, text) is not None
+
+
+def _value(text: str, schema: Schema, name: str) -> Any:
+    if not _fits(text, schema):
+        valid = f"one of {', '.join(schema['enum'])}" if "enum" in schema else f"of type {schema['type']}"
+        raise OptionError(f"{name} must be {valid}, found {text[:40]!r}")
+    return int(text) if schema["type"] == "integer" else float(text) if schema["type"] == "number" else text
+
+
+def _blank(name: str, schema: Schema) -> Any:
+    match schema["type"]:
+        case _ if name in USUAL:
+            return USUAL[name]
+        case "string" if "enum" not in schema:
+            return ""
+        case "boolean":
+            return False
+        case "array":
+            return []
+        case _:
+            raise OptionError(f"the short form lacks {name}; give it, or answer in JSON")
+
 
 POLL = 1.0  # [s] interval between checks for an answer
 
@@ -161,3 +263,52 @@ def _open(folder: QuestionFolder) -> OpenQuestionError:
 
 def _quoted(path: Path) -> str:
     return f"'{path}'" if " " in str(path) else str(path)
+
+
+@dataclass(frozen=True)
+class Recorded:
+    """A recorded answer. whole: checked by the question itself, not only by its schema; left: number of open questions."""
+
+    question: QuestionFolder
+    whole: bool
+    left: int
+
+    def words(self) -> str:
+        """Return the message for the user."""
+        rest = "" if self.whole else " (by its schema; the run checks the rest)"
+        more = f"; {self.left} more open" if self.left else "; run the command that asked again to resume"
+        return f"{self.question.path.name}: the answer is valid{rest}{more}"
+
+
+def open_in(folder: Path) -> list[QuestionFolder]:
+    """Find the open questions in a folder of one question, one object, or many objects.
+
+    Raise OptionError if there is no question at all, open or answered.
+    """
+    questions = find_questions(folder)
+    if not questions:
+        raise OptionError(f"{folder} has no questions; `anymesh articulate MESH -o DIR --answerer files:{folder}` creates them")
+    return open_questions(questions)
+
+
+def record_answer(folder: Path, answer: str) -> Recorded:
+    """Check an answer (JSON, the short form, or the word geometry) to the open question in a folder, and write it.
+
+    In the folder of a single answered question, the answer is replaced. Raise OptionError if the answer is not valid, and is
+    then not written, or if no question or several are open.
+    """
+    waiting = open_in(folder)
+    here = [q for q in find_questions(folder) if q.path == folder]
+    if len(waiting) > 1:
+        listed = ", ".join(str(q.path) for q in waiting[:8])
+        raise OptionError(f"{len(waiting)} questions are open in {folder}; name the one to answer: {listed}")
+    if not (waiting or here):
+        raise OptionError(f"no question is open in {folder}; name the folder of a question to answer it again")
+    question = (waiting or here)[0]
+    text = answer.strip() if is_left_to_geometry(answer) else answer_text(answer, question.schema)
+    try:
+        whole = check_answer(question, text)
+    except BadAnswerError as error:
+        raise OptionError(f"{question.path.name}: this is not a valid answer: {error}") from None
+    question.write_answer(text)
+    return Recorded(question, whole, len(open_questions(find_questions(folder))))

@@ -8,16 +8,42 @@ from __future__ import annotations
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import replace
+from threading import Lock
 
-from anymesh.prompted.answerers.patience import MAX_INVALID_ANSWERS, Patience
 from anymesh.prompted.answerers.question_files import LEFT, NAME, is_left_to_geometry
 from anymesh.prompted.models.cache import request_key
 from anymesh.prompted.models.vision import Reply, Request, VisionModel
-from anymesh.prompted.questions.asking import BadAnswerError
-from anymesh.prompted.questions.reply_text import reply_object
+from anymesh.prompted.questions.asking import BadAnswerError, reply_object
 from anymesh.types import Exchange
 from anymesh.types.exchange import FALLBACK_VERDICT, NOT_ASKED
 from anymesh.types.questions import Answer, Question, VisualAnswerer
+
+MAX_INVALID_ANSWERS = 3  # maximum number of consecutive invalid answers
+
+
+class Patience:
+    """Counter of consecutive invalid answers; a valid one resets it. Shared by the stages of a run."""
+
+    def __init__(self, most: int = MAX_INVALID_ANSWERS) -> None:
+        self._most, self._bad, self._reported, self._lock = most, 0, False, Lock()
+
+    def note(self, *, valid: bool) -> None:
+        """Count an answer."""
+        with self._lock:
+            if not self.lost:
+                self._bad = 0 if valid else self._bad + 1
+
+    @property
+    def lost(self) -> bool:
+        """Whether the model is no longer asked."""
+        return self._bad >= self._most
+
+    def first_time(self) -> bool:
+        """Return True once after the model is given up, so that it is reported only once."""
+        with self._lock:
+            first, self._reported = self.lost and not self._reported, self._reported or self.lost
+        return first
+
 
 SYSTEM = (
     "You help to turn rigid 3D models into articulated ones for robot simulators. You are shown rendered pictures and asked "

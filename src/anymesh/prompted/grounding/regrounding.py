@@ -9,14 +9,14 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.geometry.patches import ObjectShape
-from anymesh.prompted.grounding.ask_marks import MarkQuestioner, ask_exact
-from anymesh.prompted.grounding.grounded_parts import SampledObject, shown_views
+from anymesh.prompted.grounding.mark_questions import MarkQuestioner, ask_exact
 from anymesh.prompted.grounding.regions import Marks, face_regions, number_regions, split_marks
+from anymesh.prompted.grounding.views import SampledObject, shown_views
 from anymesh.prompted.questions.grounding import MarkedPart
-from anymesh.prompted.questions.motion_choice import PartFit
+from anymesh.prompted.questions.prompting import PartFit
 from anymesh.types import Segmentation
 
-WORDS = {
+FIT_WORDS = {
     PartFit.TOO_MUCH: "too much: some of these marks do not move with it",
     PartFit.TOO_LITTLE: "too little: other marks move with it too",
 }
@@ -82,7 +82,7 @@ def _of(owner: Mapping[int, int], part: int) -> tuple[int, ...]:
 def _problem_text(part: MarkedPart, wrong: Mapping[str, PartFit], segmentation: Segmentation, number: int) -> str:
     """Return the text in the question about a wrong part."""
     marks = ", ".join(map(str, part.marks)) or "none"
-    return f"{part.label} {part.instance} (marks {marks}) is {WORDS[wrong[segmentation.parts[number].name]]}"
+    return f"{part.label} {part.instance} (marks {marks}) is {FIT_WORDS[wrong[segmentation.parts[number].name]]}"
 
 
 def _redrawn(

@@ -18,11 +18,18 @@ from threading import Thread
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from anymesh.errors import MissingExtraError, ModelError, OptionError
-from anymesh.prompted.models.address import KEYS, Address, parse_address
 from anymesh.prompted.models.error_redaction import redact
-from anymesh.prompted.models.limits import fit
-from anymesh.prompted.models.pydantic_ai_wire_ import the_message, the_model, the_parameters, the_settings, the_text, unfenced
+from anymesh.prompted.models.pydantic_ai_wire_ import (
+    fit,
+    the_message,
+    the_model,
+    the_parameters,
+    the_settings,
+    the_text,
+    unfenced,
+)
 from anymesh.prompted.models.retry import TransientError
+from anymesh.prompted.models.servers import KEYS, Address, parse_address
 from anymesh.prompted.models.vision import Reply, Request
 from anymesh.runtime import CALL_SECONDS
 from anymesh.types.exchange import Picture

@@ -10,7 +10,7 @@ from threading import Lock
 from typing import Protocol, runtime_checkable
 
 from anymesh.errors import OptionError
-from anymesh.prompted.models.prices import max_input_tokens
+from anymesh.prompted.models.budget import max_input_tokens
 from anymesh.prompted.models.vision import Reply, Request, VisionModel
 
 WINDOW = 60.0  # [s] window over which providers count

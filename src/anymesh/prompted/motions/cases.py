@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -13,13 +13,13 @@ from anymesh.articulation.tree import descendants, parents
 from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.motion.part_context import PartContext
-from anymesh.prompted.motions.decode import plane_normal
-from anymesh.prompted.motions.own_axes import round_patches
+from anymesh.prompted.motions.lines import plane_normal, round_patches
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, PartShown
-from anymesh.types import Motion, Picture, Segmentation
+from anymesh.types import Joint, JointType, Motion, Picture, Segmentation
 from anymesh.types.exchange import DrawnPictures
 from anymesh.types.motion import BASE, Recognition, RecognizedLabel
 from anymesh.types.questions import Answer, Question, VisualAnswerer
+from anymesh.vocabulary import words_of
 
 MAX_PART_PICTURES = 8  # pictures per call
 
@@ -125,3 +125,73 @@ def ask_each(
 
 def _numbered(cases: Sequence[PartCase], picture: Callable[[PartCase, str], Picture]) -> DrawnPictures:
     return DrawnPictures(lambda: tuple(picture(case, f"part {k}: {case.label}") for k, case in enumerate(cases, 1)))
+
+
+TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
+
+
+def contradictions(cases: Sequence[PartCase], joints: Sequence[Joint]) -> tuple[str, ...]:
+    """Return a warning for each part whose answers (recognition, kind of joint, motion) contradict each other."""
+    warnings = []
+    for case, joint in zip(cases, joints, strict=True):
+        answered = list(_answered_motion(case))
+        kinds = {kind for kind, _ in answered} | {_motion(joint.type)}
+        if len(kinds) > 1:
+            answers = ", then ".join(words for _, words in answered)
+            warnings.append(f"{case.name}: the answers contradict each other ({answers}); it became {joint.type}: please check")
+    return tuple(warnings)
+
+
+def _answered_motion(case: PartCase) -> Iterator[tuple[str, str]]:
+    moves = case.recognized.moves if case.recognized else None
+    if moves is not None:
+        yield ("slides" if moves is JointType.PRISMATIC else "turns"), f"recognized as {moves}"
+    kind = case.kind
+    yield "fixed" if kind is JointAppearance.FIXED else "turns" if kind.is_rotation else "slides", kind.words
+
+
+def _motion(kind: JointType) -> str:
+    return "turns" if kind in TURNING else "slides" if kind is JointType.PRISMATIC else "fixed"
+
+
+def labels_by_name(segmentation: Segmentation, labels: Sequence[str]) -> Segmentation:
+    """Give each part with an unrecognized label the recognized label that its name ends with ("rudder_left": rudder).
+
+    Names are only compared here and never shown to an answerer. Of several labels, the one whose last word comes last in the
+    name is used.
+    """
+    new_label = {}
+    for number, part in enumerate(segmentation.parts[1:], start=1):
+        if part.label not in labels:
+            name = words_of(part.name)
+            places = {label: _last_place(name, words_of(label)) for label in labels}
+            best = max(places, key=lambda label: (places[label], len(label)), default=None)
+            if best is not None and places[best] >= 0:
+                new_label[number] = best
+    return relabelled(segmentation, new_label, labels)
+
+
+def relabelled(segmentation: Segmentation, answered: Mapping[int, str], labels: Sequence[str]) -> Segmentation:
+    """Give parts, by number, the answered label if their own was not recognized.
+
+    Return the same object if no label changes.
+    """
+    if not any(segmentation.parts[k].label not in labels for k in answered):
+        return segmentation
+    parts = [
+        replace(part, label=answered[k]) if k in answered and part.label not in labels else part
+        for k, part in enumerate(segmentation.parts)
+    ]
+    return replace(segmentation, parts=tuple(parts))
+
+
+def unlabelled(segmentation: Segmentation, labels: Sequence[str]) -> bool:
+    """Return whether labels were recognized and some part has none of them."""
+    return bool(labels) and any(part.label not in labels for part in segmentation.parts[1:])
+
+
+def _last_place(name: Sequence[str], label: Sequence[str]) -> int:
+    """Return the index in a name of the last word of a label, -1 if not all of its words occur."""
+    if not label or not set(label) <= set(name):
+        return -1
+    return len(name) - 1 - list(reversed(name)).index(label[-1])

@@ -6,6 +6,7 @@ question that was asked. One class holds the text of a question, the schema of i
 
 from __future__ import annotations
 
+import json
 import reprlib
 from collections.abc import Mapping
 from typing import Any
@@ -105,3 +106,34 @@ def one_each(numbers: list[int], wanted: int, what: str) -> None:
     """Raise BadAnswerError unless every number 1..wanted occurs exactly once."""
     if sorted(numbers) != list(range(1, wanted + 1)):
         raise BadAnswerError(f"each {what} 1..{wanted} must be answered exactly once, found {_short(sorted(numbers))}")
+
+
+def reply_object(text: str, schema: Mapping[str, Any]) -> dict[str, Any]:
+    """Read an answer as one JSON object that satisfies its schema.
+
+    Raise BadAnswerError otherwise.
+    """
+    if not text.strip():
+        raise BadAnswerError("it was empty, or a refusal")
+    try:
+        text.encode()  # a lone surrogate cannot be encoded
+        answer = json.loads(text, parse_constant=_no_constant, object_pairs_hook=_unique)
+        json.dumps(answer, ensure_ascii=False).encode()
+    except (ValueError, RecursionError):
+        raise BadAnswerError(f"it was no JSON, or not JSON alone: {' '.join(text.split())[:60]!r}") from None
+    check_schema(answer, schema)
+    return answer
+
+
+def _unique(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """Build an object from pairs; raise BadAnswerError if a name occurs twice."""
+    members: dict[str, Any] = {}
+    for name, value in pairs:
+        if name in members:
+            raise BadAnswerError(f"an object must have each name once, found {name[:40]!r} twice")
+        members[name] = value
+    return members
+
+
+def _no_constant(name: str) -> float:
+    raise ValueError(name)

@@ -2,17 +2,87 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
+from scipy import ndimage
 
 from anymesh.config import GroundingConfig
 from anymesh.prompted.grounding.cloud import Cloud, sight
-from anymesh.prompted.masks.propose import Proposal
+from anymesh.prompted.grounding.regions import min_pixels
 from anymesh.prompted.questions.grounding import MarkedPart
 from anymesh.rendering.render import View
+
+MAJORITY_PX = 5  # [px] side of the majority filter that smooths masks
+
+
+@dataclass(frozen=True, eq=False)
+class Proposal:
+    """Regions of one view.
+
+    labels: region number (from 1) per pixel, -1 for none; numbers: regions large enough for a mark.
+    """
+
+    view: int
+    labels: Int[np.ndarray, "H W"]
+    numbers: tuple[int, ...]
+
+
+def _large_enough(labels: np.ndarray, min_pixels: float) -> tuple[int, ...]:
+    count = np.bincount(labels[labels > 0])
+    return tuple(int(n) for n in np.flatnonzero(count >= min_pixels) if n > 0)
+
+
+def propose_masks(
+    masks: Sequence[Bool[np.ndarray, "_ H W"]], views: Sequence[View], config: GroundingConfig
+) -> tuple[Proposal, ...]:
+    """Return regions from a model's masks of every view, of its colour and its normal picture together."""
+    proposals = []
+    for k, (some, view) in enumerate(zip(masks, views, strict=True)):
+        least = min_pixels(view, config)
+        labels = masks_to_labels(some, least)
+        labels[view.face < 0] = -1
+        proposals.append(Proposal(k, labels, _large_enough(labels, least)))
+    return tuple(proposals)
+
+
+def masks_to_labels(masks: Bool[np.ndarray, "n H W"], min_pixels: float) -> Int[np.ndarray, "H W"]:
+    """Return a region number (from 1) per pixel, -1 for none.
+
+    Masks of at least `min_pixels` pixels are painted, small over large, smoothed by a majority filter, and split into connected
+    components. Components below `min_pixels` are dropped.
+    """
+    size = masks.sum((1, 2))
+    order = np.argsort(-size, kind="stable")
+    painted = np.full(masks.shape[1:], -1)
+    for n, k in enumerate(order[size[order] >= min_pixels]):
+        painted[masks[k]] = n
+    smooth = _majority(painted)
+    labels, count = np.full(painted.shape, -1), 0
+    for n in np.unique(smooth[smooth >= 0]):
+        pieces, many = ndimage.label(smooth == n)
+        area = np.bincount(pieces.reshape(-1), minlength=many + 1)
+        number = np.full(many + 1, -1)
+        kept = np.flatnonzero(area[1:] >= min_pixels) + 1
+        number[kept] = count + 1 + np.arange(len(kept))
+        labels[pieces > 0] = number[pieces[pieces > 0]]
+        count += len(kept)
+    return labels
+
+
+def _majority(labels: np.ndarray) -> Int[np.ndarray, "H W"]:
+    """Give every pixel the most frequent label around it; its own label wins ties."""
+    best, votes = labels.copy(), np.zeros(labels.shape)
+    present = np.unique(labels)
+    for own in (True, False):
+        for n in present:
+            here = ndimage.uniform_filter((labels == n).astype(np.float64), MAJORITY_PX, mode="nearest")
+            better = (labels == n) if own else (here > votes + 1e-9)
+            best[better], votes[better] = n, here[better]
+    return best
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,3 +257,78 @@ def _box_ious(box: np.ndarray, others: np.ndarray) -> Float[np.ndarray, " n"]:
     both = np.prod(np.maximum(high - low, 0), axis=1)
     area = np.prod(others[:, 2:] - others[:, :2] + 1, axis=1) + np.prod(box[2:] - box[:2] + 1)
     return both / (area - both)
+
+
+Key = tuple[str, int]  # label and instance number of a part in the answers
+
+
+def join_numbered(counts: Sequence[Counts], instances: Instances) -> Instances:
+    """Join instances of one label that the answers give the same number, unless one view shows them as different parts.
+
+    The vote of the masks cannot join pieces that no view shows together, such as the outside of a door and its shelves inside.
+    """
+    named = [_votes(c, instances) for c in counts]
+    owner = [_most(v[k] for v in named) for k in range(len(instances.labels) + 1)]
+    size = np.bincount(np.maximum(instances.number, 0), sum(c.seen for c in counts), len(instances.labels) + 1)
+    groups: dict[Key, list[list[int]]] = {}
+    for k in (np.argsort(-size[1:], kind="stable") + 1).tolist():
+        key = owner[k] or (instances.labels[k - 1], -k)  # an instance without a numbered mask joins no other
+        some = groups.setdefault(key, [])
+        joined = next((g for g in some if not any(_apart(named, k, other) for other in g)), None)
+        some.append([k]) if joined is None else joined.append(k)
+    target = np.arange(-1, len(instances.labels) + 1)  # the first entry stands for superpoints that no view shows
+    heads = sorted(min(g) for some in groups.values() for g in some)
+    for some in groups.values():
+        for g in some:
+            target[np.array(g) + 1] = heads.index(min(g)) + 1
+    return Instances(target[instances.number + 1], tuple(instances.labels[k - 1] for k in heads))
+
+
+def _votes(c: Counts, instances: Instances) -> list[Counter[Key]]:
+    """Return how many of the points of each instance, from 0, lie in the masks of its label in one view, by number."""
+    votes = [Counter[Key]() for _ in range(len(instances.labels) + 1)]
+    kept = instances.number > 0
+    for m, key in enumerate(zip(c.labels, c.instances, strict=True)):
+        points = np.bincount(instances.number[kept], c.top[kept, m], len(votes))
+        for k in np.flatnonzero(points):
+            if instances.labels[k - 1] == key[0]:
+                votes[k][key] += int(points[k])
+    return votes
+
+
+def _most(votes: Iterable[Counter[Key]]) -> Key | None:
+    """Return the number with most points, None if there is none."""
+    total = sum(votes, Counter[Key]())
+    return max(total, key=lambda key: (total[key], key), default=None)
+
+
+def _apart(named: Sequence[Sequence[Counter[Key]]], a: int, b: int) -> bool:
+    """Return whether a view that shows both instances gives them different numbers."""
+    pairs = [(_most([v[a]]), _most([v[b]])) for v in named]
+    return any(one != two for one, two in pairs if one is not None and two is not None)
+
+
+def lost_parts(
+    masks: Sequence[Sequence[Mask]],
+    faces: Sequence[Int[np.ndarray, "H W"]],
+    face_part: Int[np.ndarray, " F"],
+    labels: Sequence[str],
+) -> tuple[str, ...]:
+    """Return a warning for each label of which some marked parts are no part of their own in any view.
+
+    masks: of each view; faces: face per pixel of each view, -1 for none; face_part: part of each face, 0 for the base;
+    labels: of the parts.
+    """
+    marked, own_parts = set[Key](), set[Key]()
+    for some, face in zip(masks, faces, strict=True):
+        taken = set[int]()
+        for mask in sorted(some, key=lambda m: -int(m.pixels.sum())):
+            key = (mask.label, mask.instance)
+            marked.add(key)
+            on = mask.pixels & (face >= 0)
+            part = int(np.bincount(face_part[face[on]]).argmax()) if on.any() else 0
+            if part > 0 and labels[part - 1] == mask.label and part not in taken:
+                taken.add(part)
+                own_parts.add(key)
+    lost = Counter(label for label, _ in marked - own_parts)
+    return tuple(f"marked, but not found as parts of their own: {n} of label {label!r}" for label, n in sorted(lost.items()))

@@ -12,24 +12,88 @@ import numpy as np
 
 from anymesh.articulation.closed_pose import away_from_closed
 from anymesh.articulation.estimate import joint_of
+from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import answered_range, opening_as_answered
-from anymesh.config import Config
+from anymesh.articulation.motion_classifier import PartMotionScores
+from anymesh.articulation.motion_question import SlideDirection
+from anymesh.config import FACING_COSINE, Config
 from anymesh.geometry.patches import ObjectShape
-from anymesh.prompted.motions.candidate_points import axis_points, cluster_points, followed, superpoint_centres, with_more
-from anymesh.prompted.motions.cases import PartCase, ask_each, make_cases
-from anymesh.prompted.motions.contradictions import contradictions
-from anymesh.prompted.motions.decode import hinge, prismatic, surface_directions
-from anymesh.prompted.motions.own_axes import pivots
-from anymesh.prompted.motions.relabel import labels_by_name, relabelled, unlabelled
-from anymesh.prompted.motions.unverified import as_answered, normal_outwards, opening_slide
-from anymesh.prompted.motions.verify import Choice, MotionQuestioner, choose_motions
+from anymesh.prompted.motions.cases import (
+    PartCase,
+    ask_each,
+    contradictions,
+    labels_by_name,
+    make_cases,
+    relabelled,
+    unlabelled,
+)
+from anymesh.prompted.motions.lines import (
+    axis_points,
+    cluster_points,
+    followed,
+    hinge,
+    pivots,
+    prismatic,
+    superpoint_centres,
+    surface_directions,
+    with_more,
+)
+from anymesh.prompted.motions.offers import moves_as
+from anymesh.prompted.motions.verify import Choice, MotionQuestioner, answered_confidence, answers_a_line, choose_motions
 from anymesh.prompted.pictures.visual_prompts import Shot, VisualPrompts
-from anymesh.prompted.questions.motion_choice import PartFit
-from anymesh.prompted.questions.prompting import ArrowTable, JointAppearance, PointTable, WhichArrows, WhichKinds, WhichPoints
+from anymesh.prompted.questions.prompting import (
+    ArrowTable,
+    JointAppearance,
+    PartFit,
+    PointTable,
+    WhichArrows,
+    WhichKinds,
+    WhichPoints,
+)
 from anymesh.runtime import Progress, silent
 from anymesh.types import Joint, JointType, Motion, Segmentation
 from anymesh.types.motion import Recognition
 from anymesh.types.questions import VisualAnswerer
+
+MIN_GUIDED_SHARE = 0.4  # minimum share of the sideways directions in which an outward slide is guided
+
+
+def normal_outwards(case: PartCase) -> Motion:
+    """Return the slide along the normal of the connecting area's plane, outwards (paper, 3.3)."""
+    normal = case.shown.normal
+    outward = normal if normal @ case.context.opening_direction >= 0 else -normal
+    return prismatic(outward, case.context, "normal of the connecting area's plane")
+
+
+def opening_slide(case: PartCase) -> Motion:
+    """Return the plane's normal if the part is free and guided along it, else the best guided free direction.
+
+    On real drawers the connecting area consists of rim and sides, and its plane's normal may be off by 80 degrees and more.
+    """
+    context = case.context
+    outward = context.opening_direction
+    directions = [s * a for a in context.body_obb.axes for s in (1.0, -1.0) if s * a @ outward > FACING_COSINE] + [outward]
+    ways = [normal_outwards(case)] + [prismatic(d, context, "free way out") for d in directions]
+    candidates = sweep_candidates(context, [("asked", way) for way in ways])[::2]
+    normal = candidates[0]
+    if normal.is_free and normal.slide_direction is SlideDirection.OUTWARDS and normal.guided > MIN_GUIDED_SHARE:
+        return ways[0]
+    return ways[max(range(1, len(ways)), key=lambda k: (candidates[k].guided, candidates[k].opening, -k))]
+
+
+def as_answered(case: PartCase) -> Choice:
+    """Return the answered motion unchanged."""
+    motion = case.asked or prismatic(case.context.opening_direction, case.context, "nothing moves")
+    both = sweep_candidates(case.context, [("asked", motion)])
+    scores = PartMotionScores(case.context, case.label, both).alone.score
+    best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is JointType.REVOLUTE else both[0]
+    moves = case.recognized.moves if case.recognized else None
+    answer = f"answered: {case.kind.words}; {motion.source}"
+    if case.kind is JointAppearance.FIXED:
+        return Choice(best, answer, answered_confidence(None if moves is None else False, line=False), moves=False)
+    as_recognized = None if moves is None else moves_as(best, moves)
+    return Choice(best, answer, answered_confidence(as_recognized, line=answers_a_line(case), free=best.is_free))
+
 
 INTO_POINTS = 8  # candidates for an axis into the surface, half of which stand for axes
 ShapeOf = Callable[[Segmentation], ObjectShape]

@@ -18,8 +18,8 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from anymesh.errors import MissingExtraError, ModelError
-from anymesh.prompted.masks.sam import MEAN, Frame, PromptedSegmenter
-from anymesh.prompted.masks.sam_weights_ import Hub, resolve
+from anymesh.prompted.grounding.sam import MEAN, Frame, PromptedSegmenter
+from anymesh.prompted.grounding.sam_weights_ import Hub, resolve
 
 log = logging.getLogger("anymesh")
 TYPES = {

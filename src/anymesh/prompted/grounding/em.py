@@ -15,7 +15,7 @@ from scipy.spatial import KDTree
 from anymesh.config import GroundingConfig
 from anymesh.geometry.topology import label_connected
 from anymesh.prompted.grounding.cloud import Cloud
-from anymesh.prompted.masks.fuse import Counts, Instances
+from anymesh.prompted.grounding.fuse import Counts, Instances
 
 CERTAIN = 3.0  # initial logit of the instance that a superpoint starts in; the others start at 0
 MIN_PROBABILITY = 1e-7  # distance of probabilities from 0 and 1

@@ -3,14 +3,48 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.config import REFERENCE_PX, ViewsConfig
-from anymesh.prompted.grounding.cloud import Cloud, seen_points
+from anymesh.config import REFERENCE_PX, Config, ViewsConfig
+from anymesh.geometry.patches import ObjectShape
+from anymesh.prompted.grounding.cloud import Cloud, sample_cloud, seen_points
+from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE
+from anymesh.prompted.grounding.mark_questions import MarkQuestioner
 from anymesh.rendering.render import View
+from anymesh.segmentation.surface_regions import patch_sizes
+from anymesh.types import Mesh
 from anymesh.types.camera import Camera
+
+MAX_SEEN_SHARE = 0.25  # patches up to this visible share of the surface count as mostly hidden
+MIN_INNER_PATCH_RATIO = 0.05  # of the object's diagonal: hidden patches with a smaller diagonal are not shown
+# of the object's diagonal: minimum size of a hidden patch for the inside to be shown when the object is recognized
+MIN_RECOGNITION_PATCH_RATIO = 0.1
+
+
+def unseen_patches(
+    whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"], share: float = MIN_SEEN_SHARE
+) -> Bool[np.ndarray, " P"]:
+    """Return the patches whose visible share of the surface is at most `share`."""
+    patch = whole.mesh_patch[cloud.faces]
+    total = np.bincount(patch, minlength=int(whole.mesh_patch.max()) + 1)
+    return np.bincount(patch, shown, len(total)) <= share * total
+
+
+def inner_faces(
+    mesh: Mesh, whole: ObjectShape, cloud: Cloud, shown: Bool[np.ndarray, " n"], min_size: float = MIN_INNER_PATCH_RATIO
+) -> Bool[np.ndarray, " F"]:
+    """Return the faces of mostly hidden patches that are large enough to be shown and asked about.
+
+    Return no faces if no hidden patch has a diagonal of at least `min_size`, a share of the object's.
+    """
+    hidden, size = unseen_patches(whole, cloud, shown, MAX_SEEN_SHARE), patch_sizes(mesh, whole) / whole.diagonal
+    if not (hidden & (size >= min_size)).any():
+        return np.zeros(len(whole.mesh_patch), bool)
+    return (hidden & (size >= MIN_INNER_PATCH_RATIO))[whole.mesh_patch]
+
 
 MAX_CLOSE_UPS = 8  # close-ups per object; each adds a picture to a question
 MIN_AREA_PX, MIN_WIDTH_PX = 250.0, 4.0  # [px, px across] in a 640 px view: regions below either are too small to judge
@@ -95,3 +129,49 @@ def _camera(view: View, pixel: np.ndarray, zoom: float) -> Camera:
     eye = camera.T_world_camera[:3, 3]
     fov = 2 * float(np.arctan(np.tan(camera.fov / 2) / zoom))
     return Camera.looking_at(eye, eye + camera.T_world_camera[:3, :3] @ local, fov, camera.width, camera.height)
+
+
+EXACT = "exact"
+EXACT_POINTS = 120_000  # exact regions use the cloud for superpoints only, which need fewer points
+
+
+@dataclass(frozen=True, eq=False)
+class SampledObject:
+    """A mesh with its patches and the points on its surface."""
+
+    mesh: Mesh
+    whole: ObjectShape
+    cloud: Cloud
+
+
+@dataclass(frozen=True, eq=False)
+class ShownViews:
+    """The views to choose pictures from, their names, and the patches that no outside view shows."""
+
+    views: list[View]
+    names: list[str]
+    hidden: Bool[np.ndarray, " P"]
+
+
+def sample_object(mesh: Mesh, whole: ObjectShape, config: Config) -> SampledObject:
+    """Sample the points for finding parts; exact regions need fewer of them than masks."""
+    few = min(config.grounding.points, EXACT_POINTS) if config.proposer == EXACT else config.grounding.points
+    return SampledObject(mesh, whole, sample_cloud(mesh, whole, replace(config.grounding, points=few), config.seed))
+
+
+def shown_views(
+    sampled: SampledObject, questioner: MarkQuestioner, region: Int[np.ndarray, " F"], front: float | None
+) -> ShownViews:
+    """Return the views from all sides, close-ups of small regions, and views of the inside if there is one.
+
+    front: azimuth of the front [deg], if known.
+    """
+    prompts, config, cloud = questioner.visual_prompts, questioner.config, sampled.cloud
+    small = close_ups(region, cloud, prompts.views, config.views) if questioner.labels else ()
+    seen = [*prompts.views, *(prompts.view(camera) for camera in small)]
+    names = prompts.names(len(seen), front)
+    shown = seen_points(cloud, seen)
+    inside = inner_faces(sampled.mesh, sampled.whole, cloud, shown)
+    if questioner.labels and inside.any():
+        seen, names = [*seen, *prompts.insides(inside)], [*names, *prompts.inside_names(front)]
+    return ShownViews(seen, names, unseen_patches(sampled.whole, cloud, shown))
