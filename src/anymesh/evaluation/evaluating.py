@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import datetime
+import math
 import platform
 from collections.abc import Iterator, Sequence
-from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
-from concurrent.futures.process import BrokenProcessPool
+from concurrent.futures import ThreadPoolExecutor, as_completed
 from functools import partial
 from pathlib import Path
 from threading import Event
@@ -27,7 +27,7 @@ from anymesh.evaluation.record import Record, ResultsFolder
 from anymesh.evaluation.report import write_report
 from anymesh.evaluation.score import ObjectScore
 from anymesh.evaluation.training import trained_note
-from anymesh.isolation.pool import worker_processes
+from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
 from anymesh.names import legal_name, listed
 from anymesh.pipeline.answering import choose_answerer
 from anymesh.pipeline.options import FILES, GEOMETRY, Answering
@@ -71,7 +71,7 @@ def evaluate(
     left = [name for name in names if not results.has(name)]
     before, total = len(names) - len(left), len(names)
     progress("eval", f"{before} done before" if before else "begins", before, total)
-    work = partial(_examined, dataset, eval_config, answering, results.folder)
+    work = partial(_examined, dataset=dataset, eval_config=eval_config, answering=answering, folder=results.folder)
     alone = (GEOMETRY, ORACLE, *(() if answering.get("wait") else (FILES,)))
     shared = not results.settings["answerer"].startswith(alone)
     waiting: list[OpenQuestionError] = []
@@ -181,12 +181,13 @@ def _answerer_for(answering: Answering, seed: int, stop: Event | None = None) ->
 
 
 def _examined(
+    name: str,
+    answerer_for: SampleAnswerer | None = None,
+    *,
     dataset: str,
     eval_config: EvalConfig,
     answering: Answering,
     folder: Path,
-    name: str,
-    answerer_for: SampleAnswerer | None = None,
 ) -> Examined:
     """Evaluate one object in its own process, which opens the data set again."""
     options: Answering = {**answering, "answerer": GEOMETRY, "parts_list": ()}
@@ -204,31 +205,33 @@ def _all(
 ) -> Done:
     """Yield the records of each object as they complete.
 
-    shared: use threads, which share a model and its budget; else processes. stop: set at the end, for threads that wait for
-    answers.
+    shared: in threads, which share a model and its budget; else in child processes. stop: set at the end, for threads that wait
+    for answers.
     """
     if jobs == 1 or len(names) < 2:
         yield from ((name, work(name, answerer_for)) for name in names)
         return
-    pool: Executor = ThreadPoolExecutor(jobs) if shared else worker_processes(jobs)
-    lost = []
+    children, threads = ChildPool(jobs, ChildLimits(seconds=math.inf, memory=0)), ThreadPoolExecutor(jobs)
     try:
-        futures = {pool.submit(work, name, answerer_for if shared else None): name for name in names}
+        futures = {
+            (threads.submit(work, name, answerer_for) if shared else threads.submit(_in_child, children, work, name)): name
+            for name in names
+        }
         for future in as_completed(futures):
-            try:
-                yield futures[future], future.result()
-            except BrokenProcessPool:
-                lost.append(futures[future])
+            yield futures[future], future.result()
     finally:
         stop.set()
-        pool.shutdown(cancel_futures=True)
-    for name in lost:  # one of them ended its process, and with it the others
-        yield name, _alone(name, work)
+        children.close()
+        threads.shutdown(cancel_futures=True)
 
 
-def _alone(name: str, work: partial[Examined]) -> Examined:
-    with worker_processes(1) as pool:
-        try:
-            return pool.submit(work, name).result()
-        except BrokenProcessPool:
-            return [Record(ObjectScore(name, (), 0, 0, 0), error="its process ended unexpectedly (out of memory?)")]
+def _in_child(children: ChildPool, work: partial[Examined], name: str) -> Examined:
+    """Evaluate one object in a child process, whose end does not affect the other objects."""
+    try:
+        return children.run(__name__, work.func.__name__, {"name": name, **work.keywords})
+    except ChildError as error:
+        if error.failure is Failure.INVALID:
+            raise OptionError(error.detail) from None
+        if error.failure is Failure.ERROR:
+            raise
+        return [Record(ObjectScore(name, (), 0, 0, 0), error=f"its process ended unexpectedly ({error})")]

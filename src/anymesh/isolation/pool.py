@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import atexit
 import contextlib
-import multiprocessing
 import os
 import signal
 import subprocess
@@ -12,7 +11,6 @@ import sys
 import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
@@ -253,18 +251,3 @@ def shared_pool() -> ChildPool:
 
 if hasattr(os, "register_at_fork"):  # a forked process must not share the pipes
     os.register_at_fork(after_in_child=shared_pool.cache_clear)
-
-
-def worker_processes(count: int) -> ProcessPoolExecutor:
-    """Return an executor of new processes.
-
-    Workers of a killed process otherwise finish what they do and then wait without end for more, since each of them keeps the
-    queue open.
-    """
-    return ProcessPoolExecutor(count, multiprocessing.get_context("spawn"), initializer=_end_with_parent)
-
-
-def _end_with_parent() -> None:
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        threading.Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()
