@@ -28,7 +28,7 @@ from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, example_tru
 from anymesh.evaluation.score import ObjectScore, score
 from anymesh.finishing.scene_glb import Y_UP, scene_glb
 from anymesh.types import Asset, Segmentation
-from anymesh.viewer.pictures_write import write_picture
+from anymesh.viewer.pictures_ import write_picture
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
 FUSED = ("cabinet_fused", "laptop_fused", "microwave_fused", "stove_fused")  # as shipped, through --mesh

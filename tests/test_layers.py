@@ -43,7 +43,7 @@ MANY_PARAMETERS = {
     "applications/policy/env_.py:make_env", "applications/policy/training_.py:train",
     "applications/scan/rendered.py:render_frames", "evaluation/evaluating.py:evaluate", "export/__init__.py:write_asset",
     "pipeline/api.py:articulate", "pipeline/api.py:segment", "pipeline/api.py:export_asset", "finishing/finishing.py:finish",
-    "viewer/live_serve_.py:serve", "viewer/pictures_write.py:write_picture",
+    "viewer/server_.py:serve", "viewer/pictures_.py:write_picture",
     # inner functions
     "articulation/estimate.py:joint_of", "geometry/creases.py:_folds_inwards", "pipeline/stage_files.py:assemble",
 }  # fmt: skip

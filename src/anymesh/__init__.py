@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from anymesh.finishing.finishing import finish
     from anymesh.pipeline import articulate, export_asset, joints, segment
     from anymesh.types import Asset, Joint, JointType, Mesh, Part, Segmentation
-    from anymesh.viewer.report_notebook import show
+    from anymesh.viewer.report import show
 
 __version__ = "0.2.0"  # the only place: pyproject.toml reads it
 __all__ = [
@@ -58,4 +58,4 @@ def __getattr__(name: str) -> object:
 
 def load_ipython_extension(shell: object) -> None:
     """Show the assets of lists and dictionaries too, not only alone, after `%load_ext anymesh` in a notebook."""
-    resolve("viewer.report_notebook:register")(shell)
+    resolve("viewer.report:register")(shell)

@@ -29,7 +29,7 @@ API = {
     "make_env": "applications.policy.env_",
     "plan": "applications.plan",
     "scan": "applications.scan",
-    "show": "viewer.report_notebook",
+    "show": "viewer.report",
 }
 
 # The commands, in the order of `anymesh --help`.

@@ -1,4 +1,4 @@
-"""Names that are legal as a URDF link, a MuJoCo body, a glTF node and a file on every system."""
+"""Names that are legal as a URDF link, a MuJoCo body, a glTF node and a file on every system; and words for confidences."""
 
 from __future__ import annotations
 
@@ -9,6 +9,13 @@ from collections.abc import Sequence
 LONGEST = 80  # characters; leaves space for suffixes within the 255 bytes of common file systems
 # Reserved by a format or a system: MuJoCo's root body, URDF parsers' base names, the device names of Windows.
 RESERVED = frozenset({"world", "con", "prn", "aux", "nul"} | {f"{port}{i}" for port in ("com", "lpt") for i in range(10)})
+
+SURE, CHECK = 0.8, 0.5  # confidence from which a part or joint is called sure, and from which a person only needs to check it
+
+
+def confidence_word(confidence: float) -> str:
+    """Return sure, check or guess: the one scale of all pages."""
+    return "sure" if confidence >= SURE else "check" if confidence >= CHECK else "guess"
 
 
 def listed(names: Sequence[str], most: int = 20) -> str:

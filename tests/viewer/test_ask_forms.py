@@ -14,6 +14,11 @@ from anymesh.prompted.questions.saved_question import answer_object, pack_questi
 from anymesh.viewer.ask_forms import LabelRow, form_of
 from anymesh.viewer.ask_marks import SPLIT, MarksForm
 from anymesh.viewer.ask_shapes import (
+from anymesh.prompted.questions.saved_question import pack_question
+from anymesh.viewer.questions.desk_ import SUGGESTED, WAITING, OpenQuestion, find_open_question
+from anymesh.viewer.questions.fields_ import marks_table
+from anymesh.viewer.questions.forms import SPLIT, LabelRow, MarksForm, form_of
+from anymesh.viewer.questions.scene_ import (
     asked_faces,
     closer_view,
     is_enclosed,
@@ -26,8 +31,6 @@ from anymesh.viewer.ask_shapes import (
     scale_of,
     surface,
 )
-from anymesh.viewer.ask_words import guide, label_words, marks_table, motion_words, title
-from anymesh.viewer.open_question import SUGGESTED, WAITING, OpenQuestion, find_open_question
 from anymesh.viewer.scene import color_of
 
 KINDS = list(questions())
@@ -43,8 +46,8 @@ def test_a_form_takes_a_suggestion_and_gives_it_back(kind: str) -> None:
     meant = question.parse(form.answer())
     again = question.parse(answer_object(question, meant))
     assert again == meant
-    assert title(form)
-    assert guide(form)
+    assert form.title
+    assert form.guide
 
 
 def test_marks_that_differ_from_view_to_view_cannot_be_clicked_on_the_object() -> None:
@@ -130,8 +133,9 @@ def test_parts_are_stepped_through_and_each_keeps_its_own() -> None:
     form.choose(0)
     assert form.step == 1
     assert form.answer()["parts"] == [{"part": 1, "motion": 2}, {"part": 2, "motion": 0}]
-    assert "blocked" in motion_words(motions().tables[0], 2)
-    assert label_words(LabelRow("drawer", "prismatic", "base", 0.0, 30.0)) == "drawer: slides, 0 to 30 cm"
+    form.go(-1)
+    assert "blocked" in form.words
+    assert LabelRow("drawer", "prismatic", "base", 0.0, 30.0).words == "drawer: slides, 0 to 30 cm"
 
 
 def test_a_click_chooses_the_point_that_its_ray_passes_and_none_far_from_all() -> None:

@@ -17,9 +17,9 @@ import pytest
 from browser import Tab
 
 from anymesh import pipeline
+from anymesh.isolation.child import serve
 from anymesh.types import JointType
-from anymesh.viewer.ask_shapes import point_places
-from anymesh.viewer.live_serve_ import serve
+from anymesh.viewer.questions.scene_ import point_places
 
 pytest.importorskip("viser", reason="needs the extra view")
 pytestmark = pytest.mark.slow

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from anymesh.viewer.guard_ import is_permitted
+from anymesh.viewer.server_ import is_permitted
 
 
 @pytest.mark.parametrize(
@@ -32,7 +32,7 @@ def test_a_page_that_is_bound_to_a_network_keeps_to_its_own_origin() -> None:
 @pytest.fixture(scope="module")
 def port() -> Iterator[int]:
     pytest.importorskip("viser")
-    from anymesh.viewer.live_ import start_server
+    from anymesh.viewer.server_ import start_server
 
     server = start_server("127.0.0.1", 18473, "test")
     yield server.get_port()

@@ -14,12 +14,9 @@ from anymesh.errors import InputError, MissingExtraError, OptionError, OutputErr
 from anymesh.rendering.drawing import ground
 from anymesh.rendering.preview import BASE, PALETTE
 from anymesh.types import Asset, JointType
-from anymesh.viewer import contact_sheet as sheets
-from anymesh.viewer import pictures_write
-from anymesh.viewer.contact_sheet import contact_sheet, sheet_film
-from anymesh.viewer.pictures import Turntable, film, gif_bytes
-from anymesh.viewer.pictures_mp4_ import write_mp4
-from anymesh.viewer.pictures_write import write_picture
+from anymesh.viewer import pictures_ as pictures_write
+from anymesh.viewer import pictures_ as sheets
+from anymesh.viewer.pictures_ import Turntable, contact_sheet, film, gif_bytes, sheet_film, write_mp4, write_picture
 
 SMALL = Turntable(size=64, rate=4.0)
 

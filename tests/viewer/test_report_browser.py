@@ -10,8 +10,7 @@ from browser import Tab
 from moved import agree, changed, frames, slide
 from shown import asked, folder_of, hostile, picture
 
-from anymesh.viewer.report import write_report
-from anymesh.viewer.report_notebook import asset_html
+from anymesh.viewer.report import asset_html, write_report
 
 pytestmark = pytest.mark.slow
 

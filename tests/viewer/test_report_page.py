@@ -12,12 +12,9 @@ from shown import Page, asked, folder_of, hostile, picture, script_hash, styles
 from anymesh.errors import InputError, OutputError
 from anymesh.loading import load_mesh
 from anymesh.types import Asset, Part, Segmentation
-from anymesh.viewer.report import write_report
-from anymesh.viewer.report_asset import FROM_Y_UP, find_assets, read_asset
-from anymesh.viewer.report_display import displayed
-from anymesh.viewer.report_entry import asset_entry
+from anymesh.viewer.report import asset_html, register, show, write_report
+from anymesh.viewer.report_asset import FROM_Y_UP, asset_entry, displayed, find_assets, read_asset
 from anymesh.viewer.report_html import html_report
-from anymesh.viewer.report_notebook import asset_html, register, show
 
 
 @pytest.fixture(scope="module")

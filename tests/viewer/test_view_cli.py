@@ -7,7 +7,7 @@ from correctable import write_output
 from typer.testing import CliRunner
 
 from anymesh.errors import InputError, MissingExtraError, OutputError
-from anymesh.viewer import live_serve_
+from anymesh.viewer import server_ as live_serve_
 from anymesh.viewer.command_line import view
 
 

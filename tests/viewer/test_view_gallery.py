@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from anymesh.errors import OutputError
-from anymesh.viewer.gallery import Decision, Filter, Verdict, decide, read_review
+from anymesh.viewer.review_ import Decision, Filter, Verdict, decide, read_review
 
 NOW = "2024-05-01T12:00:00+00:00"
 
@@ -47,7 +47,7 @@ def test_filters(many):
     found = {f: [i.key for i in review.chosen(f)] for f in Filter}
     assert found == {
         Filter.ALL: ["still", "set/unsure", "medium", "sure"], Filter.UNDECIDED: ["set/unsure"], Filter.ACCEPTED: ["sure"],
-        Filter.REJECTED: ["medium"], Filter.CORRECT: ["still"], Filter.UNSURE: ["still", "set/unsure"],
+        Filter.REJECTED: ["medium"], Filter.CORRECT: ["still"], Filter.GUESS: ["still", "set/unsure"],
         Filter.WARNED: ["set/unsure"],
     }  # fmt: skip
 

@@ -5,7 +5,7 @@ import pytest
 from correctable import write_output
 
 from anymesh.correcting import CorrectionError, FlipSign, MergeParts, SetLimits, StaleError
-from anymesh.viewer.live import Session
+from anymesh.viewer.session import Session
 
 NOW = "2024-05-01T12:00:00+00:00"
 FRONT, BACK = np.array([0.3, -5.0, 0.3]), np.array([0.0, 1.0, 0.0])

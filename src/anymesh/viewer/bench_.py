@@ -16,11 +16,9 @@ from anymesh.correcting import CorrectionError
 from anymesh.errors import AnymeshError
 from anymesh.pipeline.answering import object_name
 from anymesh.pipeline.options import FILES
-from anymesh.viewer.ask_desk_ import AskDesk
-from anymesh.viewer.drop_zone import drop_zone
-from anymesh.viewer.panels import SMALL
-from anymesh.viewer.panels_page import Page
-from anymesh.viewer.uploads import plain_name, receive
+from anymesh.viewer.panels import SMALL, Page
+from anymesh.viewer.questions.desk_ import AskDesk
+from anymesh.viewer.uploads import drop_zone, plain_name, receive
 from anymesh.viewer.work import ArticulationWork
 
 log = logging.getLogger("anymesh")

@@ -40,6 +40,12 @@ NoBrowser = Annotated[bool, typer.Option("--no-browser", help="Do not open a bro
 Reviewer = Annotated[
     str, typer.Option(metavar="NAME", help="Name in the logs of corrections and decisions; the user's name by default.")
 ]
+Page = Annotated[
+    Path | None, typer.Option("--out", "-o", metavar="FILE", help="The HTML file; default: FOLDER_report.html beside FOLDER.")
+]
+File = Annotated[
+    Path, typer.Option("--out", "-o", metavar="FILE", help=".gif or .mp4: a film of the motions; .png: a contact sheet.")
+]
 
 
 def view(
@@ -53,7 +59,7 @@ def view(
     root: Root = None,
 ) -> None:
     """View, animate, correct and review assets in the browser, until Ctrl-C."""
-    from anymesh.viewer.live_serve_ import serve
+    from anymesh.isolation.child import serve
 
     with ExitStack() as stack:
         with Shown(hidden=False) as progress:
@@ -79,11 +85,6 @@ def _user() -> str:
         return getpass.getuser()
     except (OSError, KeyError):
         return "unknown"
-
-
-Page = Annotated[
-    Path | None, typer.Option("--out", "-o", metavar="FILE", help="The HTML file; default: FOLDER_report.html beside FOLDER.")
-]
 
 
 def report(
@@ -112,11 +113,6 @@ def report(
         typer.echo("\n".join(plain(line) for line in lines))
 
 
-File = Annotated[
-    Path, typer.Option("--out", "-o", metavar="FILE", help=".gif or .mp4: a film of the motions; .png: a contact sheet.")
-]
-
-
 def picture(
     folder: FolderPath,
     out: File,
@@ -133,7 +129,7 @@ def picture(
     quiet: Quiet = False,
 ) -> None:
     """Draw the assets in FOLDER: a contact sheet (.png), or a film of their motions (.gif, .mp4; of one asset a turntable)."""
-    from anymesh.viewer.pictures_write import write_picture
+    from anymesh.viewer.pictures_ import write_picture
 
     with Shown(quiet) as progress:
         path = write_picture(

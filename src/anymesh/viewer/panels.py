@@ -1,29 +1,33 @@
-"""Texts of the live page, as HTML. Names from files are escaped, so that they cannot inject code."""
+"""What the panels of the live page share: its protocol, and texts as HTML.
+
+Names from files are escaped, so that they cannot inject code.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from html import escape
+from pathlib import Path
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 
+from anymesh.correcting import Correction
+from anymesh.names import confidence_word
 from anymesh.rendering.preview import extent
 from anymesh.types import Asset, Joint, JointType
 from anymesh.viewer.scene import color_of
+from anymesh.viewer.session import Session
 
-SURE, UNSURE = 0.7, 0.4  # confidence from which a joint is green, and below which it is red
+COLORS = {"sure": "#2b8a3e", "check": "#b35c00", "guess": "#c92a2a"}  # green, amber and red, dark enough for white text
 SMALL = 'style="font-size:0.8em;line-height:1.35;padding:0 0.8em 0.4em;overflow-wrap:anywhere"'
-
-
-def color_of_confidence(value: float) -> str:
-    """Return green, amber or red, dark enough for white text."""
-    return "#2b8a3e" if value >= SURE else "#b35c00" if value >= UNSURE else "#c92a2a"
 
 
 def badge(value: float) -> str:
     """Return a confidence as a coloured label."""
-    style = f"background:{color_of_confidence(value)};color:#fff;border-radius:3px;padding:0 0.35em"
-    return f'<span style="{style}">{value:.2f}</span>'
+    word = confidence_word(value)
+    style = f"background:{COLORS[word]};color:#fff;border-radius:3px;padding:0 0.35em"
+    return f'<span title="{word}" style="{style}">{value:.2f}</span>'
 
 
 def head(asset: Asset, *, unsaved: int, note: str, tool: str) -> str:
@@ -85,3 +89,57 @@ def shortened(text: str, most: int = 60) -> str:
 def distinct(labels: Sequence[str]) -> list[str]:
     """Number the labels, so that no two are equal."""
     return [f"{k}. {label}" for k, label in enumerate(labels, 1)]
+
+
+@runtime_checkable
+class Page(Protocol):
+    """A page with at most one asset. server, gui: of the viewer library; view: draws the scene."""
+
+    server: Any
+    gui: Any
+    view: Any
+    session: Session | None
+
+    def act(self, what: Callable[[], None]) -> None:
+        """Run a person's action under the lock; errors are shown, and nothing changes then."""
+        ...
+
+    def open(self, folder: Path) -> None:
+        """Show the asset of an output folder. Raise OutputError if there is none."""
+        ...
+
+    def shut(self) -> None:
+        """Remove the asset from the page."""
+        ...
+
+    def refresh(self) -> None:
+        """Draw everything from the session."""
+        ...
+
+    def tell_head(self) -> None:
+        """Update the head of the page."""
+        ...
+
+    def correct(self, correction: Correction) -> None:
+        """Apply a correction to the displayed asset."""
+        ...
+
+    def select(self, name: str | None) -> None:
+        """Select the part to correct."""
+        ...
+
+    def play_joint(self, joint: str | None) -> None:
+        """Move a joint back and forth ("" for all, None to stop)."""
+        ...
+
+    def key(self, label: str, key: str, what: Callable[[], None], modifier: str | None = None) -> None:
+        """Add a keyboard shortcut to the page, and to its list of commands (Ctrl-K)."""
+        ...
+
+
+def offer(dropdown: Any, options: tuple[str, ...], value: str) -> None:
+    """Set the options and value of a dropdown list, only if they change."""
+    if tuple(dropdown.options) != options:
+        dropdown.options = options
+    if dropdown.value != value:
+        dropdown.value = value

@@ -1,19 +1,21 @@
-"""`anymesh report`: the assets of a folder as one page."""
+"""`anymesh report`: the assets of a folder as one page; and the display of an asset in a notebook."""
 
 from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from html import escape
 from pathlib import Path
+from typing import Any
 
 from anymesh.errors import InputError, OutputError
 from anymesh.runtime import Progress, silent
-from anymesh.viewer.report_asset import find_assets
-from anymesh.viewer.report_display import FACES
-from anymesh.viewer.report_entry import ReportEntry, folder_entry, within
+from anymesh.types import Asset
+from anymesh.viewer.report_asset import FACES, ReportEntry, asset_entry, find_assets, folder_entry, within
 from anymesh.viewer.report_html import html_report
 
 MEGABYTES = 100.0  # maximum size of a page that browsers open quickly
+HEIGHT = 620  # [px] height of the frame in a notebook
 
 
 @dataclass(frozen=True)
@@ -71,3 +73,32 @@ def write_report(
 
 def _order(entry: ReportEntry) -> tuple[float, str]:
     return (entry.least, entry.title)
+
+
+class NotebookReport:
+    """Result of `show`, which a notebook displays."""
+
+    def __init__(self, html: str) -> None:
+        self._html = html
+
+    def _repr_html_(self) -> str:
+        return self._html
+
+
+def show(asset: Asset, *, height: int = HEIGHT) -> NotebookReport:
+    """Return the asset for display in a notebook: 3D view, a slider per joint, tables. height: of the frame [px]."""
+    return NotebookReport(asset_html(asset, height=height))
+
+
+def asset_html(asset: Asset, *, height: int = HEIGHT) -> str:
+    """Return the report of an asset in a frame that may only run its own scripts."""
+    page = html_report(asset.name, [asset_entry(asset, faces=FACES)])
+    return (
+        f'<iframe sandbox="allow-scripts" srcdoc="{escape(page)}" width="100%" height="{int(height)}" '
+        'style="border:1px solid #ccc"></iframe>'
+    )
+
+
+def register(shell: Any) -> None:
+    """Register the display of assets in an IPython shell, by class name."""
+    shell.display_formatter.formatters["text/html"].for_type_by_name("anymesh.types.asset", "Asset", asset_html)

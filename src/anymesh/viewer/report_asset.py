@@ -1,28 +1,54 @@
-"""Reading of an asset from its folder: asset.json, the GLB, the transcript. Saved stages are not needed."""
+"""Assets of a report: their reading from a folder, their reduction for display, and the data of their part of the page.
+
+Of a folder, asset.json, the GLB and the transcript are read; saved stages are not needed.
+"""
 
 from __future__ import annotations
 
+import gzip
+import hashlib
+import io
 import json
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from jaxtyping import Float
+from PIL import Image
 
 from anymesh.errors import InputError
 from anymesh.export import Format
 from anymesh.export.formats import main_file
+from anymesh.export.glb import glb_bytes
+from anymesh.export.links import split_links, with_legal_names
+from anymesh.export.model import ExportConfig
+from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.simplify_ import simplify
 from anymesh.loading import load_mesh
-from anymesh.types import Asset, Exchange, Joint, JointType, Mesh, Part, Picture, Segmentation, Source
+from anymesh.rendering.render import face_colors
+from anymesh.types import Asset, Exchange, Joint, JointType, Material, Mesh, Part, Picture, Segmentation, Source, Texture
+from anymesh.types.triangles import normals_and_areas
+from anymesh.viewer.scene import report_scene
 
+PREVIEW = "preview.png"
+WIDTH, QUALITY = 1280, 82  # [px] width of the preview, and its JPEG quality
+ASKED_WIDTH, ASKED_QUALITY = 800, 75  # of the pictures shown to a model
 RECORD = "asset.json"
 TRANSCRIPT = "transcript"
 ASKED = re.compile(r"\d{3,}_[a-z0-9-]+\.json")
 DRAWN = re.compile(r"[0-9a-f]{64}\.png")
 WORDS = ("kind", "key", "model", "text", "answer", "verdict")
 FROM_Y_UP = np.array([[1, 0, 0, 0], [0, 0, -1, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])  # glTF has Y up, an asset Z
+FACES = 60_000  # number of faces above which an asset is decimated: about a megabyte of the page
+PIXELS = 1024  # longest side of a texture
+COARSE = 4  # multiple of the wanted faces that the clustering keeps for the exact decimation
+FINEST = 1e-5  # minimum cell size of the clustering, as a share of the part's longest side, to limit the number of cells
+MIN_PART_FACES = 200  # minimum number of faces of a part
+FORMATS = {"image/png": "PNG", "image/jpeg": "JPEG"}
+COATED = Material("display", (1.0, 1.0, 1.0, 1.0), double_sided=True)  # used with vertex colours
 
 
 def find_assets(folder: Path) -> list[Path]:
@@ -132,3 +158,211 @@ def _exchange(folder: Path, path: Path) -> Exchange | None:
         return Exchange(**record)
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
         return None
+
+
+def displayed(asset: Asset, *, faces: int = FACES, pixels: int = PIXELS) -> tuple[Asset, tuple[str, ...]]:
+    """Reduce the asset to about `faces` faces and textures of at most `pixels`; also return notes, () if unchanged.
+
+    Parts, joints and names are unchanged. Decimated parts lose their textures; vertices have the colours instead.
+    """
+    count = len(asset.mesh.faces)
+    if count > faces:
+        asset = _decimated(asset, faces)
+        return asset, (f"Decimated for display: {len(asset.mesh.faces):,} of {count:,} faces. The files are unchanged.",)
+    largest, materials = 0, []
+    for material in asset.mesh.materials:
+        textures = {slot: _smaller(texture, pixels) for slot, texture in material.textures.items()}
+        largest = max([largest, *(size for _, size in textures.values())])
+        materials.append(replace(material, textures={slot: texture for slot, (texture, _) in textures.items()}))
+    if largest <= pixels:
+        return asset, ()
+    note = f"Textures shrunk for display: from up to {largest} to {pixels} pixels. The files are unchanged."
+    return replace(asset, mesh=replace(asset.mesh, materials=tuple(materials))), (note,)
+
+
+def display_glb(asset: Asset) -> bytes:
+    """Return the GLB of an asset with legal names."""
+    return glb_bytes(asset, split_links(asset), ExportConfig())
+
+
+def _decimated(asset: Asset, faces: int) -> Asset:
+    mesh, part_of = asset.mesh, asset.segmentation.face_part
+    pieces = []
+    for part in range(len(asset.segmentation.parts)):
+        mine = mesh.triangles[part_of == part]
+        most = max(MIN_PART_FACES, faces * len(mine) // len(mesh.faces))
+        pieces.append(simplify(_clustered(mine, COARSE * most), most))
+    triangles = np.concatenate(pieces)
+    part = np.repeat(np.arange(len(pieces)), [len(piece) for piece in pieces])
+    nearest = distance_to_mesh(triangles.reshape(-1, 3), mesh.vertices, mesh.faces)[1]
+    colors = np.full((len(nearest), 4), 255, np.uint8)
+    colors[:, :3] = face_colors(mesh)[nearest]
+    light = Mesh(
+        vertices=triangles.reshape(-1, 3),
+        faces=np.arange(3 * len(triangles)).reshape(-1, 3),
+        face_node=np.zeros(len(triangles), int),
+        nodes=mesh.nodes[:1],
+        face_material=np.zeros(len(triangles), int),
+        materials=(COATED,),
+        corner_color=colors.reshape(-1, 3, 4),
+    )
+    return replace(asset, mesh=light, segmentation=Segmentation(part, asset.segmentation.parts), source_face=None)
+
+
+def _clustered(triangles: Float[np.ndarray, "F 3 3"], most: int) -> Float[np.ndarray, "R 3 3"]:
+    """Merge the corners in each cell of a grid, for about `most` triangles if the surface has more.
+
+    This is inexact, but ten times as fast as edge collapses, which take half a minute for a million faces.
+    """
+    if len(triangles) <= most:
+        return triangles
+    corners = triangles.reshape(-1, 3)
+    cell = float(np.sqrt(2 * normals_and_areas(triangles)[1].sum() / most))  # two triangles per cell of the surface
+    cell = max(cell, FINEST * float(np.ptp(corners, axis=0).max()))
+    if not cell > 0:
+        return triangles
+    grid = np.floor((corners - corners.min(0)) / cell).astype(np.int64)
+    key = np.ravel_multi_index(tuple(grid.T), tuple(grid.max(0) + 1))
+    number, count = np.unique(key, return_inverse=True, return_counts=True)[1:]
+    middle = np.stack([np.bincount(number, column) for column in corners.T], 1) / count[:, None]
+    faces = number.reshape(-1, 3)
+    faces = faces[(faces != np.roll(faces, 1, axis=1)).all(1)]
+    first = np.unique(np.sort(faces, 1), axis=0, return_index=True)[1]
+    return middle[faces[np.sort(first)]] if len(first) else triangles
+
+
+def _smaller(texture: Texture, pixels: int) -> tuple[Texture, int]:
+    """Return the reduced texture, and its original longest side [px]; an unreadable one is unchanged."""
+    try:
+        with Image.open(io.BytesIO(texture.data)) as image:
+            longest = max(image.size)
+            if longest <= pixels or texture.mime not in FORMATS:
+                return texture, longest
+            scale = pixels / longest
+            small = image.resize([max(1, round(scale * side)) for side in image.size], Image.Resampling.LANCZOS)
+            buffer = io.BytesIO()
+            small.save(buffer, FORMATS[texture.mime])
+    except (OSError, ValueError, Image.DecompressionBombError):
+        return texture, 0
+    return replace(texture, data=buffer.getvalue()), longest
+
+
+def jpeg(picture: bytes, width: int, quality: int) -> bytes:
+    """Convert a picture file to JPEG of at most this width; transparent pixels become white."""
+    with Image.open(io.BytesIO(picture)) as image:
+        flat = Image.new("RGB", image.size, (255, 255, 255))
+        flat.paste(image, mask=image.getchannel("A") if image.mode in ("RGBA", "LA") else None)
+    flat.thumbnail((width, 4 * width), Image.Resampling.LANCZOS)
+    buffer = io.BytesIO()
+    flat.save(buffer, "JPEG", quality=quality)
+    return buffer.getvalue()
+
+
+def materials_shown(materials: tuple[Material, ...], colors: np.ndarray | None) -> bool:
+    """Return whether the materials have visible colours or textures."""
+    return colors is not None or any(_has_look(m.textures, m.base_color) for m in materials)
+
+
+def _has_look(textures: Mapping[str, Texture], base: tuple[float, ...]) -> bool:
+    return bool(textures) or max(base[:3]) - min(base[:3]) > 0.02
+
+
+@dataclass(frozen=True, eq=False)
+class ReportEntry:
+    """An asset of a report. title: its location; glb: gzipped; pictures: those shown to a model, as JPEG by SHA-256."""
+
+    title: str
+    asset: Asset | None  # None if it cannot be read
+    problem: str = ""  # the reason
+    scene: Mapping[str, Any] | None = None
+    glb: bytes = b""
+    preview: bytes = b""  # JPEG
+    pictures: Mapping[str, bytes] = field(default_factory=dict)
+    notes: tuple[str, ...] = ()  # reductions for display
+
+    @property
+    def least(self) -> float:
+        """The lowest confidence of a joint; 1 if nothing moves."""
+        return min((j.confidence for j in self.asset.joints), default=1.0) if self.asset else 0.0
+
+    @property
+    def size(self) -> int:
+        """Approximate bytes of this asset in the page: base64 makes 4 of 3."""
+        return (len(self.glb) + len(self.preview) + sum(map(len, self.pictures.values()))) * 4 // 3
+
+
+def folder_entry(folder: Path, title: str, *, faces: int) -> ReportEntry:
+    """Return the entry of an asset's folder; if it cannot be read, the entry states the reason."""
+    try:
+        asset = read_asset(folder)
+    except InputError as error:
+        return ReportEntry(title, None, problem=str(error))
+    shown, notes = displayed(asset, faces=faces)
+    glb = display_glb(shown) if notes else glb_path(folder).read_bytes()
+    return _entry(title, asset, shown, glb, notes, _preview(folder / PREVIEW))
+
+
+def asset_entry(asset: Asset, *, faces: int) -> ReportEntry:
+    """Return the entry of an asset in memory, without a preview, which would take longest."""
+    asset = with_legal_names(asset)
+    shown, notes = displayed(asset, faces=faces)
+    return _entry(asset.name, asset, shown, display_glb(shown), notes, b"")
+
+
+def within(entries: list[ReportEntry], megabytes: float) -> list[ReportEntry]:
+    """Limit the size of the page, leaving out pictures of questions first, then 3D views."""
+    left = int(min(megabytes, 1e6) * 1e6) - sum(len(e.preview) * 4 // 3 for e in entries)
+    limited_entries = []
+    for entry in entries:
+        notes = entry.notes
+        if entry.glb and len(entry.glb) * 4 // 3 > left:
+            entry = replace(entry, glb=b"", notes=(*notes, f"No 3D view: the page is limited to {megabytes:g} MB."))
+        left -= len(entry.glb) * 4 // 3
+        limited_entries.append(entry)
+    for k, entry in enumerate(limited_entries):
+        taken = sum(map(len, entry.pictures.values())) * 4 // 3
+        if taken > left:
+            note = f"Pictures of the questions are left out: the page is limited to {megabytes:g} MB."
+            limited_entries[k] = replace(entry, pictures={}, notes=(*entry.notes, note))
+        else:
+            left -= taken
+    return limited_entries
+
+
+def picture_key(png: bytes) -> str:
+    """Return the key of a picture that was shown to a model."""
+    return hashlib.sha256(png).hexdigest()[:16]
+
+
+def _entry(title: str, asset: Asset, shown: Asset, glb: bytes, notes: tuple[str, ...], preview: bytes) -> ReportEntry:
+    mesh = asset.mesh
+    return ReportEntry(
+        title=title,
+        asset=asset,
+        scene=report_scene(shown, looks=materials_shown(mesh.materials, mesh.corner_color)),
+        glb=gzip.compress(glb, 6, mtime=0),
+        preview=preview,
+        pictures=_pictures(asset),
+        notes=notes,
+    )
+
+
+def _pictures(asset: Asset) -> dict[str, bytes]:
+    pictures: dict[str, bytes] = {}
+    for picture in (p for e in asset.exchanges for p in e.pictures):
+        key = picture_key(picture.png)
+        if key not in pictures:
+            pictures[key] = _jpeg(picture.png, ASKED_WIDTH, ASKED_QUALITY)
+    return {key: data for key, data in pictures.items() if data}
+
+
+def _preview(path: Path) -> bytes:
+    return _jpeg(path.read_bytes(), WIDTH, QUALITY) if path.is_file() else b""
+
+
+def _jpeg(picture: bytes, width: int, quality: int) -> bytes:
+    """Convert a picture to JPEG; empty if it is not a picture."""
+    try:
+        return jpeg(picture, width, quality)
+    except (OSError, ValueError, SyntaxError):
+        return b""

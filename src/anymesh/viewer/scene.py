@@ -1,23 +1,26 @@
-"""Drawings of an asset on the live page, as plain arrays: simplified parts, axes, limits, inertia."""
+"""Drawings of an asset on pages, as plain values: simplified parts, axes, limits, inertia, exploded view, first view."""
 
 from __future__ import annotations
 
 import hashlib
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.geometry.kinematics import joint_transform
+from anymesh.geometry.kinematics import joint_transform, posed
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.simplify_ import simplify
 from anymesh.physics.inertia import Inertia
 from anymesh.rendering.marks import axis_line, ring
-from anymesh.rendering.preview import BASE, PALETTE
+from anymesh.rendering.preview import BASE, PALETTE, best_camera, shown_position
 from anymesh.types import Asset, Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
 MAX_DISPLAY_FACES = 200_000  # maximum number of faces drawn; a denser object is decimated for display
 MIN_PART_FACES = 200  # minimum number of faces of a part
-APART = 0.3  # distance of a part from its parent in the exploded view, as a share of the diagonal
+APART = 0.35  # distance of a part from its parent in the exploded view, as a share of the diagonal
 RADIUS = 0.05  # radius of the ring around an axis, as a share of the diagonal
 SIDES = 24  # of a drawn cylinder
 FADED = 0.65  # share of white in the colour of unselected parts
@@ -29,6 +32,7 @@ BOX_FACES = np.array([
 ])  # fmt: skip
 BOX_EDGES = np.array([[0, 1], [2, 3], [4, 5], [6, 7], [0, 2], [1, 3], [4, 6], [5, 7], [0, 4], [1, 5], [2, 6], [3, 7]])
 Color = tuple[int, int, int]
+RING = 0.04  # radius of the ring around an axis in a report, as a share of the diagonal; as in the preview
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,18 +104,23 @@ def apart(asset: Asset) -> dict[str, Float[np.ndarray, " 3"]]:
     def of(name: str) -> np.ndarray:
         if name not in offsets:
             joint = carried[name]
-            offsets[name] = of(joint.parent) + APART * asset.mesh.diagonal * _opening_direction(joint, middle)
+            offsets[name] = of(joint.parent) + APART * asset.mesh.diagonal * opening_direction(joint, middle)
         return offsets[name]
 
     return {part.name: of(part.name) for part in asset.segmentation.parts}
 
 
-def _opening_direction(joint: Joint, middle: dict[str, np.ndarray]) -> np.ndarray:
+def opening_direction(joint: Joint, middle: Mapping[str, Float[np.ndarray, " 3"]]) -> Float[np.ndarray, " 3"]:
+    """Return the direction in which a part leaves its parent: a slide opens, others go from centre to centre.
+
+    middle: centre of each part's box.
+    """
     if joint.type is JointType.PRISMATIC:
-        return joint.axis
+        assert joint.limits is not None
+        return joint.axis if joint.limits[1] >= -joint.limits[0] else -joint.axis
     off = middle[joint.child] - middle[joint.parent]
     length = float(np.linalg.norm(off))
-    return off / length if length > 1e-9 else joint.axis
+    return off / length if length > 0 else joint.axis
 
 
 @dataclass(frozen=True, eq=False)
@@ -198,3 +207,67 @@ def swayed(joint: Joint, phase: float) -> float:
         return (lower + upper) * (1 - np.cos(2 * np.pi * phase)) / 2
     s = float(np.sin(2 * np.pi * phase))
     return upper * max(s, 0.0) - lower * min(s, 0.0)
+
+
+def color_class(part: int) -> str:
+    """Return the CSS class of a part's colour."""
+    return "base" if part == 0 else f"c{(part - 1) % len(PALETTE)}"
+
+
+def palette() -> dict[str, str]:
+    """Return CSS class -> colour, with the colours of the preview."""
+    rows = {"base": BASE} | {f"c{k}": color for k, color in enumerate(PALETTE)}
+    return {name: "#{:02x}{:02x}{:02x}".format(*(int(v) for v in color)) for name, color in rows.items()}
+
+
+def report_scene(asset: Asset, *, looks: bool) -> dict[str, Any]:
+    """Return plain values, lengths [m] in the asset frame at rest, parts by index. looks: start with materials."""
+    number = {part.name: k for k, part in enumerate(asset.segmentation.parts)}
+    carried = {joint.child: joint for joint in asset.joints}
+    corners = {name: asset.mesh.triangles[asset.segmentation.face_part == k].reshape(-1, 3) for name, k in number.items()}
+    middle = {name: (points.min(0) + points.max(0)) / 2 for name, points in corners.items()}
+    links = []
+    for name, k in number.items():
+        joint = carried.get(name)
+        origin = np.zeros(3) if joint is None else joint.origin
+        away = np.zeros(3) if joint is None else opening_direction(joint, middle) * APART * asset.mesh.diagonal
+        links.append(
+            {
+                "name": name,
+                "color": palette()[color_class(k)],
+                "parent": -1 if joint is None else number[joint.parent],
+                "origin": _list(origin),
+                "away": _list(away),
+            }
+        )
+    joints = [_joint_data(asset, joint, number, corners[joint.child], middle[joint.child]) for joint in asset.joints]
+    return {"links": links, "joints": joints, "looks": looks, "ring": RING * asset.mesh.diagonal, **_first_view(asset)}
+
+
+def _joint_data(asset: Asset, joint: Joint, number: dict[str, int], corners: np.ndarray, middle: np.ndarray) -> dict[str, Any]:
+    ends, center = axis_line(corners, joint.origin, joint.axis, joint.type is JointType.PRISMATIC, asset.mesh.diagonal)
+    return {
+        "name": joint.name,
+        "type": str(joint.type),
+        "link": number[joint.child],
+        "axis": _list(joint.axis),
+        "limits": None if joint.limits is None else [float(v) for v in joint.limits],
+        "ends": [_list(end) for end in ends],
+        "center": _list(center),
+        "middle": _list(middle),
+    }
+
+
+def _first_view(asset: Asset) -> dict[str, Any]:
+    """Return the view of the preview: its direction, and the box of the asset at rest and opened."""
+    opened = posed(asset, {joint.name: shown_position(joint) for joint in asset.joints})
+    camera = best_camera(asset, opened, [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)])
+    return {
+        "toward": _list(-camera.T_world_camera[:3, 2]),  # from the object to the eye
+        "low": _list(np.minimum(asset.mesh.bounds[0], opened.bounds[0])),
+        "high": _list(np.maximum(asset.mesh.bounds[1], opened.bounds[1])),
+    }
+
+
+def _list(values: np.ndarray) -> list[float]:
+    return [float(v) for v in values]

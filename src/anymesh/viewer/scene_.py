@@ -15,9 +15,9 @@ from anymesh.export.notation import quaternion
 from anymesh.rendering.viewpoints import away
 from anymesh.runtime import cache_folder
 from anymesh.types import Asset, JointType, Mesh, Segmentation
-from anymesh.viewer.live import part_poses
-from anymesh.viewer.report_display import display_glb, displayed
+from anymesh.viewer.report_asset import display_glb, displayed
 from anymesh.viewer.scene import DisplayMesh, Surfaces, box_lines, color_of, inertia_box, joint_lines, shade_of, shape_surface
+from anymesh.viewer.session import part_poses
 
 AXIS, SENSE, RANGE, SELECTED, CHOSEN = (190, 20, 40), (190, 20, 40), (30, 110, 200), (255, 120, 0), (230, 0, 200)
 INERTIA = (140, 70, 200)

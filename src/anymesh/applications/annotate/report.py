@@ -13,8 +13,8 @@ from anymesh.applications.annotate.states import State
 from anymesh.applications.annotate.tally import duration, tally
 from anymesh.errors import OutputError
 from anymesh.runtime import write_whole
-from anymesh.viewer.report_display import jpeg
-from anymesh.viewer.report_words import html_text, sure
+from anymesh.viewer.report_asset import jpeg
+from anymesh.viewer.report_html import html_text, sure
 
 REPORT = "report.html"
 GALLERY, EXAMPLES, LISTED = 24, 3, 200  # number of pictures, of names per cause, and of rows in the list of failures
@@ -30,7 +30,7 @@ td.n,th.n{text-align:right;font-variant-numeric:tabular-nums}
 .counts b{display:block;font-size:20px;font-variant-numeric:tabular-nums}.quarantined b{color:#b00020}
 .gallery{display:grid;grid-template-columns:repeat(auto-fill,minmax(380px,1fr));gap:14px}figure{margin:0}
 .gallery img{width:100%;display:block;border:1px solid #ddd}figcaption{overflow-wrap:anywhere}
-.mark{padding:0 5px;border-radius:3px}.sure{background:#d6ecd9}.fair{background:#fdebc8}.doubtful{background:#f6cfcb}
+.mark{padding:0 5px;border-radius:3px}.sure{background:#d6ecd9}.check{background:#fdebc8}.guess{background:#f6cfcb}
 meter{width:160px}
 """
 

@@ -148,7 +148,7 @@ def write_film(film: Film, states: Float[np.ndarray, "k q"], path: Path, rate: f
     size = (WIDTH // SHEET_COLUMNS * 2, HEIGHT // SHEET_COLUMNS * 2) if sheet else (WIDTH, HEIGHT)
     camera = film.camera(states[:: max(1, len(states) // 20)], width=size[0], height=size[1])
     if not sheet:
-        from anymesh.viewer.pictures_mp4_ import write_mp4
+        from anymesh.viewer.pictures_ import write_mp4
 
         part = path.with_name(f".{path.name}.part.mp4")
         try:

@@ -1,22 +1,97 @@
-"""Opening of the live page for an output, a mesh, or a folder of outputs."""
+"""Opening of the live page for an output, a mesh, or a folder of outputs. Only browsers at its own address are served.
+
+Another web page that a person visits may send requests to the loopback address, which is detected by their Origin. A host name
+that points to the loopback address (DNS rebinding) is detected by a different Host.
+"""
 
 from __future__ import annotations
 
 import contextlib
+import http
 import io
+import ipaddress
 import shutil
 import tempfile
-from collections.abc import Generator
+from collections.abc import Callable, Generator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
+from urllib.parse import urlsplit
 
 from anymesh import pipeline
-from anymesh.errors import OptionError
+from anymesh.errors import MissingExtraError, OptionError
 from anymesh.pipeline.atomic_folder import CORRECTIONS, written_files
 from anymesh.runtime import Progress, silent
 from anymesh.viewer.bench_ import WorkbenchFolders
-from anymesh.viewer.live import Clock
-from anymesh.viewer.live_ import LivePage, start_server
+from anymesh.viewer.live_ import LivePage
+from anymesh.viewer.session import Clock
+
+REFUSAL = b"this page answers at its own address only\n"
+
+
+def is_permitted(host: str | None, origin: str | None, *, bound: str) -> bool:
+    """Return whether a request with these headers may be served. bound: the address that the server listens at.
+
+    At a loopback address, Host must be a loopback address. Origin, if sent, must always be that of the page.
+    """
+    if not host or (_is_loopback(bound) and not _is_loopback(_name(f"//{host}"))):
+        return False
+    return origin is None or urlsplit(origin).netloc.lower() == host.lower()
+
+
+def _name(address: str) -> str:
+    try:
+        return urlsplit(address).hostname or ""
+    except ValueError:
+        return ""
+
+
+def _is_loopback(name: str) -> bool:
+    if name == "localhost":
+        return True
+    try:
+        return ipaddress.ip_address(name).is_loopback
+    except ValueError:
+        return False
+
+
+@contextmanager
+def guarded_server(bound: str) -> Generator[None]:
+    """Make a server that is started in this context reject unpermitted requests before its own handlers."""
+    import websockets.asyncio.server as library
+    from websockets.datastructures import Headers, MultipleValuesError
+    from websockets.http11 import Response
+
+    serve = library.serve
+
+    def started(*values: Any, process_request: Callable[..., Any] | None = None, **options: Any) -> Any:
+        def check(connection: Any, request: Any) -> Any:
+            try:
+                fine = is_permitted(request.headers.get("Host"), request.headers.get("Origin"), bound=bound)
+            except MultipleValuesError:
+                fine = False
+            if not fine:
+                return Response(http.HTTPStatus.FORBIDDEN, "Forbidden", Headers(), REFUSAL)
+            return None if process_request is None else process_request(connection, request)
+
+        return serve(*values, process_request=check, **options)
+
+    library.serve = started  # ty: ignore[invalid-assignment]
+    try:
+        yield
+    finally:
+        library.serve = serve
+
+
+def start_server(host: str, port: int, label: str) -> Any:
+    """Start a viser server that answers at its own address only. Raise MissingExtraError without the package."""
+    try:
+        import viser
+    except ImportError:
+        raise MissingExtraError("the viewer needs the extra `view`: pip install 'articulate-anymesh[view]'") from None
+    with guarded_server(host):
+        return viser.ViserServer(host=host, port=port, label=label, verbose=False)
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Fields of one question on the page (viser); clicks in the scene update them."""
+"""Fields of one question on the page (viser), and the panel around them; clicks in the scene update them."""
 
 from __future__ import annotations
 
@@ -9,23 +9,59 @@ from typing import Any
 
 import numpy as np
 
+from anymesh.prompted.questions.prompting import JointAppearance, PartFit
 from anymesh.types.motion import BASE
-from anymesh.viewer.ask_forms import ArrowsForm, Form, KindsForm, LabelRow, MotionsForm, PartsForm, PointsForm, RecognizeForm
-from anymesh.viewer.ask_marks import MarksForm
-from anymesh.viewer.ask_words import (
-    FITS,
-    KINDS,
-    MOVES,
-    NONE_OF_THESE,
-    chosen_points,
-    group_name,
-    label_words,
-    marks_table,
-    motion_words,
-)
 from anymesh.viewer.panels import SMALL
+from anymesh.viewer.questions.forms import (
+    MOVES,
+    SPLIT,
+    ArrowsForm,
+    Form,
+    Group,
+    KindsForm,
+    LabelRow,
+    MarksForm,
+    MotionsForm,
+    PartsForm,
+    PointsForm,
+    RecognizeForm,
+)
+from anymesh.viewer.questions.scene_ import group_color
 
+KINDS = {
+    "hinge along an edge (door, lid)": JointAppearance.HINGE_ALONG,
+    "turns in the surface (knob, wheel)": JointAppearance.HINGE_INTO,
+    "turns, hinge out of sight": JointAppearance.HINGE_HIDDEN,
+    "slides in or out (drawer, button)": JointAppearance.SLIDE_OUT,
+    "slides along the surface": JointAppearance.SLIDE_ALONG,
+    "does not move": JointAppearance.FIXED,
+}
+FITS = {"is right": PartFit.RIGHT, "is too much": PartFit.TOO_MUCH, "is too little": PartFit.TOO_LITTLE}
+NONE_OF_THESE = "None"
 NO_FRONT = "none"
+REFUSED, NOTE = "#c92a2a", "#1864ab"
+CLOSE, WHOLE = "The part", "The object"
+LEAVE_ONE, LEAVE_REST = "Leave this one", "Leave all"
+
+
+def group_name(group: Group) -> str:
+    """Return the name of a group of marks."""
+    return group[0] if group == SPLIT else f"{group[0]} {group[1]}"
+
+
+def marks_table(form: MarksForm) -> str:
+    """Return a table of the parts with their colours and marks, as HTML."""
+    rows = []
+    for group, marks in form.groups.items():
+        r, g, b = group_color(form, group)
+        dot = (
+            f'<span style="display:inline-block;width:0.8em;height:0.8em;border-radius:2px;background:rgb({r},{g},{b})"></span>'
+        )
+        numbers = ", ".join(map(str, sorted(marks))) or "nothing yet"
+        name = escape(group_name(group))
+        rows.append(f"<div>{dot} {f'<b>{name}</b>' if group == form.current else name}: {numbers}</div>")
+    left = len(form.asked) - sum(len(marks & form.asked) for marks in form.groups.values())
+    return f"<div {SMALL}>{''.join(rows)}<div>{left} regions belong to no part.</div></div>"
 
 
 @dataclass(frozen=True)
@@ -62,7 +98,7 @@ class Fields:
                 self._points(form)
             case ArrowsForm():
                 count = len(form.tables[form.step].directions)
-                self._numbers(form, "Arrow", [str(k + 1) for k in range(count)], lambda: f"Arrow {form.chosen[form.step]}.")
+                self._numbers(form, "Arrow", [str(k + 1) for k in range(count)])
             case MotionsForm():
                 self._motions(form)
         if isinstance(form, PartsForm):
@@ -119,7 +155,7 @@ class Fields:
 
     def _label_row(self, form: RecognizeForm, row: LabelRow) -> None:
         gui, words = self._gui, {v.value: k for k, v in MOVES.items()}
-        with gui.add_folder(label_words(row), expand_by_default=form.rows.index(row) == form.open_row):
+        with gui.add_folder(row.words, expand_by_default=form.rows.index(row) == form.open_row):
             self._bound(form, gui.add_text("Kind of part", row.label), lambda v: setattr(row, "label", v))
             moves = gui.add_dropdown("Moves", tuple(MOVES), initial_value=words[row.moves])
             self._bound(form, moves, lambda v: setattr(row, "moves", MOVES[v].value))
@@ -194,28 +230,28 @@ class Fields:
             self._bound(form, label, lambda v: setattr(row, "label", v))
 
     def _points(self, form: PointsForm) -> None:
-        shown = self._gui.add_text("Points chosen", chosen_points(form) or "none", disabled=True)
+        shown = self._gui.add_text("Points chosen", form.words, disabled=True)
 
         def follow() -> None:
-            shown.value = chosen_points(form) or "none"
+            shown.value = form.words
 
         self.follow = follow
 
     def _motions(self, form: MotionsForm) -> None:
         table = form.table
         names = [*(str(k + 1) for k in range(len(table.motions))), NONE_OF_THESE]
-        self._numbers(form, "Motion", names, lambda: motion_words(table, form.chosen[form.step]))
+        self._numbers(form, "Motion", names)
         if form.ask_fit:
             words = {v.value: k for k, v in FITS.items()}
             fit = self._gui.add_dropdown("The coloured part", tuple(FITS), initial_value=words[form.fits[form.step]])
             self._bound(form, fit, lambda v: form.fits.__setitem__(form.step, FITS[v].value))
 
-    def _numbers(self, form: ArrowsForm | MotionsForm, name: str, names: list[str], describe: Callable[[], str]) -> None:
+    def _numbers(self, form: ArrowsForm | MotionsForm, name: str, names: list[str]) -> None:
         """Add numbered buttons, one of which is chosen."""
         buttons = self._gui.add_button_group(name, names)
 
         def line() -> str:
-            return f"<div {SMALL}><b>{escape(describe())}</b></div>"
+            return f"<div {SMALL}><b>{escape(form.words)}</b></div>"
 
         words = self._gui.add_html(line())
 
@@ -231,3 +267,71 @@ def azimuth_of(camera: Any) -> float:
     """Return the azimuth [deg] of a tab's camera, as in `viewpoints.away`."""
     x, y, _ = np.asarray(camera.position, float) - np.asarray(camera.look_at, float)
     return float(np.rad2deg(np.arctan2(x, -y)))
+
+
+class AskPanel:
+    """Shows one form at a time in a container of the page."""
+
+    def __init__(self, gui: Any, act: Callable[[Callable[[], None]], None]) -> None:
+        self._gui, self._act = gui, act
+        self._outer = gui.add_folder(None)
+        self._inner: Any = None
+        self._note: Any = None
+        self._fields: Fields | None = None
+
+    def close(self) -> None:
+        """Remove the question from the page."""
+        if self._inner is not None:
+            self._inner.remove()
+        self._inner = self._fields = None
+
+    def show(self, form: Form, number: int, note: str, choices: Choices) -> None:
+        """Show the current state of a form. number: of the question; note: information about it."""
+        self.close()
+        gui = self._gui
+        with self._outer:
+            self._inner = gui.add_folder(f"Question {number}: {form.title}")
+        with self._inner:
+            gui.add_html(f"<div {SMALL}>{escape(form.guide)}</div>")
+            self._note = gui.add_html(_line(note, NOTE))
+            if isinstance(form, PartsForm):
+                self._add_steps(form, choices)
+            self._fields = Fields(gui, self._act, form, choices)
+            count = len(form.parts) if isinstance(form, PartsForm) else 1
+            answer = gui.add_button("Answer" if count < 2 else f"Answer for all {count} parts", color="green")
+            leave = gui.add_button_group("To geometry", (LEAVE_ONE, LEAVE_REST))
+        answer.on_click(lambda _: self._act(choices.answer))
+        ways = {LEAVE_ONE: choices.leave, LEAVE_REST: choices.leave_rest}
+        leave.on_click(lambda event: self._act(ways[event.target.value]))
+
+    def follow(self) -> None:
+        """Update the fields after clicks in the scene."""
+        if self._fields is not None:
+            self._fields.follow()
+
+    def refuse(self, why: str) -> None:
+        """Show why an answer is not accepted."""
+        if self._note is not None:
+            self._note.content = _line(f"Not yet: {why}", REFUSED)
+
+    def _add_steps(self, form: PartsForm, choices: Choices) -> None:
+        """Add the current part, and the navigation to the others."""
+        self._gui.add_html(f"<div {SMALL}><b>{escape(form.place)}</b></div>")
+        look = self._gui.add_button_group("Look at", (CLOSE, WHOLE))
+        look.on_click(lambda event: self._act(lambda: choices.look(event.target.value == CLOSE)))
+        if len(form.parts) < 2:
+            return
+        steps = self._gui.add_button_group("Go to", ("← Part before", "Next part →"))
+
+        def go(way: str) -> None:
+            form.go(1 if way.startswith("Next") else -1)
+            choices.again()
+
+        steps.on_click(lambda event: self._act(lambda: go(event.target.value)))
+
+
+def _line(text: str, color: str) -> str:
+    if not text:
+        return ""
+    style = f"border-left:3px solid {color};padding-left:0.5em"
+    return f'<div {SMALL}><div role="status" style="{style}">{escape(text)}</div></div>'

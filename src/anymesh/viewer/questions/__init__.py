@@ -1,0 +1,1 @@
+"""Questions that a person answers on the live page, on the object itself."""

@@ -1,0 +1,380 @@
+"""A person's input to one question, independent of its display. Each form becomes the JSON object that is checked."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+import numpy as np
+from jaxtyping import Int
+
+from anymesh.prompted.questions.grounding import WhichMarks
+from anymesh.prompted.questions.prompting import (
+    OTHER,
+    JointAppearance,
+    PartFit,
+    PartShown,
+    WhichArrows,
+    WhichKinds,
+    WhichMotions,
+    WhichPoints,
+)
+from anymesh.prompted.questions.recognition import Recognize
+from anymesh.types import JointType
+from anymesh.types.motion import BASE
+from anymesh.types.questions import Question
+
+UNNAMED = "part"
+SPLIT = ("to be divided", 0)  # the group of marks that lie on more than one part
+Group = tuple[str, int]  # label and instance of a part
+MOVES = {
+    "turns within limits": JointType.REVOLUTE,
+    "turns round and round": JointType.CONTINUOUS,
+    "slides": JointType.PRISMATIC,
+}
+
+
+class Form:
+    """One question with its current answers, with a title and instructions that are shorter than those for models.
+
+    touched: edited by the person, so suggestions may not replace it.
+    """
+
+    title: ClassVar[str]
+    instructions: ClassVar[str] = ""
+    touched: bool
+
+    @property
+    def guide(self) -> str:
+        """What the person is asked to do."""
+        return self.instructions
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        """Take over an answer, such as geometry's suggestion."""
+        raise NotImplementedError
+
+    def answer(self) -> dict[str, Any]:
+        """Return the object that the question checks."""
+        raise NotImplementedError
+
+
+@dataclass
+class LabelRow:
+    """One kind of moving part; limits in degrees or centimetres."""
+
+    label: str = UNNAMED
+    moves: str = JointType.REVOLUTE.value
+    parent: str = BASE
+    lower: float = 0.0
+    upper: float = 90.0
+
+    @property
+    def words(self) -> str:
+        """Description in one line."""
+        moves = JointType(self.moves)
+        words = next(k for k, v in MOVES.items() if v is moves)
+        unit = "cm" if moves is JointType.PRISMATIC else "°"
+        limits = "" if moves is JointType.CONTINUOUS else f", {self.lower:g} to {self.upper:g} {unit}"
+        return f"{self.label}: {words}{limits}"
+
+
+@dataclass
+class RecognizeForm(Form):
+    """The object, and its kinds of moving parts.
+
+    front: number of a picture, 0 for none; open_row: the expanded entry, -1 for none.
+    """
+
+    title: ClassVar[str] = "What is this, and what moves?"
+    instructions: ClassVar[str] = (
+        "Name the object and give one entry for each kind of part that moves; click an entry to change it."
+    )
+    question: Recognize
+    category: str = ""
+    longest: float = 1.0
+    front: int = 0
+    rows: list[LabelRow] = field(default_factory=list)
+    open_row: int = -1
+    touched: bool = False
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        self.category, self.longest, self.front = answer["category"], float(answer["longest_side_m"]), int(answer["front"])
+        self.rows = [
+            LabelRow(p["label"], p["moves"], p["parent"], round(p["lower"], 1), round(p["upper"], 1)) for p in answer["parts"]
+        ]
+
+    def answer(self) -> dict[str, Any]:
+        rows = [{"label": r.label, "moves": r.moves, "parent": r.parent, "lower": r.lower, "upper": r.upper} for r in self.rows]
+        return {"category": self.category, "longest_side_m": self.longest, "front": self.front, "parts": rows}
+
+    def look_from(self, azimuth: float) -> None:
+        """Choose the picture with the nearest azimuth [deg] as the one that shows the front."""
+        off = [abs((a - azimuth + 180) % 360 - 180) for a in self.question.azimuths]
+        self.front, self.touched = (off.index(min(off)) + 1 if off else 0), True
+
+
+class MarksForm(Form):
+    """Marks by part; each mark belongs to at most one group.
+
+    current: the group that clicks apply to; hide_given: hide marks of other groups, so that those behind can be clicked.
+    """
+
+    title = "Which faces are which part?"
+    instructions = (
+        "Choose a part below, then click its regions on the object; click again to take one back. Leave what does not move."
+    )
+
+    def __init__(self, question: WhichMarks, face_mark: Int[np.ndarray, " F"]) -> None:
+        self.question, self.face_mark = question, face_mark
+        self.asked = frozenset(np.unique(np.concatenate([r[r > 0] for r in question.regions])).tolist())
+        self._label_rank = {label: k for k, label in enumerate(question.labels)}
+        self.groups: dict[Group, set[int]] = {(p.label, p.instance): set() for p in question.found}
+        self._add_missing()
+        self.unsure: set[Group] = set()
+        self.current = next(iter(self.groups))
+        self.touched = self.hide_given = False
+
+    def hidden(self) -> set[int]:
+        """Return the marks that are not shown."""
+        if not self.hide_given:
+            return set()
+        return set[int]().union(*(marks for group, marks in self.groups.items() if group != self.current)) & self.asked
+
+    def _add_missing(self) -> None:
+        """Add each label at least once, and a group of marks to be divided if the question accepts them."""
+        for label in self.question.labels:
+            if not any(group[0] == label for group in self.groups):
+                self.groups[label, 1] = set()
+        if self.question.splittable:
+            self.groups.setdefault(SPLIT, set())
+        self.groups = dict(sorted(self.groups.items(), key=lambda item: (self._label_rank.get(item[0][0], 99), item[0][1])))
+
+    def add(self, label: str) -> None:
+        """Add one more part of a label, and make it current."""
+        instance = 1 + max((k for name, k in self.groups if name == label), default=0)
+        self.groups[label, instance] = set()
+        self._add_missing()
+        self.current, self.touched = (label, instance), True
+
+    def toggle(self, mark: int) -> bool:
+        """Add a mark to the current group, or remove it; return False if the question does not include it."""
+        if mark not in self.asked:
+            return False
+        self.touched = True
+        mine = mark in self.groups[self.current]
+        for marks in self.groups.values():
+            marks.discard(mark)
+        if not mine:
+            self.groups[self.current].add(mark)
+        return True
+
+    def set_marks(self, text: str) -> list[int]:
+        """Set the marks of the current group from typed text; return the numbers that the question does not include."""
+        numbers = {int(n) for n in re.findall(r"\d{1,9}", text)}
+        self.groups[self.current] = set()
+        for mark in numbers & self.asked:
+            self.toggle(mark)
+        self.touched = True
+        return sorted(numbers - self.asked)
+
+    def group_of(self, mark: int) -> Group | None:
+        """Return the group of a mark."""
+        return next((group for group, marks in self.groups.items() if mark in marks), None)
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        for marks in self.groups.values():
+            marks.clear()
+        for p in answer["parts"]:
+            self.groups.setdefault((p["label"], p["instance"]), set()).update(set(p["marks"]) & self.asked)
+        if self.question.splittable:
+            self.groups.setdefault(SPLIT, set()).update(set(answer.get("split", ())) & self.asked)
+        self._add_missing()
+        self.current = next(iter(self.groups))
+
+    def answer(self) -> dict[str, Any]:
+        rows = [
+            {"label": label, "instance": k, "marks": sorted(marks)}
+            for (label, k), marks in self.groups.items()
+            if marks and (label, k) != SPLIT
+        ]
+        unsure = sorted(set[int]().union(*(self.groups[g] for g in self.unsure if g in self.groups)))
+        split = {"split": sorted(self.groups.get(SPLIT, set()))} if self.question.splittable else {}
+        return {"parts": rows, "unsure": unsure, **split}
+
+
+@dataclass
+class PartsForm(Form):
+    """Base of forms that ask the same question about several parts in turn.
+
+    see_through: parts for which the rest of the object is drawn transparent.
+    """
+
+    parts: tuple[PartShown, ...]
+    step: int = 0
+    touched: bool = False
+    see_through: dict[int, bool] = field(default_factory=dict)
+
+    @property
+    def part(self) -> PartShown:
+        """The part that is shown."""
+        return self.parts[self.step]
+
+    def go(self, by: int) -> None:
+        """Show another part."""
+        self.step = min(max(self.step + by, 0), len(self.parts) - 1)
+
+    @property
+    def place(self) -> str:
+        """Which of several parts is in question."""
+        return f"Part {self.step + 1} of {len(self.parts)}: {self.part.label}"
+
+
+@dataclass
+class KindRow:
+    """Attachment of one part."""
+
+    joint: str = JointAppearance.HINGE_ALONG.value
+    endless: bool = False
+    label: str = OTHER
+
+
+class KindsForm(PartsForm):
+    """Attachment of each part. labels: options, empty if labels are not asked for."""
+
+    title = "How is it attached?"
+    instructions = "Look at the coloured part and say how it moves."
+
+    def __init__(self, question: WhichKinds) -> None:
+        super().__init__(question.parts)
+        self.labels: tuple[str, ...] = (*question.labels, OTHER) if question.labels else ()
+        self.rows = [KindRow() for _ in question.parts]
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        for p in answer["parts"]:
+            self.rows[p["part"] - 1] = KindRow(p["joint"], p["endless"], p.get("label", OTHER))
+
+    def answer(self) -> dict[str, Any]:
+        return {
+            "parts": [
+                {"part": k, "joint": row.joint, "endless": row.endless, **({"label": row.label} if self.labels else {})}
+                for k, row in enumerate(self.rows, 1)
+            ]
+        }
+
+
+class TableForm(PartsForm):
+    """A choice for each part from a table of its own. KEY: of the choice in an answer."""
+
+    KEY: ClassVar[str]
+
+    def __init__(self, tables: Sequence[Any], chosen: Any) -> None:
+        super().__init__(tuple(t.part for t in tables))
+        self.tables = tables
+        self.chosen = [chosen for _ in tables]
+
+    @property
+    def table(self) -> Any:
+        """The table of the part that is shown."""
+        return self.tables[self.step]
+
+    def choose(self, choice: Any) -> None:
+        """Choose for the part that is shown."""
+        self.chosen[self.step], self.touched = choice, True
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        for p in answer["parts"]:
+            self.chosen[p["part"] - 1] = p[self.KEY]
+
+    def answer(self) -> dict[str, Any]:
+        return {"parts": [{"part": k, self.KEY: choice} for k, choice in enumerate(self.chosen, 1)]}
+
+
+class PointsForm(TableForm):
+    """Points on the axis of each part."""
+
+    KEY = "points"
+    title = "Where does it turn?"
+
+    def __init__(self, question: WhichPoints) -> None:
+        super().__init__(question.tables, [])
+
+    @property
+    def guide(self) -> str:
+        return f"Click, on the object: {self.table.wanted}. Pale points lie under a surface."
+
+    @property
+    def words(self) -> str:
+        """The chosen points of the part that is shown."""
+        return ", ".join(map(str, self.chosen[self.step])) or "none"
+
+    def toggle(self, number: int) -> None:
+        """Select or deselect a point of the part that is shown; beyond the maximum, the oldest is deselected."""
+        now = self.chosen[self.step]
+        now = [n for n in now if n != number] if number in now else [*now, number]
+        self.choose(now[-self.table.max_points :])
+
+
+class ArrowsForm(TableForm):
+    """Slide direction of each part, by arrow."""
+
+    KEY = "arrow"
+    title = "Which way does it slide?"
+    instructions = "Choose the arrow along which the coloured part opens."
+
+    def __init__(self, question: WhichArrows) -> None:
+        super().__init__(question.tables, 1)
+
+    @property
+    def words(self) -> str:
+        """The chosen arrow of the part that is shown."""
+        return f"Arrow {self.chosen[self.step]}."
+
+
+class MotionsForm(TableForm):
+    """Motion of each part, 0 for none of those shown."""
+
+    KEY = "motion"
+    title = "Which motion is right?"
+    instructions = "Each number plays a motion of the coloured part. Leave the right one playing."
+
+    def __init__(self, question: WhichMotions) -> None:
+        super().__init__(question.tables, 1)
+        self.ask_fit = question.ask_fit
+        self.fits = [PartFit.RIGHT.value] * len(question.tables)
+
+    @property
+    def words(self) -> str:
+        """Description of the chosen motion of the part that is shown."""
+        number, table = self.chosen[self.step], self.table
+        if number == 0:
+            return "None of these: the next ones are shown, if there are any."
+        moves = "slides" if table.motions[number - 1].kind is JointType.PRISMATIC else "turns"
+        blocked = ", blocked by something as modelled" if number <= len(table.blocked) and table.blocked[number - 1] else ""
+        return f"Motion {number} of {len(table.motions)}: it {moves}{blocked}."
+
+    def answer(self) -> dict[str, Any]:
+        answer = super().answer()
+        if self.ask_fit:
+            for row, fit in zip(answer["parts"], self.fits, strict=True):
+                row["part_is"] = fit
+        return answer
+
+
+def form_of(question: Question[Any]) -> Form | None:
+    """Return the empty form of a question; None if it cannot be answered on the object itself."""
+    match question:
+        case Recognize():
+            return RecognizeForm(question)
+        case WhichMarks() if question.face_mark is not None:
+            return MarksForm(question, question.face_mark)
+        case WhichKinds():
+            return KindsForm(question)
+        case WhichPoints():
+            return PointsForm(question)
+        case WhichArrows():
+            return ArrowsForm(question)
+        case WhichMotions():
+            return MotionsForm(question)
+    return None
