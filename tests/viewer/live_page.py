@@ -17,7 +17,7 @@ PANEL = 880  # [px] where the panel begins
 def live(tmp_path, tab):
     """A page of the cabinet, open in a tab."""
     pytest.importorskip("viser", reason="needs the extra view")
-    from anymesh.isolation.child import serve
+    from anymesh.viewer.server_ import serve
 
     folder = write_output(tmp_path / "out")
     with serve(folder, port=8300, author="Ada", clock=lambda: NOW) as serving:

@@ -11,10 +11,6 @@ from anymesh.prompted.answerers.question_files import QuestionStore
 from anymesh.prompted.models.vision import Request
 from anymesh.prompted.questions.asking import BadAnswerError
 from anymesh.prompted.questions.saved_question import answer_object, pack_question
-from anymesh.viewer.ask_forms import LabelRow, form_of
-from anymesh.viewer.ask_marks import SPLIT, MarksForm
-from anymesh.viewer.ask_shapes import (
-from anymesh.prompted.questions.saved_question import pack_question
 from anymesh.viewer.questions.desk_ import SUGGESTED, WAITING, OpenQuestion, find_open_question
 from anymesh.viewer.questions.fields_ import marks_table
 from anymesh.viewer.questions.forms import SPLIT, LabelRow, MarksForm, form_of

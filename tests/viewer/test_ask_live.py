@@ -17,9 +17,9 @@ import pytest
 from browser import Tab
 
 from anymesh import pipeline
-from anymesh.isolation.child import serve
 from anymesh.types import JointType
 from anymesh.viewer.questions.scene_ import point_places
+from anymesh.viewer.server_ import serve
 
 pytest.importorskip("viser", reason="needs the extra view")
 pytestmark = pytest.mark.slow

@@ -12,11 +12,11 @@ from asked_cabinet import MESH, questions
 from fake_bench import CUBE, FakeWork, until, upload
 
 from anymesh.correcting import CorrectionError, FlipSign
-from anymesh.isolation.child import serve
 from anymesh.prompted.answerers.question_files import QuestionStore
 from anymesh.prompted.models.vision import Request
 from anymesh.prompted.questions.saved_question import pack_question
 from anymesh.viewer import bench_
+from anymesh.viewer.server_ import serve
 
 pytest.importorskip("viser", reason="needs the extra view")
 

@@ -6,8 +6,8 @@ import pytest
 from fake_bench import CUBE, FakeWork, until, upload
 
 from anymesh.errors import OptionError
-from anymesh.isolation.child import serve
 from anymesh.viewer import bench_
+from anymesh.viewer.server_ import serve
 
 pytest.importorskip("viser", reason="needs the extra view")
 

@@ -17,7 +17,7 @@ from live_page import NOW, PANEL, eventually, fill, frame_of, of_color, settle, 
 
 from anymesh.correcting import FlipSign, open_asset
 from anymesh.geometry.kinematics import link_transforms
-from anymesh.isolation.child import serve
+from anymesh.viewer.server_ import serve
 
 pytest.importorskip("viser", reason="needs the extra view")
 

@@ -59,7 +59,7 @@ def view(
     root: Root = None,
 ) -> None:
     """View, animate, correct and review assets in the browser, until Ctrl-C."""
-    from anymesh.isolation.child import serve
+    from anymesh.viewer.server_ import serve
 
     with ExitStack() as stack:
         with Shown(hidden=False) as progress:
