@@ -40,6 +40,8 @@ def with_new_faces(
         return Finished(asset, np.arange(len(mesh.faces)))
     triangles = np.concatenate([added[part] for part in numbers])
     like = np.concatenate([_nearest(mesh, added[part], materials[part]) for part in numbers])
+    # one corner of it gives the attributes of all corners of a new face, so that it has a single colour
+    corner = np.linalg.norm(mesh.triangles[like] - triangles.mean(1)[:, None], axis=2).argmin(1)
     part = np.repeat(numbers, [len(added[part]) for part in numbers])
     joined = replace(
         mesh,
@@ -47,8 +49,8 @@ def with_new_faces(
         faces=np.concatenate([mesh.faces, len(mesh.vertices) + np.arange(3 * len(triangles)).reshape(-1, 3)]),
         face_node=np.concatenate([mesh.face_node, mesh.face_node[like]]),
         face_material=np.concatenate([mesh.face_material, mesh.face_material[like]]),
-        corner_uv=_extended(mesh.corner_uv, _nearest_corner(mesh, triangles, like)),
-        corner_color=_extended(mesh.corner_color, _nearest_corner(mesh, triangles, like)),
+        corner_uv=_extended(mesh.corner_uv, like, corner),
+        corner_color=_extended(mesh.corner_color, like, corner),
         corner_normal=_with_normals(mesh, triangles),
     )
     segmentation = replace(asset.segmentation, face_part=np.concatenate([asset.segmentation.face_part, part]))
@@ -61,14 +63,8 @@ def _nearest(mesh: Mesh, triangles: np.ndarray, faces: np.ndarray) -> Int[np.nda
     return faces[distance_to_mesh(triangles.mean(1), mesh.vertices, mesh.faces[faces])[1]]
 
 
-def _nearest_corner(mesh: Mesh, triangles: np.ndarray, like: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the face and corner whose attributes a new face takes at all its corners, so that it has a single colour."""
-    off = np.linalg.norm(mesh.triangles[like] - triangles.mean(1)[:, None], axis=2)
-    return like, off.argmin(1)
-
-
-def _extended(rows: np.ndarray | None, at: tuple[np.ndarray, np.ndarray]) -> np.ndarray | None:
-    return None if rows is None else np.concatenate([rows, np.repeat(rows[at][:, None], 3, axis=1)])
+def _extended(rows: np.ndarray | None, face: np.ndarray, corner: np.ndarray) -> np.ndarray | None:
+    return None if rows is None else np.concatenate([rows, np.repeat(rows[face, corner][:, None], 3, axis=1)])
 
 
 def _with_normals(mesh: Mesh, triangles: np.ndarray) -> np.ndarray | None:

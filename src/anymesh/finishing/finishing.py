@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -66,45 +65,6 @@ def open_retexturer(
             return Remote(Meshy(state, max_calls=max_calls, timeout=timeout), prompt)
         case _:
             raise OptionError(f"--texture: found {name!r}; valid are {TEXTURES}")
-
-
-@dataclass(frozen=True, eq=False)
-class Completion:
-    """Options of `finish`: the names that a user gave, and what they open.
-
-    state: file of the paid tasks that were started.
-    Raise OptionError for invalid names.
-    """
-
-    completer: str
-    texture: str
-    watertight: bool
-    max_calls: int | None
-    state: Path
-    first: Completer | None = field(init=False)
-    retexturer: Retexturer = field(init=False)
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "first", open_completer(self.completer))
-        object.__setattr__(self, "retexturer", open_retexturer(self.texture, state=self.state, max_calls=self.max_calls))
-
-
-def complete_asset(folder: RunFolder, how: Completion, deadline: Deadline, progress: Progress) -> None:
-    """Complete shapes and textures, unless the saved result has the same inputs and options."""
-    progress("finish", how.completer, 0, 1)
-    settings = {"by": how.completer, "texture": how.texture, "tight": how.watertight, "limit": deadline.limit}
-    key = stage_key(COMPLETION, previous=folder.last_key(), config=settings)
-    if folder.load(COMPLETION, key) is None:
-        with folder.timed("finish"):
-            completion = finish_asset(
-                folder.asset(),
-                shapes=how.completer != "off",
-                completer=how.first,
-                retexturer=how.retexturer,
-                config=ShapeConfig(watertight=how.watertight),
-                deadline=deadline,
-            )
-        folder.save(COMPLETION, key, completion)
 
 
 def finish_asset(
@@ -175,10 +135,24 @@ def finish(
     Raise OptionError, OutputError, ModelError or BudgetError; a paid task that was started is resumed by the next run.
     """
     written, deadline, out = ExportOptions.parse(base, formats, drives), Deadline(time_limit), Path(out)
-    how = Completion(completer, texture, watertight, max_calls, state=out.parent / f".{out.name}.meshy.json")
+    state = out.parent / f".{out.name}.meshy.json"
+    first, retexturer = open_completer(completer), open_retexturer(texture, state=state, max_calls=max_calls)
     if (Path(folder) / "asset.json").is_file() and Path(folder).absolute() in out.absolute().parents:
         raise OutputError(f"{out} lies in the asset {folder}, which is not changed; choose another folder")
     with RunFolder.create(out, source=Path(folder) / "asset.json", force=force) as run:
         run.take_over(Path(folder))
-        complete_asset(run, how, deadline, progress)
+        progress("finish", completer, 0, 1)
+        settings = {"by": completer, "texture": texture, "tight": watertight, "limit": deadline.limit}
+        key = stage_key(COMPLETION, previous=run.last_key(), config=settings)
+        if run.load(COMPLETION, key) is None:
+            with run.timed("finish"):
+                completion = finish_asset(
+                    run.asset(),
+                    shapes=completer != "off",
+                    completer=first,
+                    retexturer=retexturer,
+                    config=ShapeConfig(watertight=watertight),
+                    deadline=deadline,
+                )
+            run.save(COMPLETION, key, completion)
         return write_files(run, written, deadline, progress)

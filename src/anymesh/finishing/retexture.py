@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Int
 
 from anymesh.errors import InputError
-from anymesh.finishing.bake import Baked, atlas_materials, atlas_uv, check_layout
+from anymesh.finishing.bake import Baked, Place, atlas_materials, atlas_uv, check_layout
 from anymesh.finishing.protocol import Finished
 from anymesh.finishing.scene_glb import Y_UP, read_scene, scene_glb
 from anymesh.finishing.texture import Painted, barycentric, inside
@@ -46,35 +46,26 @@ def surface_gap(mesh: Mesh, ours: Mesh) -> float:
     return max(shares)
 
 
-@dataclass(frozen=True, eq=False)
-class Nearest:
-    """Map from points on our surface to another mesh, to its faces on the same part if there are any."""
+def nearest(mesh: Mesh, ours: Mesh, face_part: Int[np.ndarray, " F"]) -> Place:
+    """Return a map from points on our surface to the nearest ones of another mesh, on the same part if it has that part.
 
-    mesh: Mesh
-    ours: Mesh
-    part: Int[np.ndarray, " F"]  # of our faces
-    part_there: Int[np.ndarray, " G"]  # of the other mesh's faces
+    face_part: of our faces. A face of the other mesh belongs to the part of ours that is nearest to its centroid.
+    """
+    part_there = face_part[distance_to_mesh(mesh.triangles.mean(1), ours.vertices, ours.faces)[1]]
 
-    def __call__(
-        self, face: Int[np.ndarray, " n"], weights: Float[np.ndarray, "n 3"]
-    ) -> tuple[Int[np.ndarray, " n"], Float[np.ndarray, "n 3"]]:
-        """Return the other mesh's faces nearest to points on ours, and the weights of their corners there."""
-        points = np.einsum("nk,nkd->nd", weights, self.ours.triangles[face])
+    def place(face: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        points = np.einsum("nk,nkd->nd", weights, ours.triangles[face])
         nearest_faces, there = np.zeros(len(face), np.int64), np.zeros((len(face), 3))
-        for part in np.unique(self.part[face]):
-            rows = np.flatnonzero(self.part[face] == part)
-            of_part = np.flatnonzero(self.part_there == part)
-            faces = of_part if len(of_part) else np.arange(len(self.mesh.faces))
-            _, near, closest = distance_to_mesh(points[rows], self.mesh.vertices, self.mesh.faces[faces])
+        for part in np.unique(face_part[face]):
+            rows = np.flatnonzero(face_part[face] == part)
+            of_part = np.flatnonzero(part_there == part)
+            faces = of_part if len(of_part) else np.arange(len(mesh.faces))
+            _, near, closest = distance_to_mesh(points[rows], mesh.vertices, mesh.faces[faces])
             nearest_faces[rows] = faces[near]
-            there[rows] = inside(barycentric(closest, self.mesh.triangles[nearest_faces[rows]]))
+            there[rows] = inside(barycentric(closest, mesh.triangles[nearest_faces[rows]]))
         return nearest_faces, there
 
-
-def nearest(mesh: Mesh, ours: Mesh, face_part: Int[np.ndarray, " F"]) -> Nearest:
-    """Create the map; a face of the other mesh belongs to the part of ours that is nearest to its centroid."""
-    there = face_part[distance_to_mesh(mesh.triangles.mean(1), ours.vertices, ours.faces)[1]]
-    return Nearest(mesh, ours, face_part, there)
+    return place
 
 
 def has_picture(mesh: Mesh) -> bool:
