@@ -228,7 +228,7 @@ def _all(
 def _in_child(children: ChildPool, work: partial[Examined], name: str) -> Examined:
     """Evaluate one object in a child process, whose end does not affect the other objects."""
     try:
-        return children.run(__name__, work.func.__name__, {"name": name, **work.keywords})
+        return children.run(__name__, _examined.__name__, {"name": name, **work.keywords})
     except ChildError as error:
         if error.failure is Failure.INVALID:
             raise OptionError(error.detail) from None
