@@ -36,8 +36,7 @@ def write_asset(
 
     cache: folder for convex decompositions.
     """
-    built = build_model(asset, base=base, driven=driven, config=config, cache=cache, deadline=deadline)
-    model = built.model
+    model = build_model(asset, base=base, driven=driven, config=config, cache=cache, deadline=deadline)
     write_meshes(model, folder, config)
     write_formats(model, folder, formats, config)
     if asset.exchanges:

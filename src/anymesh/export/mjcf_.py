@@ -22,6 +22,7 @@ from anymesh.export.model import FOLDER, Base, Drive, Driven, ExportConfig, Expo
 from anymesh.export.notation import moments, number, quaternion, vector
 from anymesh.mujoco_ import load_mujoco
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
+from anymesh.types.exchange import PNG
 
 PIECES = f"{FOLDER}/mjcf"  # separate folder: `door_2.obj` in it is the second material of door, not a link door_2
 VISUAL, COLLISION = "visual", "collision"
@@ -217,7 +218,7 @@ def png_textures(mesh: Mesh, folder: Path, used: Collection[int], slots: Collect
 
 def _png(data: bytes) -> bytes:
     """Return the bytes of a PNG unchanged, and another image converted."""
-    if data.startswith(b"\x89PNG"):
+    if data.startswith(PNG):
         return data
     file = io.BytesIO()
     Image.open(io.BytesIO(data)).convert("RGB").save(file, "PNG")

@@ -15,7 +15,7 @@ from jaxtyping import Int
 
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.geometry.surface import plain_triangles
-from anymesh.physics.collision import Collision, CollisionConfig, collision_shapes
+from anymesh.physics.collision import CollisionConfig, collision_shapes
 from anymesh.physics.inertia import Inertia, InertiaConfig, Substance, link_inertia, substance_of
 from anymesh.runtime import Deadline
 from anymesh.types import Asset, Hull, Joint, JointType, Mesh, Shape
@@ -112,17 +112,9 @@ class ExportConfig(InertiaConfig):
     degrees_a_key: float = 15.0  # [deg] maximum angle between two rotation keys; slerp is unique below 180
 
 
-@dataclass(frozen=True, eq=False)
-class Built:
-    """A model, and the collision result of its shapes."""
-
-    model: Model
-    collision: Collision
-
-
 def build_model(
     asset: Asset, *, base: Base, driven: Driven, config: ExportConfig, cache: Path | None, deadline: Deadline | None = None
-) -> Built:
+) -> Model:
     """Build the model of an asset, with legal names and the warnings of its collision shapes.
 
     cache: folder of decompositions, None for none.
@@ -144,7 +136,7 @@ def build_model(
     )
     excluded = [Exclusion(a, b, OVERLAP) for a, b in collision.overlapping]
     excluded += [Exclusion(a, b, TIGHT) for a, b in collision.tight]
-    return Built(Model(asset, bodies, base, tuple(excluded), driven), collision)
+    return Model(asset, bodies, base, tuple(excluded), driven)
 
 
 def _made_of(mesh: Mesh, link: Link, kept: Int[np.ndarray, " K"]) -> list[Substance | None]:

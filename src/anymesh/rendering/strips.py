@@ -34,7 +34,7 @@ from anymesh.rendering.render import lit, shade, turned
 from anymesh.rendering.viewpoints import SKETCH, box_of, orbit_camera, zoom
 from anymesh.types import JointType, Mesh, Motion
 from anymesh.types.camera import Camera
-from anymesh.types.triangles import box_corners, transformed
+from anymesh.types.triangles import bounds_of, box_corners, transformed
 
 PANEL = 400  # [px] size of a panel
 MARGIN = 0.35  # margin around the moving part, as a share of its diagonal, so that its neighbours are visible
@@ -209,8 +209,8 @@ def strip_poses(
 def best_camera(posed: Posed, poses: Sequence[np.ndarray], motions: Sequence[tuple[Motion, float]], size: int) -> Camera:
     """Choose the camera for a part in the poses of `strip_poses`."""
     places = [transformed(posed.corners, T) for T in poses]
-    focus = bounds_of(places)
-    total = bounds_of([posed.mesh.bounds, focus])
+    focus = bounds_of(np.concatenate(places))
+    total = bounds_of(np.concatenate([posed.mesh.bounds, focus]))
     margin = MARGIN * float(np.linalg.norm(focus[1] - focus[0]))
     focus = np.stack([np.maximum(focus[0] - margin, total[0]), np.minimum(focus[1] + margin, total[1])])
     step = DEPTH * posed.mesh.diagonal
@@ -334,7 +334,7 @@ class Posed:
     @cached_property
     def _box(self) -> Float[np.ndarray, "8 3"]:
         """Corners of the bounding box of the moving faces, at rest."""
-        return box_corners(bounds_of([self.corners]))
+        return box_corners(bounds_of(self.corners))
 
     def still_hits(self, rays: Rays) -> Hits:
         """Return the first hits on static faces; rays continue behind moving faces."""
@@ -385,8 +385,3 @@ class Posed:
 def part_color(normal: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
     """Return the shaded colour (0..255) of the highlighted part."""
     return lit(np.tile(np.array(HIGHLIGHT, float), (len(normal), 1)), normal)
-
-
-def bounds_of(boxes: Sequence[np.ndarray]) -> Float[np.ndarray, "2 3"]:
-    """Return the bounds (2, 3) of several boxes or point sets (n, 3)."""
-    return np.stack([np.min([b.min(0) for b in boxes], axis=0), np.max([b.max(0) for b in boxes], axis=0)])

@@ -191,7 +191,7 @@ def ray_through(camera: Any, x: Float[np.ndarray, " n"], y: Float[np.ndarray, " 
 
 
 def _model(asset: Asset) -> Model:
-    return build_model(asset, base=Base.FIXED, driven=Driven.PASSIVE, config=ExportConfig(), cache=cache_folder("shapes")).model
+    return build_model(asset, base=Base.FIXED, driven=Driven.PASSIVE, config=ExportConfig(), cache=cache_folder("shapes"))
 
 
 def _glb(asset: Asset, number: int) -> bytes:
