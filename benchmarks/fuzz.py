@@ -126,6 +126,7 @@ def run_case(fields: dict[str, Any], work: Path) -> Result:
     """
     case = Case(**fields)
     shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
     begin = time.perf_counter()
     with stack_file(work).open("w") as stack, warnings.catch_warnings(record=True) as caught:
         faulthandler.enable(stack)

@@ -96,11 +96,12 @@ def test_a_scene_is_a_mesh_or_is_refused(tmp_path: Path) -> None:
 
 
 def test_a_case_over_the_time_limit_is_a_row_with_the_place(tmp_path: Path) -> None:
-    with ChildPool(1, ChildLimits(seconds=2.0)) as short:
-        found = tried(short, tmp_path, (0, Case("chandelier", "nodes", scene="chandelier")))
+    mesh = write_scene(fixture("chandelier"), tmp_path / "in")
+    with ChildPool(1, ChildLimits(seconds=1.0, wall=600.0)) as short:
+        found = tried(short, tmp_path / "out", (0, Case("chandelier", "nodes", mesh=str(mesh))))
     assert found["outcome"] == "over time limit"
     assert ".py:" in found["where"]
-    assert not list(tmp_path.iterdir())
+    assert not list((tmp_path / "out").iterdir())
 
 
 def test_the_report_counts_outcomes_and_groups_causes() -> None:
