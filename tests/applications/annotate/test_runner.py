@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 from ledger_rows import column, states, trace
 
+import anymesh
 from anymesh.applications.annotate import annotate as module
 from anymesh.applications.annotate import runner
 from anymesh.applications.annotate.annotate import Speed, annotate, collection_status, killed_after, worker_rate
@@ -300,3 +301,10 @@ def test_an_outage_is_tried_less_and_less_and_ends_with_the_first_answer() -> No
     outage.reached()
     assert outage.allowed(4, 0) == 4
     assert not outage.is_over
+
+
+def test_tasks_of_a_cluster_find_this_package() -> None:
+    """The folder that holds it, not one within it, whose modules would hide the standard library's."""
+    from anymesh.applications.annotate.ray_ import _environment
+
+    assert _environment()["env_vars"]["PYTHONPATH"].split(os.pathsep)[0] == str(Path(anymesh.__file__).parents[1])

@@ -109,7 +109,7 @@ def _check_address(address: str) -> None:
 
 def _environment() -> dict[str, Any]:
     """Return the environment variables that tasks need to import this package."""
-    paths = [str(Path(__file__).parents[2]), os.environ.get("PYTHONPATH", "")]
+    paths = [str(Path(__file__).parents[3]), os.environ.get("PYTHONPATH", "")]
     return {"env_vars": {"PYTHONPATH": os.pathsep.join(filter(None, paths))}}
 
 

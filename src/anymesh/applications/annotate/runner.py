@@ -109,12 +109,12 @@ class Runner:
         try:
             while self._step():
                 pass
+            self._tick(last=True)
         finally:
             self.workers.close()
             with suppress(OutputError):  # if the ledger cannot be written, the next run does this
                 for job in self._running.values():
                     self._record(job, AttemptOutcome(Result.STOPPED))
-        self._tick(last=True)
 
     def _step(self) -> bool:
         """Begin objects, record outcomes; return whether there is more to do."""
