@@ -41,6 +41,7 @@ from anymesh.correcting import (
 )
 from anymesh.correcting.history import KINDS, pack_log, unpack_log
 from anymesh.errors import OutputError
+from anymesh.finishing.finishing import finish
 from anymesh.pipeline.results import JointResult
 from anymesh.pipeline.run_folder import RunFolder
 from anymesh.pipeline.stage_files import JOINTS
@@ -261,7 +262,7 @@ def test_a_finished_asset_is_corrected_after_stage_c(tmp_path):
 def test_stage_c_builds_on_the_corrections(tmp_path):
     folder = write_output(tmp_path / "out")
     save_asset(corrected(open_asset(folder), MergeParts("knob", "drawer"), FlipSign("door")))
-    asset = pipeline.finish(folder, tmp_path / "finished", completer="off", formats="urdf")
+    asset = finish(folder, tmp_path / "finished", completer="off", formats="urdf")
     assert [p.name for p in asset.segmentation.parts] == ["base", "door", "drawer"]
     np.testing.assert_array_equal(asset.joints[0].axis, (0, 0, -1))
 

@@ -1,6 +1,7 @@
 """The page that takes meshes, without a browser: its states, its questions, what it refuses, and what it leaves behind."""
 
 import json
+import shutil
 import zipfile
 from io import BytesIO
 from pathlib import Path
@@ -12,6 +13,7 @@ from asked_cabinet import MESH, questions
 from fake_bench import CUBE, FakeWork, until, upload
 
 from anymesh.correcting import CorrectionError, FlipSign
+from anymesh.errors import OptionError
 from anymesh.prompted.answerers.question_files import QuestionStore
 from anymesh.prompted.models.vision import Request
 from anymesh.prompted.questions.saved_question import pack_question
@@ -183,3 +185,43 @@ def test_a_motion_plays_while_it_is_chosen(page):
     moving, turns = page.bench._desk._scene._moving, []
     until(lambda: turns.append(moving.wxyz[0]) or np.ptp(turns) > 0.01)
     assert len(set(turns)) > 1
+
+
+def test_kept_assets_get_names_of_their_own_and_the_same_mesh_the_same_questions(monkeypatch, tmp_path):
+    monkeypatch.setattr(bench_, "ArticulationWork", FakeWork)
+    FakeWork.made = []
+    source = tmp_path / "in" / "cube.obj"
+    source.parent.mkdir()
+    source.write_bytes(CUBE)
+    for _ in range(2):
+        options = {"ask": True, "out": tmp_path / "out", "author": "Ada", "clock": lambda: ""}
+        with serve(source, port=8420, **options) as serving:
+            assert str(tmp_path / "out") in serving.notes[0]
+            FakeWork.made[-1].finish()
+            until(lambda: serving.page.session is not None)
+    first, second = FakeWork.made
+    assert (first.out.name, second.out.name) == ("cube", "cube-2")
+    assert first.options["answerer"] == second.options["answerer"]
+    assert (tmp_path / "out" / "cube-2" / "asset.json").exists()
+
+
+def test_what_was_handed_over_is_removed_at_the_end(monkeypatch):
+    monkeypatch.setattr(bench_, "ArticulationWork", FakeWork)
+    with serve(None, port=8440, author="Ada", clock=lambda: "") as serving:
+        assert "removed at the end" in serving.notes[0]
+        upload(serving.page)
+        folder = serving.page.bench._bench.folder
+        assert folder.exists()
+    assert FakeWork.made[-1].cancelled
+    assert not folder.exists()
+
+
+@pytest.mark.parametrize(
+    ("target", "options"),
+    [(None, {"ask": True}), ("missing.glb", {"ask": True}), (".", {"ask": True}), (".", {"out": "x"})],
+)
+def test_options_that_do_not_go_together_are_refused(tmp_path, monkeypatch, target, options):
+    monkeypatch.chdir(tmp_path)
+    shutil.rmtree(tmp_path / "x", ignore_errors=True)
+    with pytest.raises(OptionError), serve(target, author="Ada", clock=lambda: "", **options):
+        pass

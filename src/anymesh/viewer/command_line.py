@@ -1,4 +1,4 @@
-"""The command line of `anymesh view`."""
+"""The command lines of `anymesh view`, `anymesh report` and `anymesh picture`."""
 
 from __future__ import annotations
 

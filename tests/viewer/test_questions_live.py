@@ -1,6 +1,6 @@
 """The page that takes meshes, in a real browser: a mesh is dropped, played and downloaded; questions are answered by clicks.
 
-    pytest -m slow tests/viewer/test_ask_live.py
+    pytest -m slow tests/viewer/test_questions_live.py
 
 Needs the extra `view`, playwright and a Chromium (see browser.py); skipped where one is missing.
 """
