@@ -43,6 +43,12 @@ def box(low, high) -> tuple[np.ndarray, np.ndarray]:
     return low + CUBE * (high - low), CUBE_FACES
 
 
+def solid(low, high) -> np.ndarray:
+    """Return the triangles (12, 3, 3) of a box."""
+    v, f = box(low, high)
+    return v[f]
+
+
 def mesh_of(pieces, face_material=None, **attributes) -> tuple[Mesh, np.ndarray]:
     """A mesh of (vertices, faces) pieces and the piece number of each face."""
     vertices, faces, number, offset = [], [], [], 0

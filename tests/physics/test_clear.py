@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from assets import box
+from assets import box, solid
 from scipy.spatial.transform import Rotation
 
 from anymesh.physics.clear import ComponentShapes, ContactScene, LinkSurface, clear, placed_hull
@@ -189,11 +189,6 @@ def test_false_contacts_stay_after_the_deadline() -> None:
 def test_no_components_give_no_faults() -> None:
     found = scene_of({"a": at()}).faults([])
     assert (found.found, found.poses) == ([], ())
-
-
-def solid(low, high) -> np.ndarray:
-    v, f = box(low, high)
-    return v[f]
 
 
 def cleared_boxes(first: tuple, second: tuple, levels: int = 1, rounds: int = 3, refined: list | None = None):

@@ -6,7 +6,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from assets import box
+from assets import box, solid
 
 from anymesh.physics.convex import cut, hull_of, planes, trimmed, volume
 from anymesh.physics.split import (
@@ -24,11 +24,6 @@ from anymesh.physics.split import (
 
 X, Y, Z = np.eye(3)
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
-
-
-def solid(low, high) -> np.ndarray:
-    v, f = box(low, high)
-    return v[f]
 
 
 def test_the_volume_of_a_hull_is_at_least_that_of_a_sheet() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import trimesh
-from assets import box
+from assets import solid
 from trimesh import Trimesh
 from trimesh.boolean import union
 from trimesh.creation import box as solid_box
@@ -41,11 +41,6 @@ from anymesh.types import Box, Cylinder, Hull
 
 X, Y, Z = np.eye(3)
 SQUARE = np.array([[0.0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]])
-
-
-def solid(low, high) -> np.ndarray:
-    v, f = box(low, high)
-    return v[f]
 
 
 def hull(points) -> Hull:

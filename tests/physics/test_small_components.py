@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from assets import box
+from assets import solid
 from scipy.spatial.transform import Rotation
 from test_decomposer import FINE, FakePool, bracket
 from trimesh.creation import cylinder
@@ -28,11 +28,6 @@ from anymesh.physics.decompose import (
 from anymesh.types import Box, Cylinder, Hull
 
 X, Y, Z = np.eye(3)
-
-
-def solid(low, high) -> np.ndarray:
-    v, f = box(low, high)
-    return v[f]
 
 
 def sizes(triangles, *args) -> list[int]:
