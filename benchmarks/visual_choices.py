@@ -22,8 +22,8 @@ from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import ObjectScore
 from anymesh.pipeline.solving import solve
 from anymesh.prompted.answerers.question_files import CHECK, QuestionFolder
+from anymesh.prompted.answerers.recordings import Replay
 from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer
-from anymesh.prompted.models.replay import Replay
 from anymesh.prompted.questions.prompting import MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.prompted.questions.saved_question import unpack_question
 from anymesh.types import Exchange, JointType, Motion

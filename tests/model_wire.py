@@ -10,8 +10,7 @@ from typing import Any
 
 from PIL import Image
 
-from anymesh.prompted.models.cache import request_key
-from anymesh.prompted.models.vision import Reply, Request, VisionModel
+from anymesh.prompted.models.vision import Reply, Request, VisionModel, request_key
 from anymesh.types import Exchange, Picture
 
 Connect = Callable[..., VisionModel]

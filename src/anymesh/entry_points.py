@@ -12,8 +12,8 @@ from typing import Any
 # What the pipeline needs of the packages around it.
 OPEN_ANSWERER = "prompted.answerers.answering:open_answerer"
 PROMPTED_STAGES = "prompted.stages:PromptedStages"
-WRITE_TRANSCRIPT = "prompted.answerers.transcript:write_transcript"
-REMOVE_TRANSCRIPT = "prompted.answerers.transcript:remove_transcript"
+WRITE_TRANSCRIPT = "prompted.answerers.recordings:write_transcript"
+REMOVE_TRANSCRIPT = "prompted.answerers.recordings:remove_transcript"
 
 # `anymesh eval --protocol interaction` is one of the applications.
 EVALUATE_INTERACTION = "applications.policy.interaction_:evaluate_interaction"

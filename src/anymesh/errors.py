@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 DEFECT = 70  # exit code of an internal defect: EX_SOFTWARE of sysexits.h
 STAGE = "in the stage "  # prefix of the note that names the stage of an error
 SECRET = re.compile(r"[A-Za-z0-9+/=_-]{32,}|\S*\*{3,}\S*|\b(?:sk-|AIza|Bearer )\S+")  # looks like a key, or like data
+MAX_QUOTE = 200  # maximum number of characters of another program's message that are quoted
 PLACE = re.compile(  # an address; a path in quotes, as Python prints it; a path
     r"\b\w[\w+.-]*://[^\s#'\"]*|(['\"])[^'\"]*[\\/](?P<quoted>[^'\"\\/]*)\1"
     r"|(?:(?<!\w)[A-Za-z]:)?[^\s:#'\"(),=<>]*[\\/](?P<name>[^\\/\s:#'\"(),=<>]*)"

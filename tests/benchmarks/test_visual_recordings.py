@@ -17,9 +17,9 @@ from anymesh.evaluation.score import JointScore, ObjectScore
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.answerers.file_answerer import FileAnswerer
 from anymesh.prompted.answerers.question_files import QuestionStore, find_questions
+from anymesh.prompted.answerers.recordings import Replay
 from anymesh.prompted.answerers.reference import ReferenceAnswerer
 from anymesh.prompted.answerers.vlm_answerer import SYSTEM
-from anymesh.prompted.models.replay import Replay
 from anymesh.prompted.models.vision import Request
 from anymesh.prompted.questions.prompting import MotionPick, MotionTable, PartFit, PartShown, WhichMotions
 from anymesh.prompted.questions.recognition import Recognize

@@ -20,7 +20,7 @@ from anymesh.prompted.answerers import answering
 from anymesh.prompted.answerers import file_answerer as files
 from anymesh.prompted.answerers.file_answerer import open_in, record_answer
 from anymesh.prompted.answerers.question_files import find_questions
-from anymesh.prompted.models.replay import Replay
+from anymesh.prompted.answerers.recordings import Replay
 from anymesh.prompted.questions.saved_question import answer_object, unpack_question
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from anymesh.errors import OptionError
-from anymesh.prompted.models.rates import Rate, WindowLimiter
+from anymesh.prompted.models.rates import Limiter, Rate
 
 
 class Clock:
@@ -22,8 +22,8 @@ class Clock:
 def test_requests_and_tokens_of_a_minute_are_limited() -> None:
     clock = Clock()
 
-    def limiter(rate: Rate) -> WindowLimiter:
-        return WindowLimiter(rate, clock=clock, sleep=clock.sleep)
+    def limiter(rate: Rate) -> Limiter:
+        return Limiter(rate, clock=clock, sleep=clock.sleep)
 
     by_count = limiter(Rate(requests=3))
     for _ in range(3):

@@ -6,10 +6,10 @@ from typing import Any
 import numpy as np
 import pytest
 from asked import X, Y, Z, part
+from scripted import ScriptedModel
 
 from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer
 from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer
-from anymesh.prompted.models.scripted import ScriptedModel
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.prompted.questions.prompting import (
     ArrowTable,

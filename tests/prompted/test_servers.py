@@ -13,7 +13,7 @@ from model_wire import SECRET, Service, a_request
 
 from anymesh.cli import run
 from anymesh.errors import OptionError
-from anymesh.prompted.models.connect import open_model
+from anymesh.prompted.answerers.answering import open_model
 from anymesh.prompted.models.servers import SERVERS, parse_address, probe_servers
 
 VARIABLES = [v for server in SERVERS.values() for v in (*server.variables, *server.keys)]

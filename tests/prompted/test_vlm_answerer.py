@@ -6,15 +6,16 @@ from typing import Any
 
 import pytest
 from asked import ASKED, picks
+from scripted import ScriptedModel
 
 from anymesh import runtime as deadline
 from anymesh.errors import BudgetError, ModelError
 from anymesh.pipeline.answering import choose_answerer
+from anymesh.prompted.answerers import answering
+from anymesh.prompted.answerers.recordings import Cached
 from anymesh.prompted.answerers.vlm_answerer import SYSTEM, Patience, VlmAnswerer
-from anymesh.prompted.models import connect
 from anymesh.prompted.models.budget import Budgeted
-from anymesh.prompted.models.cache import Cached, request_key
-from anymesh.prompted.models.scripted import ScriptedModel
+from anymesh.prompted.models.vision import request_key
 from anymesh.types.questions import VisualAnswerer
 
 ARROWS = ASKED["arrows"].question  # one part, four arrows
@@ -178,7 +179,7 @@ def test_the_time_of_an_answer_does_not_count_towards_the_limit_of_a_run(monkeyp
         return GOOD
 
     monkeypatch.setattr(deadline.time, "monotonic", lambda: now[0])
-    monkeypatch.setattr(connect, "open_model", lambda *given, **options: ScriptedModel(slow))
+    monkeypatch.setattr(answering, "open_model", lambda *given, **options: ScriptedModel(slow))
     limit = deadline.Deadline(10.0)
     factory = choose_answerer({"answerer": "openai-compatible:http://localhost/v1#m"}, deadline=limit).factory
     assert factory is not None

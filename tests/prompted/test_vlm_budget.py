@@ -6,10 +6,10 @@ from importlib.metadata import version
 
 import pytest
 from model_wire import a_request, png
+from scripted import ScriptedModel
 
 from anymesh.errors import BudgetError, ModelError, OptionError
 from anymesh.prompted.models.budget import LONG, PRICES, Budgeted, cost_of, max_input_tokens, max_picture_tokens
-from anymesh.prompted.models.scripted import ScriptedModel
 from anymesh.prompted.models.vision import Reply, Request
 from anymesh.types import Picture
 

@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 from model_wire import ANSWER, SCHEMA, a_request, png
+from scripted import ScriptedModel
 
+from anymesh.prompted.answerers.recordings import Cached
 from anymesh.prompted.models.budget import Budgeted
-from anymesh.prompted.models.cache import Cached, request_key
-from anymesh.prompted.models.scripted import ScriptedModel
-from anymesh.prompted.models.vision import Request
+from anymesh.prompted.models.vision import Request, request_key
 from anymesh.runtime import cache_folder
 from anymesh.types import Picture
 
@@ -65,7 +65,7 @@ def test_the_key_changes_with_the_model_and_with_nothing_else() -> None:
 
 
 def test_the_key_is_the_same_in_every_version() -> None:
-    """Or all that users have paid for is asked again. A change on purpose counts up `cache.FORMAT`."""
+    """Or all that users have paid for is asked again. A change on purpose counts up `vision.FORMAT`."""
     expected = "eafa0f65fd704a26e4995407ddab62859a5d77d93e25752bfd8669004b3a485e"
     assert request_key("openai:gpt-4o", Request("k", "s", "t", (), {"type": "object"}, 7)) == expected
 

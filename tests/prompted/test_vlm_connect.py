@@ -7,11 +7,11 @@ from pathlib import Path
 import pytest
 from dialects import COMPATIBLE, OPENAI, Dialect
 from model_wire import ANSWER, SECRET, Service, a_request, exchange
+from scripted import ScriptedModel
 
 from anymesh.errors import BudgetError, ModelError, OptionError
-from anymesh.prompted.answerers.transcript import write_transcript
-from anymesh.prompted.models.connect import open_model
-from anymesh.prompted.models.scripted import ScriptedModel
+from anymesh.prompted.answerers.answering import open_model
+from anymesh.prompted.answerers.recordings import write_transcript
 from anymesh.prompted.models.vision import VisionModel
 
 

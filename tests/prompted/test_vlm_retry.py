@@ -2,10 +2,10 @@
 
 import pytest
 from model_wire import a_request
+from scripted import ScriptedModel
 
 from anymesh.errors import ModelError, OptionError
 from anymesh.prompted.models.retry import Retrying, TransientError
-from anymesh.prompted.models.scripted import ScriptedModel
 
 
 def later(after: float | None = None) -> TransientError:

@@ -7,12 +7,10 @@ from pathlib import Path
 
 import pytest
 from model_wire import ANSWER, a_request, exchange, png
+from scripted import ScriptedModel
 
 from anymesh.errors import ModelError, OptionError
-from anymesh.prompted.answerers.transcript import remove_transcript, write_transcript
-from anymesh.prompted.models.cache import Cached
-from anymesh.prompted.models.replay import Replay
-from anymesh.prompted.models.scripted import ScriptedModel
+from anymesh.prompted.answerers.recordings import Cached, Replay, remove_transcript, write_transcript
 from anymesh.prompted.models.vision import Reply, Request
 from anymesh.types import Exchange, Picture
 

@@ -11,10 +11,10 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from anymesh.evaluation.ground_truth import EvalSample
+from anymesh.prompted.answerers.recordings import Cached
 from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer
 from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer
 from anymesh.prompted.models.budget import cost_of, max_picture_tokens
-from anymesh.prompted.models.cache import Cached
 from anymesh.prompted.models.vision import Reply, Request
 from anymesh.prompted.questions.grounding import WhichMarks
 from anymesh.prompted.questions.prompting import (

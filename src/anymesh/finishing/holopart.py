@@ -19,14 +19,13 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.errors import SECRET, InputError, ModelError, OptionError
+from anymesh.errors import MAX_QUOTE, SECRET, InputError, ModelError, OptionError
 from anymesh.finishing.protocol import PartMesh
 from anymesh.finishing.scene_glb import Y_UP, read_scene, scene_glb
 from anymesh.finishing.web import Call, LostError, exchange, is_web
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.topology import components, weld
 from anymesh.geometry.triangle_set import sample_surface
-from anymesh.prompted.models.error_redaction import LONGEST
 from anymesh.prompted.models.retry import persist
 from anymesh.types import Asset, Mesh, Node
 
@@ -93,7 +92,7 @@ class PartServer:
                 raise ModelError(str(error)) from None
             if answer.status == 200:
                 return answer.body
-            words = SECRET.sub("[removed]", " ".join(answer.body[:2000].decode("utf-8", "replace").split()))[:LONGEST]
+            words = SECRET.sub("[removed]", " ".join(answer.body[:2000].decode("utf-8", "replace").split()))[:MAX_QUOTE]
             error = CrashError if answer.status == 500 else ModelError
             raise error(f"the HoloPart server: HTTP {answer.status}, it says: {words}")
 
@@ -161,7 +160,7 @@ def _last_words(path: Path) -> str:
     with path.open("rb") as file:
         file.seek(max(0, path.stat().st_size - 4000))
         lines = [line.strip() for line in file.read().decode("utf-8", "replace").splitlines() if line.strip()]
-    return f"; the end of its output: {SECRET.sub('[removed]', lines[-1])[:LONGEST]}" if lines else ""
+    return f"; the end of its output: {SECRET.sub('[removed]', lines[-1])[:MAX_QUOTE]}" if lines else ""
 
 
 @dataclass(frozen=True, eq=False)

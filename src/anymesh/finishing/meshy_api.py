@@ -13,9 +13,8 @@ import re
 from dataclasses import dataclass
 from typing import Any
 
-from anymesh.errors import SECRET, ModelError
+from anymesh.errors import MAX_QUOTE, SECRET, ModelError
 from anymesh.finishing.web import Answer, Call, LostError, exchange
-from anymesh.prompted.models.error_redaction import LONGEST
 from anymesh.prompted.models.retry import TransientError
 
 KEY, BASE = "MESHY_API_KEY", "MESHY_BASE_URL"
@@ -139,7 +138,7 @@ def safe(words: object) -> str:
     if not isinstance(words, str) or not words.strip():
         return ""
     line = " ".join(words.split()).replace(read_key(), "[removed]")
-    return f", it says: {SECRET.sub('[removed]', line)[:LONGEST]}"
+    return f", it says: {SECRET.sub('[removed]', line)[:MAX_QUOTE]}"
 
 
 def _task(record: dict[str, Any], task: str) -> Task:

@@ -1,8 +1,9 @@
-"""The command line of `anymesh answer`."""
+"""The commands `anymesh answer` and `anymesh models`."""
 
 from __future__ import annotations
 
 import json
+import os
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -14,8 +15,6 @@ from anymesh.cli.output import plain
 
 if TYPE_CHECKING:
     from anymesh.prompted.answerers.question_files import QuestionFolder
-import os
-
 QuestionsPath = Annotated[
     Path, typer.Argument(metavar="FOLDER", help="The folder of --answerer files:FOLDER, or of one question in it.")
 ]

@@ -34,7 +34,7 @@ class Exchange:
     """One call to a model: its question and pictures, its answer, its cost, and the verdict on it."""
 
     kind: str  # kind of the question ("recognize", "marks", ...)
-    key: str  # of the request, see `models.cache`
+    key: str  # of the request, see `prompted.models.vision.request_key`
     model: str
     text: str
     pictures: tuple[Picture, ...]

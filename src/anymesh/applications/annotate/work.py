@@ -32,7 +32,7 @@ from anymesh.prompted.models.retry import UnavailableError
 from anymesh.runtime import read_json, write_whole
 
 if TYPE_CHECKING:
-    from anymesh.prompted.models.rates import WindowLimiter
+    from anymesh.prompted.models.rates import Limiter
 
 STORAGE = {getattr(errno, name, errno.ENOSPC) for name in "ENOSPC EROFS EDQUOT EIO ENODEV ESTALE EACCES EPERM".split()}
 FILES = "files:"
@@ -72,11 +72,11 @@ def _annotated(job: Job) -> AttemptOutcome:
 
 
 @cache
-def _limiter(requests: int | None, tokens: int | None) -> WindowLimiter:
+def _limiter(requests: int | None, tokens: int | None) -> Limiter:
     """Return the limiter of this process, for all its objects."""
-    from anymesh.prompted.models.rates import Rate, WindowLimiter
+    from anymesh.prompted.models.rates import Limiter, Rate
 
-    return WindowLimiter(Rate(requests, tokens))
+    return Limiter(Rate(requests, tokens))
 
 
 class ObjectAccount:

@@ -10,11 +10,16 @@ from threading import Event
 from anymesh.config import Config
 from anymesh.errors import OptionError
 from anymesh.pipeline.answering import AnswererSetup
-from anymesh.pipeline.options import FILES, AnswererOptions
-from anymesh.prompted.answerers.vlm_answerer import Patience
+from anymesh.pipeline.options import FILES, Account, AnswererOptions
+from anymesh.prompted.answerers.recordings import Cached, Replay
+from anymesh.prompted.answerers.vlm_answerer import Patience, VlmAnswerer
+from anymesh.prompted.models.budget import Budgeted
+from anymesh.prompted.models.rates import Limiter, RateLimited
+from anymesh.prompted.models.retry import Retrying
 from anymesh.prompted.models.servers import SERVERS
+from anymesh.prompted.models.vision import VisionModel
 from anymesh.prompted.questions.recognition import parse_labels
-from anymesh.runtime import Deadline, cache_folder
+from anymesh.runtime import CALL_SECONDS, Deadline, cache_folder
 from anymesh.types import Exchange
 from anymesh.types.questions import VisualAnswerer
 
@@ -46,9 +51,6 @@ def open_answerer(
     config = replace(config, parts_list=parse_labels(labels.split(",") if isinstance(labels, str) else labels))
     if name.startswith(FILES):
         return _from_files(config, name, chosen, about, deadline, stop)
-    from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer
-    from anymesh.prompted.models.connect import open_model  # import on use: only runs with a model need these modules
-
     model = open_model(
         name,
         cache=_cache(chosen.cache),
@@ -94,3 +96,33 @@ def _from_files(
         ),
         lambda exchanges: still_answered(store, exchanges),
     )
+
+
+def open_model(
+    name: str,
+    *,
+    cache: Path | None = None,
+    max_calls: int | None = None,
+    max_cost: float | None = None,
+    spent: Account | None = None,
+    limiter: Limiter | None = None,
+    timeout: float = CALL_SECONDS,
+) -> VisionModel:
+    """Open the model of that name, or a recording of one (`replay:FOLDER`); cache: folder, None for no cache.
+
+    The cache is the outermost wrapper, so hits do not count towards the budget. Retries are inside the budget, so only answers
+    count.
+    `timeout` [s] applies to one attempt; waiting for the limiter is not included.
+    Raise OptionError for an invalid name or budget, ModelError without a key, MissingExtraError without the libraries.
+    """
+    from anymesh.prompted.models.pydantic_ai_ import connect  # import on use: a replay does not need it
+
+    kind, _, folder = name.partition(":")
+    if kind == "replay":
+        if not folder:
+            raise OptionError("a recording is named replay:FOLDER")
+        return Replay(Path(folder))
+    model: VisionModel = connect(name, timeout=timeout)
+    model = Retrying(model if limiter is None else RateLimited(model, limiter))
+    model = Budgeted(model, max_calls=max_calls, max_cost=max_cost, spent=spent)
+    return model if cache is None else Cached(model, cache)

@@ -20,8 +20,7 @@ from threading import Event
 from typing import Any
 
 from anymesh.errors import OptionError, OutputError
-from anymesh.prompted.models.cache import request_key
-from anymesh.prompted.models.vision import Request
+from anymesh.prompted.models.vision import Request, request_key
 from anymesh.runtime import write_whole
 from anymesh.types.exchange import Picture
 

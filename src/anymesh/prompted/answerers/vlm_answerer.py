@@ -11,8 +11,7 @@ from dataclasses import replace
 from threading import Lock
 
 from anymesh.prompted.answerers.question_files import LEFT, NAME, is_left_to_geometry
-from anymesh.prompted.models.cache import request_key
-from anymesh.prompted.models.vision import Reply, Request, VisionModel
+from anymesh.prompted.models.vision import Reply, Request, VisionModel, request_key
 from anymesh.prompted.questions.asking import BadAnswerError, reply_object
 from anymesh.types import Exchange
 from anymesh.types.exchange import FALLBACK_VERDICT, NOT_ASKED

@@ -8,17 +8,17 @@ from __future__ import annotations
 
 import asyncio
 import importlib
+import json
 import logging
 import os
 import time
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Iterable
 from concurrent.futures import Future
 from dataclasses import dataclass, field
 from threading import Thread
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from anymesh.errors import MissingExtraError, ModelError, OptionError
-from anymesh.prompted.models.error_redaction import redact
+from anymesh.errors import MAX_QUOTE, SECRET, MissingExtraError, ModelError, OptionError
 from anymesh.prompted.models.pydantic_ai_wire_ import (
     fit,
     the_message,
@@ -40,6 +40,7 @@ if TYPE_CHECKING:
 
 log = logging.getLogger("anymesh")
 T = TypeVar("T")
+RUN = 24  # number of characters in common with the request from which a text counts as a quote
 TALKATIVE = ("openai", "anthropic", "google_genai", "httpx", "httpx2", "httpcore", "httpcore2", "pydantic_ai")
 
 
@@ -107,14 +108,14 @@ class Client:
             except Exception as error:
                 return self._failure(error, request)
 
-        response = in_thread(attempt)
+        response = _in_thread(attempt)
         if isinstance(response, _Failure):
             return response
         if response.finish_reason == "length":
             log.warning("%s: the answer to %r was cut off at %d tokens", self.name, request.kind, request.max_tokens)
         text, usage = the_text(response), response.usage
         return Reply(
-            text=without_keys(unfenced(text) if self.address.provider == "openai-compatible" else text),
+            text=_without_keys(unfenced(text) if self.address.provider == "openai-compatible" else text),
             model=self.name,
             input_tokens=usage.input_tokens,
             output_tokens=usage.output_tokens,
@@ -156,14 +157,6 @@ class Client:
             return _Failure(TransientError(f"{self.name}: the reply could not be read ({type(error).__name__})"))
         return _Failure(ModelError(f"{self.name}: the request failed ({type(error).__name__})"))
 
-    def failure_of(self, error: Exception) -> ModelError:
-        """Convert an error of the libraries to a ModelError that quotes nothing of the request."""
-        from pydantic_ai.exceptions import ModelHTTPError
-
-        if isinstance(error, ModelHTTPError):
-            return ModelError(f"{self.name}: HTTP {error.status_code}")
-        return self._failure(error, Request("", "", "", (), {})).error
-
     def _http_failure(self, error: ModelHTTPError, request: Request) -> _Failure:
         from pydantic_ai.exceptions import ModelQuotaExceededError
 
@@ -172,7 +165,7 @@ class Client:
         if status in (401, 403):  # its message is about the key, and often contains parts of it
             message += f", the key in {' or '.join(names)} is missing or refused"
             return _Failure(ModelError(message), status)
-        if words := redact(_words(error.body), request, _keys()):
+        if words := _redacted(_words(error.body), request, _keys()):
             message += f", it says: {words}"
         passing = status in (408, 425, 429) or status >= 500
         if passing and not isinstance(error, ModelQuotaExceededError):
@@ -185,14 +178,14 @@ def _keys() -> list[str]:
     return [value for group in KEYS.values() for n in group if (value := os.environ.get(n, "").strip())]
 
 
-def without_keys(text: str) -> str:
+def _without_keys(text: str) -> str:
     """Remove keys from an answer before it is stored, since a server may repeat the key that it received."""
     for key in (k for k in _keys() if len(k) >= 8):  # shorter values are not keys, and may be words
         text = text.replace(key, "[removed]")
     return text
 
 
-def in_thread(work: Callable[[], Coroutine[Any, Any, T]]) -> T:
+def _in_thread(work: Callable[[], Coroutine[Any, Any, T]]) -> T:
     """Run a coroutine in its own event loop, since the caller may be in a running one, as in a notebook.
 
     The thread is a daemon, so that Ctrl-C ends the program without waiting for the service.
@@ -217,3 +210,18 @@ def _words(body: object) -> str:
         inner = body.get("error", body)
         body = inner.get("message", "") if isinstance(inner, dict) else inner
     return body if isinstance(body, str) else ""
+
+
+def _redacted(words: str, request: Request, secrets: Iterable[str]) -> str:
+    """Return the message as one short line, or "" if it quotes the request.
+
+    Given secrets, and everything that looks like a key or like data, are replaced.
+    """
+    line = " ".join(words.split())
+    for secret in secrets:
+        line = line.replace(secret, "[removed]")
+    line = SECRET.sub("[removed]", line)[:MAX_QUOTE]
+    sent = [request.system, request.text, json.dumps(request.schema), *(p.caption for p in request.pictures)]
+    sent = [" ".join(text.split()) for text in sent]
+    quotes = any(line[k : k + RUN] in text for k in range(max(0, len(line) - RUN + 1)) for text in sent)
+    return "" if quotes else line

@@ -7,7 +7,6 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from threading import Lock
-from typing import Protocol, runtime_checkable
 
 from anymesh.errors import OptionError
 from anymesh.prompted.models.budget import max_input_tokens
@@ -37,21 +36,8 @@ class Rate:
         return fits and (self.requests is None or requests < self.requests)
 
 
-@runtime_checkable
-class Limiter(Protocol):
-    """Protocol of a counter of requests and tokens of the last minute, shared by threads or by processes."""
-
-    def acquire(self, tokens: int) -> int:
-        """Wait until a request of this many tokens may be sent; return the number of its entry."""
-        ...
-
-    def correct(self, entry: int, tokens: int) -> None:
-        """Replace the estimate of an entry by the tokens that were billed."""
-        ...
-
-
-class WindowLimiter:
-    """Limiter of one process: holds the entries of the last 60 s."""
+class Limiter:
+    """Counter of the requests and tokens of the last minute, shared by the threads of a process."""
 
     def __init__(
         self, rate: Rate, *, clock: Callable[[], float] = time.monotonic, sleep: Callable[[float], None] = time.sleep

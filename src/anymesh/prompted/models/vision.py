@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
 from anymesh.types.exchange import Picture
+
+FORMAT = "anymesh-answer-1"  # part of the key; change it when the contents of requests change, to invalidate old answers
 
 
 @dataclass(frozen=True)
@@ -41,3 +45,13 @@ class VisionModel(Protocol):
     name: str
 
     def ask(self, request: Request) -> Reply: ...
+
+
+def request_key(model_name: str, request: Request) -> str:
+    """Compute the SHA-256 of everything that affects the answer: model, texts, schema, pictures and token limit.
+
+    The kind of the question is not included, since it is for readers only.
+    """
+    pictures = [[picture.caption, hashlib.sha256(picture.png).hexdigest()] for picture in request.pictures]
+    parts = [FORMAT, model_name, request.system, request.text, request.schema, pictures, request.max_tokens]
+    return hashlib.sha256(json.dumps(parts, sort_keys=True, default=dict).encode()).hexdigest()
