@@ -5,7 +5,7 @@ import pytest
 from assets import box
 from made import X, Z, context_of, turn
 
-from anymesh.articulation.adjacent_panels import adjacent_sides, outer_side, pair_side
+from anymesh.articulation.motion_features import adjacent_sides, outer_side, pair_side
 from anymesh.motion.part_context import PartContext
 
 CASE = [box((0, 0, 0), (1.8, 0.4, 0.8))]

@@ -12,8 +12,7 @@ from known import KNOWN, QUICK, ready, the_case
 from made import EDGE, PULL, X, Y, Z, slide, turn
 from scenes import door, prism
 
-from anymesh.articulation.estimate import motion_questions
-from anymesh.articulation.freedom import stays_free
+from anymesh.articulation.estimate import motion_questions, stays_free
 from anymesh.config import Config, PromptConfig
 from anymesh.prompted.motions.cases import PartCase, labels_by_name, make_cases, relabelled, unlabelled
 from anymesh.prompted.motions.joints import _joint, as_answered, normal_outwards

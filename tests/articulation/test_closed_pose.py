@@ -5,8 +5,7 @@ from assets import box
 from scenes import Piece, Scene, drawer
 from test_limits import DEG, LID, OUT, Y, open_lid, swept
 
-from anymesh.articulation.closed_pose import away_from_closed, closing_angle, closing_travel
-from anymesh.articulation.limits import limits
+from anymesh.articulation.limits import away_from_closed, closing_angle, closing_travel, limits
 from anymesh.types import JointType
 
 

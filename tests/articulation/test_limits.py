@@ -9,9 +9,8 @@ from assets import box
 from known import the_case
 from scenes import Scene, door, drawer
 
-from anymesh.articulation.closed_pose import ends_near
 from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.limits import answered_range, limits, opening_as_answered
+from anymesh.articulation.limits import answered_range, ends_near, limits, opening_as_answered
 from anymesh.articulation.motion_question import Candidate
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion

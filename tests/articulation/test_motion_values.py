@@ -16,11 +16,9 @@ from scenes import door, drawer, lid, wheel
 from test_motion_features import LEFT_EDGE, OUT, features
 from trimesh.creation import cylinder
 
-from anymesh.articulation.adjacent_panels import adjacent_sides
-from anymesh.articulation.barrels import find_barrel_candidates
-from anymesh.articulation.contact_metrics import contact_points, contact_retention, hinge_support
-from anymesh.articulation.line_features import line_features
-from anymesh.articulation.motion_features import MISSING
+from anymesh.articulation.evidence import contact_points, contact_retention, hinge_support
+from anymesh.articulation.motion_features import MISSING, adjacent_sides, line_features
+from anymesh.articulation.part_contexts import find_barrel_candidates
 from anymesh.segmentation.divide import object_shape
 
 DIAGONAL = np.sqrt(0.6**2 + 0.47**2 + 0.8**2)  # [m] of the case with the door and its handle

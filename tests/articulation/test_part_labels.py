@@ -5,7 +5,7 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.articulation.estimate import choose_motion, motion_questions
-from anymesh.articulation.part_labels import label_of
+from anymesh.articulation.rank_motions import label_of
 from anymesh.config import Config
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Part, Segmentation

@@ -17,10 +17,9 @@ from anymesh.articulation.estimate import choose_motion, estimate_joint, joint_o
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import barrels, contact_axes, propose, two_pivot_line
 from anymesh.articulation.motion_question import MotionQuestion, PartFacts
-from anymesh.articulation.part_labels import label_of
-from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE
+from anymesh.articulation.part_contexts import parents
+from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE, label_of
 from anymesh.articulation.repeated_parts import in_a_row, same_size
-from anymesh.articulation.tree import parents
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.lines import pivots
 from anymesh.types import JointType

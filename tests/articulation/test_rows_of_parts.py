@@ -15,9 +15,8 @@ from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import limits
 from anymesh.articulation.motion_features import MISSING, motion_features
 from anymesh.articulation.motion_question import ProposedMotion
-from anymesh.articulation.part_contexts import part_context
+from anymesh.articulation.part_contexts import descendants, part_context
 from anymesh.articulation.repeated_parts import ScoredMotions, in_one_manner, share_opening_directions
-from anymesh.articulation.tree import descendants
 from anymesh.config import ArticulationConfig
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.offers import MovedPoints

@@ -13,7 +13,7 @@ from scenes import case
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import answered_range, limits, opening_as_answered, pressed
 from anymesh.articulation.motion_question import Candidate
-from anymesh.articulation.part_labels import label_of
+from anymesh.articulation.rank_motions import label_of
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 from anymesh.types.motion import RecognizedLabel

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from known import QUICK, ready
 from scenes import Scene, built, door, drawer, joints_of
 
-from anymesh.articulation.tree import descendants, parents
+from anymesh.articulation.part_contexts import descendants, parents
 from anymesh.prompted.motions.cases import make_cases
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType

@@ -10,7 +10,7 @@ import trimesh
 from assets import CABINET, box, mesh_of
 from geometry.rigid import apply, move, shape_of
 
-from anymesh.articulation.barrels import find_barrel_candidates
+from anymesh.articulation.part_contexts import find_barrel_candidates
 from anymesh.config import ArticulationConfig
 from anymesh.geometry.triangle_set import body_obb, sample_surface
 from anymesh.motion.part_context import CONTACT_REACHES, MAX_SURFACE_POINTS, MIN_LEAD, PartContext, best_direction

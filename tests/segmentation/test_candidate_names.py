@@ -5,10 +5,9 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.config import Config, SegmentationConfig
-from anymesh.segmentation.candidate_names import NAME_SCORE, NameClass, name_class, shared_name
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.part_candidates import PartCandidates
+from anymesh.segmentation.part_candidates import NAME_SCORE, NameClass, PartCandidates, name_class, shared_name
 
 
 def test_names_that_begin_alike_are_one_part() -> None:

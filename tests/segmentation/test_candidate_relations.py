@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from anymesh.segmentation.candidate_relations import relations
 from anymesh.segmentation.part_candidates import Overlap
+from anymesh.segmentation.part_classifier import relations
 
 NAMES = (
     "iou", "inside", "around", "crosses", "contact", "contact of the other", "touches", "clearance", "copy", "copy in a row",

@@ -13,13 +13,19 @@ from test_panels import FRONT, bar, front_boxes, panels, solid
 
 from anymesh.config import Config, SegmentationConfig
 from anymesh.segmentation import segment
-from anymesh.segmentation.candidate_names import NAME_SCORE, NameClass, name_class, shared_name
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.merge_tree import merged_groups
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import MIN_PART_PROBABILITY
-from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
+from anymesh.segmentation.part_candidates import (
+    NAME_SCORE,
+    NameClass,
+    PartCandidates,
+    merged_groups,
+    name_class,
+    part_candidates,
+    shared_name,
+)
 from anymesh.segmentation.part_classifier import Reasons
 from anymesh.types import Mesh, Node, Segmentation
 

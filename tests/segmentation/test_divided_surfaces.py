@@ -13,10 +13,9 @@ from anymesh.config import PatchConfig
 from anymesh.geometry.surface import mesh_surface
 from anymesh.segmentation import divide
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.handles import SurfaceHandle, aligned, find_handles
-from anymesh.segmentation.layout import tile
+from anymesh.segmentation.handles import SurfaceHandle, aligned, find_handles, is_main_component, region_sizes
+from anymesh.segmentation.panels import tile
 from anymesh.segmentation.part_candidates import Overlap
-from anymesh.segmentation.surface_regions import is_main_component, region_sizes
 from anymesh.types import Mesh, Node
 
 CONFIG = PatchConfig()

@@ -14,7 +14,7 @@ from trimesh.creation import cylinder
 
 from anymesh.config import ArticulationConfig, SegmentationConfig
 from anymesh.motion.part_context import PartContext
-from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, on_axis, touching, two_pivots
+from anymesh.segmentation.part_features import enclosed_share, fit_of_rim, on_axis, touching, two_pivots
 from anymesh.types import Material, Mesh
 
 CONFIG = SegmentationConfig()

@@ -9,7 +9,7 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.errors import OptionError
-from anymesh.segmentation.given import parts_from_file, parts_from_nodes
+from anymesh.segmentation.naming import parts_from_file, parts_from_nodes
 from anymesh.types import Mesh, Node
 
 SMALL, LARGE, MIDDLE = box((0, 0, 0), (1, 1, 1)), box((0, 0, 0), (5, 5, 5)), box((0, 0, 0), (2, 2, 2))

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from anymesh.segmentation.layout import PanelRectangle, filled, tile
+from anymesh.segmentation.panels import PanelRectangle, filled, tile
 
 LOW, HIGH = np.zeros(2), np.array([1.0, 1.0])
 BAR, KNOB = 0.06, 0.01  # half lengths

@@ -7,7 +7,7 @@ import pytest
 from assets import box
 from test_fit_of_candidates import AREA, CONFIG, DIAGONAL, context, door, framed
 
-from anymesh.segmentation.part_freedom import blocked_shares, exposure, points_behind, space_behind
+from anymesh.segmentation.part_features import blocked_shares, exposure, points_behind, space_behind
 
 TILE = box((0, 0, 0), (0.4, 0.4, 0.1))
 FLOOR = box((-1, -1, -0.1), (1.4, 1.4, 0))

@@ -13,8 +13,7 @@ from anymesh.geometry.patches import ObjectShape
 from anymesh.segmentation.contacts import Contacts, find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_assignment import join_floating
-from anymesh.segmentation.part_candidates import part_candidates
-from anymesh.segmentation.patch_names import named_groups
+from anymesh.segmentation.part_candidates import named_groups, part_candidates
 from anymesh.types import Material, Mesh, Node
 
 BLOCK = box((0, 0, 0), (1, 1, 1))

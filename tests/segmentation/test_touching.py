@@ -10,9 +10,8 @@ from scipy.spatial.distance import cdist
 from anymesh.config import SegmentationConfig
 from anymesh.motion.part_context import connecting_area
 from anymesh.runtime import Deadline
-from anymesh.segmentation.contacts import Contacts, dominated_by, find_contacts
+from anymesh.segmentation.contacts import PROBES, Contacts, area_in_contact, dominated_by, find_contacts, gap_within
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.patch_gaps import PROBES, area_in_contact, gap_within
 
 BLOCK = box((0, 0, 0), (1, 1, 1))
 

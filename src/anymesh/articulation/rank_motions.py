@@ -1,4 +1,4 @@
-"""Rank the candidate motions of a part by the learned score and by its label."""
+"""Rank the candidate motions of a part by the learned score and by its label, or label the part by its motion."""
 
 from __future__ import annotations
 
@@ -8,8 +8,9 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.articulation.motion_classifier import shipped_classifier
-from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts
-from anymesh.config import SAME_AXIS_COSINE
+from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts, SlideDirection
+from anymesh.config import FACING_COSINE, LEVEL_COSINE, SAME_AXIS_COSINE
+from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType
 from anymesh.vocabulary import typical_motion
 
@@ -22,6 +23,10 @@ LABEL_PRIOR = {  # [log-odds] added by a label to a hinge, to a rotation about t
     JointType.PRISMATIC: (-2.0, -2.5, 2.0),
     JointType.CONTINUOUS: (-1.5, 2.5, -2.0),
 }
+MIN_LARGE_RATIO = 0.15  # of the object's diagonal: a smaller part that slides in is a button, one that spins is a knob
+MIN_DRAWER_TRAVEL_RATIO = 0.1  # of its size: a slide with less travel is not labelled as a drawer
+# of its height: a part with a level hinge that rises higher than this above its parent is a lid modelled open
+MIN_OPEN_LID_RISE_RATIO = 0.5
 
 
 def rank_motions(question: MotionQuestion) -> MotionAnswer:
@@ -116,3 +121,26 @@ def reason(c: Candidate) -> str:
 
 def _centimetres(length: float) -> str:
     return f"{100 * length:.0f} cm" if length >= 0.1 else f"{100 * length:.1f} cm"
+
+
+def label_of(context: PartContext, best: Candidate) -> str:
+    """Return drawer, button, slider, knob, wheel, handle, lid or door, or "" for a part that hardly moves.
+
+    best: the motion of the part.
+    """
+    size = context.part.box.diagonal / context.diagonal
+    if best.motion.kind is JointType.PRISMATIC:
+        if best.slide_direction is SlideDirection.ALONG_SURFACE:
+            return "slider"
+        if size <= MIN_LARGE_RATIO and best.outward < 0:
+            return "button"
+        return (
+            "drawer" if best.opening * context.tolerance_length >= MIN_DRAWER_TRAVEL_RATIO * context.part.box.diagonal else ""
+        )
+    if best.role == "round":
+        return "knob" if size < MIN_LARGE_RATIO else "wheel"
+    if best.role == "two_pivot":
+        return "handle" if context.part.slender else "lid"  # a plate on two pivots is the lid of a laptop
+    low, high = context.part.bounds[:, 2]
+    raised = best.vertical < FACING_COSINE and high - context.parent.bounds[1, 2] > MIN_OPEN_LID_RISE_RATIO * (high - low)
+    return "lid" if context.opening_direction[2] > LEVEL_COSINE or raised else "door"

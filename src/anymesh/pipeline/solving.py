@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Bool
 
 from anymesh.articulation.estimate import PartMotions, choose_motion, estimate_joints, motion_questions, with_labels_of
-from anymesh.articulation.part_labels import label_of
+from anymesh.articulation.rank_motions import label_of
 from anymesh.config import Config
 from anymesh.entry_points import PROMPTED_STAGES, resolve
 from anymesh.geometry.boxes import straight_mesh, turned_back
@@ -22,7 +22,7 @@ from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.runtime import Deadline, Progress, silent
 from anymesh.segmentation.divide import divide_surface, object_shape
-from anymesh.segmentation.given import GIVEN, parts_from_file, parts_from_nodes
+from anymesh.segmentation.naming import GIVEN, parts_from_file, parts_from_nodes
 from anymesh.segmentation.segment import segment_parts
 from anymesh.types import Joint, JointType, Mesh, Segmentation
 from anymesh.types.motion import Recognition

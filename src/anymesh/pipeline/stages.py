@@ -19,7 +19,7 @@ from anymesh.pipeline.solving import Solver
 from anymesh.pipeline.stage_files import JOINTS, MESH, RECOGNITION, SEGMENTATION, Stage, stage_key
 from anymesh.rendering.preview import write_legend, write_preview
 from anymesh.runtime import PREVIEW, Deadline, Progress, cache_folder
-from anymesh.segmentation.given import GIVEN
+from anymesh.segmentation.naming import GIVEN
 from anymesh.types import Asset, Mesh, Source
 
 Result = TypeVar("Result")

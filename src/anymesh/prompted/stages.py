@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cached_property, partial
 
-from anymesh.articulation.freedom import stays_free
+from anymesh.articulation.estimate import stays_free
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.pipeline.solving import GeometryStages
 from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer, reference_of

@@ -8,17 +8,80 @@ from functools import cached_property
 
 import numpy as np
 from jaxtyping import Float, Float32, Int
+from networkx import DiGraph, immediate_dominators
+from scipy.spatial.distance import cdist
 
 from anymesh.config import SegmentationConfig
-from anymesh.geometry.boxes import box_pairs
+from anymesh.geometry.boxes import box_pairs, within
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import label_connected
-from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.geometry.triangle_set import TriangleSet, spread_points
 from anymesh.runtime import CONTACTS, Deadline
-from anymesh.segmentation.dominators import NONE, immediate_dominators
-from anymesh.segmentation.patch_gaps import area_in_contact, crosses, gap_within
+from anymesh.types.triangles import meet_box, normals_and_areas, quartered
 
+PROBES = 160  # sample points per patch for the distance to another patch
+COARSE = 6  # every how many of these points are measured first
+AREA_POINTS = 500  # sample points of a patch near another one, for the area in contact
+MAX_DIVIDED = 2000  # triangles of a patch, up to which those near another patch are divided until they are as small as it
+ROUNDING = 1e-9  # of the reach: tolerance of bounds of distances
 MAX_CLEARANCE_FACTOR = 2.0  # neighbours of a set of touching patches lie within this many times its smallest clearance
+
+
+def gap_within(a: TriangleSet, b: TriangleSet, reach: float, enough: float = 0.0) -> float:
+    """Return the smallest distance from a to b [m], from a's corners and samples within reach of b's box.
+
+    A result below `enough` or from `reach` on is an upper bound of the smallest distance.
+
+    Every sixth point is measured first. The distance of another point differs by at most its distance to that point, and those
+    that cannot be the closest are not measured.
+    """
+    low, high = b.bounds[0] - reach, b.bounds[1] + reach
+    points = [p[within(p, low, high)] for p in (a.corners, a.samples.points)]
+    points = [p[:: max(1, len(p) // PROBES)] for p in points]
+    probe = np.concatenate(points)
+    if len(probe) == 0:
+        return np.inf
+    rough = probe[::COARSE]
+    distance = b.tree.distance(rough)
+    gap = float(distance.min())
+    if gap < enough:
+        return gap
+    bound = (distance - cdist(probe, rough)).max(1)
+    bound[::COARSE] = np.inf
+    closer = probe[bound < min(gap, reach) + ROUNDING * reach]
+    return min(gap, float(b.tree.distance(closer).min())) if len(closer) else gap
+
+
+def crosses(a: TriangleSet, b: TriangleSet) -> bool:
+    """Return whether edges of one shape pass through faces of the other."""
+    for one, other in ((a, b), (b, a)):
+        start = one.triangles.reshape(-1, 3)
+        span = one.triangles[:, [1, 2, 0]].reshape(-1, 3) - start
+        step = max(1, len(start) // 3000)
+        start, span = start[::step], span[::step]
+        face = other.scene.first_hit(start, span, 1.0).face
+        hit = np.flatnonzero(face >= 0)
+        if len(hit) == 0:
+            continue
+        slope = np.abs(np.einsum("ij,ij->i", span[hit], other.normals[face[hit]]))
+        # a ray in the plane of a face gives no reliable hit
+        if (slope > 0.02 * np.linalg.norm(span[hit], axis=1)).any():
+            return True
+    return False
+
+
+def area_in_contact(a: TriangleSet, b: TriangleSet, tolerance: float) -> float:
+    """Return the area of a within the tolerance of b [m^2], from samples of a near b."""
+    low, high = b.bounds[0] - tolerance, b.bounds[1] + tolerance
+    triangles = a.triangles[meet_box(a.triangles, low, high)]
+    areas = normals_and_areas(triangles)[1]
+    while 0 < len(triangles) <= MAX_DIVIDED and areas.sum() > b.area:
+        parts = quartered(triangles)
+        triangles = parts[meet_box(parts, low, high)]
+        areas = normals_and_areas(triangles)[1]
+    points, _ = spread_points(triangles, areas, AREA_POINTS, a.seed)
+    gap = b.tree.distance(points[within(points, low, high)])
+    return float(areas.sum()) * float((gap < tolerance).sum()) / max(len(points), 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -155,11 +218,12 @@ def dominated_by(contacts: Contacts, group: Int[np.ndarray, " P"], root: int) ->
     pairs = np.unique(np.concatenate([pairs, pairs[:, ::-1]])[np.tile(pairs[:, 0] != pairs[:, 1], 2)], axis=0)
     island = label_connected(count, pairs)
     alone = np.flatnonzero(island != island[root])  # without neighbours, a component depends on the root
-    successors = [part.tolist() for part in np.split(pairs[:, 1], np.searchsorted(pairs[:, 0], np.arange(1, count)))]
-    successors[root] += alone.tolist()
+    graph = DiGraph(pairs.tolist())
+    graph.add_edges_from((root, node) for node in alone.tolist())
+    graph.add_node(root)
     children: list[list[int]] = [[] for _ in range(count)]
-    for node, dominator in enumerate(immediate_dominators(successors, root)):
-        if dominator != NONE:
+    for node, dominator in sorted(immediate_dominators(graph, root).items()):
+        if node != root:
             children[dominator].append(node)
     dominated: dict[int, list[int]] = {}
     for node in range(count):

@@ -13,8 +13,8 @@ from anymesh.geometry.patches import DividedSurface, ObjectShape
 from anymesh.geometry.surface import MeshSurface, mesh_surface
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import spread_points
+from anymesh.segmentation.handles import region_sizes
 from anymesh.segmentation.panels import split_panels
-from anymesh.segmentation.surface_regions import region_sizes
 from anymesh.types import Mesh
 from anymesh.types.triangles import boxes_meet
 

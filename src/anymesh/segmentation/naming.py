@@ -1,14 +1,23 @@
-"""Name the parts of labelled faces."""
+"""Name the parts of labelled faces: those found, the scene's nodes, or a file of labels (as in the paper's tables)."""
 
 from __future__ import annotations
 
+import io
+import json
 from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float, Int
 
+from anymesh.errors import InputError, OptionError
 from anymesh.names import legal_names
-from anymesh.types import Part, Segmentation
+from anymesh.types import Mesh, Part, Segmentation
+from anymesh.vocabulary import recognize
+
+GIVEN = "given"
+NPY, ZIP = b"\x93NUMPY", b"PK"  # first bytes of a file of the format
 
 
 def named_parts(
@@ -37,3 +46,94 @@ def named_parts(
     parts = [Part("base", "base", 1.0, "everything that is not a movable part")]
     parts += [Part(name, labels[k - 1], confidence[k - 1], reason[k - 1]) for name, k in zip(names[1:], present, strict=True)]
     return Segmentation(renumber[face_part], tuple(parts))
+
+
+def parts_from_nodes(mesh: Mesh) -> Segmentation:
+    """Return the scene's nodes as parts; the root is the node named "base", else the one with the largest box."""
+    present = np.unique(mesh.face_node)
+    names = [mesh.nodes[n].name for n in present]
+    return _segmentation(mesh, np.searchsorted(present, mesh.face_node), names)
+
+
+def parts_from_file(mesh: Mesh, path: Path) -> Segmentation:
+    """Read face labels in the file's face order.
+
+    The file is a .npy array of F integers, or a .json file with a list or {"names": [...], "faces": [...]}.
+    Raise OptionError if the file cannot be read as labels of this mesh.
+    """
+    labels, names = _read(path)
+    if labels.shape != (len(mesh.faces),) or not np.issubdtype(labels.dtype, np.integer):
+        raise OptionError(
+            f"--parts: found labels of shape {labels.shape} and type {labels.dtype} in {path.name}; "
+            f"valid is one integer for each of the mesh's {len(mesh.faces)} faces"
+        )
+    present, index = np.unique(labels, return_inverse=True)
+    if present.min() < 0:
+        raise OptionError(f"--parts: found the label {present.min()} in {path.name}; valid are integers from 0 up")
+    if names is not None and (not isinstance(names, list) or present.max() >= len(names)):
+        raise OptionError(f"--parts: names in {path.name} do not cover the labels {present.min()}..{present.max()}")
+    part_names = [str(names[k]) if names is not None else ("base" if k == 0 else f"part_{k}") for k in present]
+    return _segmentation(mesh, index.reshape(-1), part_names)
+
+
+def _read(path: Path) -> tuple[np.ndarray, Any]:
+    """Return the labels in a file, unchecked, and the names if it has any.
+
+    Raise OptionError if the file cannot be read.
+    """
+    try:
+        data = path.read_bytes() if path.is_file() else None
+    except OSError as error:
+        raise OptionError(f"--parts: {path.name} cannot be opened: {error.strerror}") from None
+    if data is None:
+        raise OptionError(f"--parts: found no file {path}; valid are auto, nodes, or a .npy or .json file of face labels")
+    suffix = path.suffix.lower()
+    if suffix not in (".npy", ".json"):
+        raise OptionError(f"--parts: found a {suffix or 'nameless'} file; valid are .npy and .json")
+    return (_npy(path.name, data), None) if suffix == ".npy" else _json(path.name, data)
+
+
+def _npy(name: str, data: bytes) -> np.ndarray:
+    content = "a broken array, or one of objects"
+    if not data.startswith(NPY):
+        content = "a ZIP archive (an .npz?)" if data.startswith(ZIP) else "another format" if data else "an empty file"
+    try:
+        return np.lib.format.read_array(io.BytesIO(data), allow_pickle=False)
+    except Exception:  # a broken header raises errors of many types, including those of the tokenizer
+        raise OptionError(f"--parts: found {content} in {name}; valid is one .npy array of integers") from None
+
+
+def _json(name: str, data: bytes) -> tuple[np.ndarray, Any]:
+    valid = 'valid is a list of integers, or {"names": [...], "faces": [...]}'
+    try:
+        record = json.loads(data)  # from bytes, for any Unicode encoding, with or without a byte order mark
+    except RecursionError:
+        raise OptionError(f"--parts: found lists nested too deep in {name}; {valid}") from None
+    except ValueError as error:
+        raise OptionError(f"--parts: found {'no JSON' if data else 'an empty file'} in {name} ({error}); {valid}") from None
+    names = record.get("names") if isinstance(record, dict) else None
+    if isinstance(record, dict) and "faces" not in record:
+        raise OptionError(f'--parts: found no "faces" in {name}; {valid}')
+    try:
+        return np.asarray(record["faces"] if isinstance(record, dict) else record), names
+    except (ValueError, OverflowError, RecursionError):
+        raise OptionError(f"--parts: found lists of unequal length or depth in {name}; {valid}") from None
+
+
+def _segmentation(mesh: Mesh, label: np.ndarray, names: list[str]) -> Segmentation:
+    """Renumber the parts so that the root is part 0."""
+    if len(names) == 0:
+        raise InputError("the mesh has no nodes with faces")
+    root = next((k for k, name in enumerate(names) if name.lower() == "base"), None)
+    if root is None:
+        size = [float(np.linalg.norm(np.ptp(mesh.triangles[label == k].reshape(-1, 3), axis=0))) for k in range(len(names))]
+        root = int(np.argmax(size))
+    order = [root, *(k for k in range(len(names)) if k != root)]
+    number = np.empty(len(order), np.int64)
+    number[order] = np.arange(len(order))
+    legal = legal_names([names[k] for k in order])
+    parts = []
+    for k, name in zip(order, legal, strict=True):
+        word = recognize(names[k])
+        parts.append(Part(name, "base" if k == root else word.label if word else "part", 1.0, GIVEN))
+    return Segmentation(number[label], tuple(parts))

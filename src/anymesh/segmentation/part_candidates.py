@@ -7,25 +7,108 @@ of the contacts). Candidates overlap. `part_assignment.py` decides for all at on
 
 from __future__ import annotations
 
+import heapq
 import itertools
 from collections.abc import Iterable
 from dataclasses import dataclass
+from enum import IntEnum
 from functools import cached_property
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Int
 
 from anymesh.config import SAME_SIZE
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.triangle_set import principal_spread, surface_moments
 from anymesh.segmentation.contacts import Contacts, dominated_by
-from anymesh.segmentation.merge_tree import merged_groups
-from anymesh.segmentation.patch_names import named_groups
 from anymesh.types import Mesh
+from anymesh.vocabulary import is_fixed_name, recognize, words_of
 
+MIN_AREA_RATIO = 1e-12  # of the surface: area of patches without area, and contact of pairs that have none
 BASES = 3  # number of the largest patches that may be the base
 MIN_NESTED_SHARE = 0.98  # minimum shared part of the smaller candidate for it to lie within the larger one
 MAX_DISJOINT_SHARE = 1e-3  # maximum shared part of the smaller candidate for two candidates to be disjoint
+
+
+def named_groups(mesh: Mesh, whole: ObjectShape) -> tuple[Int[np.ndarray, " P"], tuple[str, ...]]:
+    """Return the number of the group of each patch, from 0, and the recognized name of each patch, or "".
+
+    The patches of a node with a recognized name are one group, all others are groups of their own. The material
+    of most of the surface names nothing.
+    """
+    faces = np.split(np.argsort(whole.mesh_patch, kind="stable"), np.cumsum(np.bincount(whole.mesh_patch))[:-1])
+    names, key = [""] * len(faces), np.arange(len(faces))
+    common = int(np.bincount(mesh.face_material + 1, mesh.face_areas).argmax()) - 1
+    for p, mine in enumerate(faces):
+        node, material = _most_frequent(mesh.face_node[mine]), _most_frequent(mesh.face_material[mine])
+        name = mesh.nodes[node].name
+        if recognize(name) is not None or is_fixed_name(name):
+            names[p], key[p] = name, len(faces) + node
+        elif material not in (-1, common) and recognize(mesh.materials[material].name) is not None:
+            names[p] = mesh.materials[material].name  # a material names a patch, but does not show that patches move together
+    return np.unique(key, return_inverse=True)[1].reshape(-1), tuple(names)
+
+
+def _most_frequent(numbers: Int[np.ndarray, " n"]) -> int:
+    """Return the most frequent number; -1 stands for none."""
+    return int(np.bincount(numbers + 1).argmax()) - 1
+
+
+def merged_groups(contacts: Contacts, group: Int[np.ndarray, " P"]) -> list[list[int]]:
+    """Merge neighbours until one group is left; return all groups that are merged.
+
+    group: the number of the group that each patch begins in, from 0.
+
+    The pair whose smaller group shares the largest part of its contact with the other merges first. Small groups merge before
+    large ones, since this share is divided by the geometric mean of both areas. Pairs with a clearance merge after those that
+    touch.
+    """
+    least = MIN_AREA_RATIO * float(contacts.patch_area.sum())
+    area = np.maximum(np.bincount(group, contacts.patch_area), least)
+    area = dict(enumerate(area / area.sum()))
+    contact: dict[int, dict[int, float]] = {}
+    near = {(i, j): 0.0 for pair in contacts.near.tolist() for i, j in (pair, pair[::-1])}
+    for (i, j), amount in sorted((near | contacts.area).items()):
+        a, b = int(group[i]), int(group[j])
+        if a != b:
+            for x, y in ((a, b), (b, a)):
+                row = contact.setdefault(x, {})
+                row[y] = row.get(y, 0.0) + max(amount, least)
+    members = {k: [k] for k in area}
+
+    def strength(i: int, j: int) -> float:
+        small = min((area[i], i), (area[j], j))[1]
+        return contact[i][j] / sum(contact[small].values()) / float(np.sqrt(area[i] * area[j]))
+
+    queue = [(-strength(i, j), i, j) for i in sorted(contact) for j in sorted(contact[i]) if i < j]
+    heapq.heapify(queue)
+    merged, alive = [], set(area)
+    while queue:
+        _, i, j = heapq.heappop(queue)
+        if i not in alive or j not in alive:
+            continue
+        new = len(members)
+        members[new], area[new] = members[i] + members[j], area[i] + area[j]
+        alive -= {i, j}
+        alive.add(new)
+        merged.append(members[new])
+        contact[new] = _joined(contact, i, j)
+        for other, amount in contact[new].items():
+            contact[other].pop(i, None)
+            contact[other].pop(j, None)
+            contact[other][new] = amount
+        for other in sorted(contact[new]):
+            heapq.heappush(queue, (-strength(other, new), other, new))
+    return merged
+
+
+def _joined(contact: dict[int, dict[int, float]], i: int, j: int) -> dict[int, float]:
+    row: dict[int, float] = {}
+    for one in (i, j):
+        for other, amount in contact[one].items():
+            if other not in (i, j):
+                row[other] = row.get(other, 0.0) + amount
+    return row
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,3 +219,34 @@ def _largest(
 def _bounds(patches: Float[np.ndarray, "P 2 3"], members: Bool[np.ndarray, " P"]) -> Float[np.ndarray, "2 3"]:
     mine = patches[members]
     return np.array([mine[:, 0].min(0), mine[:, 1].max(0)])
+
+
+class NameClass(IntEnum):
+    """Classes of the names of candidates."""
+
+    NONE = 0  # no name, or an unknown one
+    MOVABLE = 1
+    FIXED = 2
+    HANDLE = 3  # moves on its own or with the part that it is attached to
+
+
+# [log-odds] added to the score for the class of a name
+NAME_SCORE = {NameClass.NONE: 0.0, NameClass.MOVABLE: 5.0, NameClass.FIXED: -6.0, NameClass.HANDLE: 0.3}
+
+
+def name_class(name: str) -> NameClass:
+    """Return the class of a name."""
+    word = recognize(name)
+    if word is None:
+        return NameClass.FIXED if is_fixed_name(name) else NameClass.NONE
+    return NameClass.HANDLE if word.label == "handle" else NameClass.MOVABLE
+
+
+def shared_name(candidates: PartCandidates, candidate: int) -> str:
+    """Return the recognized name shared by all patches of a candidate, or the words that all their names begin with."""
+    names = {candidates.names[p] for p in np.flatnonzero(candidates.members[candidate])}
+    if len(names) == 1:
+        return names.pop()
+    # the common prefix of the first and last name in order is common to all
+    first, *_, last = sorted(words_of(name) for name in names)
+    return " ".join(a for a, _ in itertools.takewhile(lambda pair: pair[0] == pair[1], zip(first, last, strict=False)))

@@ -6,18 +6,18 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 
 import numpy as np
-from jaxtyping import Bool, Float
+from jaxtyping import Bool, Float, Float32, Int
 
 from anymesh.scoring.classifier import Classifier, Note
-from anymesh.segmentation.candidate_relations import relations
-from anymesh.segmentation.part_candidates import PartCandidates
+from anymesh.segmentation.part_candidates import Overlap, PartCandidates
 
+IN_ROW_OFFSET = 0.04  # of half the object's diagonal: maximum offset of the centers of copies in one row
+SIZE_SCALE, MAX_SIZE = 4.0, 2.0  # the logarithm of a ratio of areas is divided by the first, up to the second
 Reasons = Callable[[Sequence[int]], list[str]]
 # [log-odds] added for a part that is cut out of a surface: the score grows with the IoU, and the border of a cut is not exact.
 # Chosen on kinds left out of training: a higher F1 on fused surfaces, and the same on other objects.
 CUT_SCORE = 0.5
 CUT = "parted by creases"  # the feature that is 1 for such a part
-
 NOTES: Mapping[str, Note] = {  # what a feature means to a user, from a least to a greatest value
     "separate": (1.0, 1.0, "hardly touches the rest"),
     "contact area": (0.0, 0.01, "hardly touches the rest"),
@@ -35,6 +35,36 @@ NOTES: Mapping[str, Note] = {  # what a feature means to a user, from a least to
     "log copies": (0.5, np.inf, "one of several alike"),
     "material of its own": (0.5, 1.0, "a material of its own"),
 }
+
+
+def relations(
+    overlap: Overlap,
+    members: Bool[np.ndarray, "n P"],
+    contact: Float[np.ndarray, "P P"],
+    near: Int[np.ndarray, "k 2"],
+    place: Float[np.ndarray, "n 12"],
+) -> Float32[np.ndarray, "n n r"]:
+    """Return features of each pair of candidates that do not change when the object is turned.
+
+    members: which patches each candidate has; contact: as `Contacts.area_matrix`; near: pairs of patches with a clearance;
+    place: as from `PartContext.place`.
+    """
+    apart, area = ~overlap.meet, np.maximum(overlap.area, 1e-300)
+    inside = overlap.nested & (area[:, None] <= area[None])
+    of = members.astype(np.float32)
+    touching = of @ contact @ of.T * apart
+    clearance = np.zeros(contact.shape, np.float32)
+    clearance[near[:, 0], near[:, 1]] = clearance[near[:, 1], near[:, 0]] = 1
+    copy = overlap.copies
+    center = place[:, :3]
+    row = (np.abs(center[None] - center[:, None]) < IN_ROW_OFFSET).sum(2) >= 2
+    share = np.minimum(touching / area[:, None], 1)
+    ratio = np.clip(np.log(area[None] / area[:, None]) / SIZE_SCALE, -MAX_SIZE, MAX_SIZE)
+    features = (
+        overlap.iou, inside, inside.T, overlap.meet & ~overlap.nested, share, share.T, touching > 0,
+        (of @ clearance @ of.T > 0) & apart, copy, copy & row, ratio, np.eye(len(area)),
+    )  # fmt: skip
+    return np.stack([np.asarray(f, np.float32) for f in features], 2)
 
 
 def score_parts(

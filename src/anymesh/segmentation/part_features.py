@@ -5,17 +5,171 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
-from anymesh.config import FACING_COSINE, Config
+from anymesh.config import ALONG_COSINE, FACING_COSINE, Config, SegmentationConfig
+from anymesh.motion.handle import outward_axis
 from anymesh.motion.part_context import MAX_LENGTH_RATIO, PartContext, shape_features
 from anymesh.segmentation.part_candidates import PartCandidates
-from anymesh.segmentation.part_fit import enclosed_share, fit_of_rim, on_axis, touching, two_pivots
-from anymesh.segmentation.part_freedom import blocked_shares, exposure, space_behind
 from anymesh.types import Mesh
 
+STRIDE = 8  # every how many samples of the part a ray is cast
+MIN_WAY = 0.03  # of the diagonal: minimum length of a way; otherwise it is as long as the part itself
+MIN_AHEAD_COSINE = 0.2  # minimum cosine between a normal and a direction for surface that is ahead in this direction
+BACK_RAYS = 9  # rays along each side of the back
+UP = np.array([0.0, 0.0, 1.0])
+RIM = 0.75  # samples beyond this share of the half extent belong to a rim
 AT_BORDER = 0.02  # of the diagonal: what is this close to a side of the object's bounds reaches it
 MIN_OFFSET = 0.1  # of the half extent: below this offset from the middle of the face, the side of a contact is chance
+
+
+def blocked_shares(context: PartContext, config: SegmentationConfig) -> dict[str, float]:
+    """Return the share of the part's surface that meets the rest when it moves by its own extent, along its box axes.
+
+    Surface that faces along the way counts, on sheets without an inside both sides.
+    """
+    points, touch = context.part.samples.points[::STRIDE], config.touch * context.diagonal
+    axes, extents, opening = context.body_obb.axes, 2 * context.body_obb.half, context.opening_direction
+    deep = extents[outward_axis(context.body_obb, opening)]
+    ways = [(opening, deep), (-opening, deep), *((sign * axes[k], extents[k]) for k in context.face_axes for sign in (1, -1))]
+    starts, rays = list[np.ndarray](), list[np.ndarray]()
+    for direction, extent in ways:
+        ahead = points[context.facing(direction)[::STRIDE] > MIN_AHEAD_COSINE]
+        # start slightly inside, since a ray that starts on a surface would miss it
+        starts.append(ahead - 2 * touch * direction)
+        rays.append(np.repeat((max(extent, MIN_WAY * context.diagonal) + 2 * touch) * direction[None], len(ahead), 0))
+    met = context.rest.scene.first_hit(np.concatenate(starts), np.concatenate(rays), 1.0).face >= 0
+    parts = np.split(met, np.cumsum([len(some) for some in starts])[:-1])
+    outward, inward, *sideways = (float(some.mean()) if len(some) > 1 else 0.0 for some in parts)
+    return {
+        "blocked outward": outward,
+        "blocked inward": inward,
+        "blocked sideways least": min(sideways),
+        "blocked sideways most": max(sideways),
+    }
+
+
+def exposure(context: PartContext, config: SegmentationConfig) -> dict[str, float]:
+    """Return which shares of the part's surface see the outside along their normal, face outward, and face up.
+
+    Open sheets count with either side.
+    """
+    samples, off = (
+        context.part.samples.take(np.arange(0, len(context.part.samples), STRIDE)),
+        2 * config.touch * context.diagonal,
+    )
+    sheet = ~context.part.solid[samples.faces]
+
+    def sees(points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
+        return context.rest.scene.first_hit(points + off * normals, 2 * context.diagonal * normals, 1.0).face < 0
+
+    exposed = sees(samples.points, samples.normals)
+    exposed[sheet] |= sees(samples.points[sheet], -samples.normals[sheet])
+    return {
+        "exposed": float(exposed.mean()),
+        "facing outward": float((context.facing(context.opening_direction) > FACING_COSINE).mean()),
+        "facing up": float((context.facing(UP) > ALONG_COSINE).mean()),
+    }
+
+
+def space_behind(context: PartContext) -> dict[str, float]:
+    """Return what is behind the part's back.
+
+    "space behind": median distance to it relative to the diagonal, which also stands for nothing; "nothing behind": share with
+    nothing behind; "open behind": share with an opening, free for three thicknesses and at least MIN_WAY.
+    """
+    points, direction = points_behind(context, BACK_RAYS), context.opening_direction
+    hits = context.rest.scene.first_hit(points, np.repeat(-context.diagonal * direction[None], len(points), 0), 1.0)
+    nothing, face = hits.face < 0, np.maximum(hits.face, 0)
+    inside = ~nothing & context.rest.solid[face] & (context.rest.normals[face] @ direction < 0)
+    thick = 2 * context.body_obb.half[outward_axis(context.body_obb, direction)] / context.diagonal
+    return {
+        "space behind": float(np.median(np.where(nothing, 1.0, hits.distance))),
+        "nothing behind": float(nothing.mean()),
+        "open behind": float((nothing | ~inside & (hits.distance > max(3 * thick, MIN_WAY))).mean()),
+    }
+
+
+def points_behind(context: PartContext, count: int) -> Float[np.ndarray, "n 3"]:
+    """Return a grid of `count` points a side, just behind the back of the part's box [m]."""
+    core, grid = context.body_obb, np.linspace(-0.85, 0.85, count)
+    behind = core.half[outward_axis(core, context.opening_direction)] + 1e-4 * context.diagonal
+    local = np.zeros((count**2, 3))
+    for axis, value in zip(context.face_axes, np.meshgrid(grid, grid), strict=True):
+        local[:, axis] = value.reshape(-1) * core.half[axis]
+    return core.world(local) - behind * context.opening_direction
+
+
+def on_axis(context: PartContext) -> bool:
+    """Return whether the rest has surface on the axis of the round outline, within 5 % of the object's diagonal of an end."""
+    outline = context.outline
+    ends = outline.center + np.array([[-0.5], [0.5]]) * outline.height * outline.axis
+    rays = np.array([[-1.0], [1.0]]) * outline.axis * 0.05 * context.diagonal
+    return bool((context.rest.scene.first_hit(ends - rays, 2 * rays, 1.0).face >= 0).any())
+
+
+def touching(context: PartContext, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
+    """Return which samples are within `tolerance` [m] of the rest, and the rest's normal at the closest point of each."""
+    gap, face = context.nearest
+    while (gap < tolerance).sum() < min(8, len(gap)):  # as the connecting area grows in the paper
+        tolerance *= 2
+    return gap < tolerance, context.parent.normals[face]
+
+
+def fit_of_rim(context: PartContext, config: SegmentationConfig) -> tuple[int, float]:
+    """Return how many of the four rims have a clearance to the surface opposite, and the share of the rim that touches it."""
+    core = context.body_obb
+    samples = context.part.samples
+    local = core.local(samples.points) / np.maximum(core.half, 1e-12)
+    facing = samples.normals @ core.axes.T
+    touch, reach = config.touch * context.diagonal, config.near * context.diagonal
+    # start slightly inside, since a ray that starts on a surface would miss it
+    start = samples.points - samples.normals * 2 * touch
+    hits = context.without_part.scene.first_hit(start, samples.normals * reach, 1.0)
+    gap = hits.distance * reach - 2 * touch
+    face = np.maximum(hits.face, 0)
+    along = np.einsum("ij,ij->i", samples.normals, context.without_part.normals[face])
+    gap[(hits.face >= 0) & context.without_part.solid[face] & (along > 0)] = 0  # the rim lies inside the surface opposite
+    gap[(np.abs(along) < FACING_COSINE) & (gap > touch)] = np.inf  # ignore slopes and fillets beside the rim
+    sides, touched, count = 0, 0, 0
+    for axis in context.face_axes:
+        for sign in (1, -1):
+            rim = (sign * local[:, axis] > RIM) & (sign * facing[:, axis] > ALONG_COSINE)
+            if rim.sum() < 3:
+                continue
+            clear = (gap[rim] > touch) & np.isfinite(gap[rim])
+            sides += int(clear.mean() > 0.5)
+            touched += int((gap[rim] <= touch).sum())
+            count += int(rim.sum())
+    return sides, touched / max(count, 1)
+
+
+def enclosed_share(context: PartContext) -> float:
+    """Return the share of the candidate with the rest on at least three of the four sides across the opening direction."""
+    points, axes = context.part.samples.points[::20], context.body_obb.axes[context.face_axes]
+    rays = np.repeat(np.concatenate([axes, -axes]) * context.diagonal, len(points), 0)
+    hit = context.rest.scene.first_hit(np.tile(points, (4, 1)), rays, 1.0).face >= 0
+    return float((hit.reshape(4, -1).sum(0) >= 3).mean())
+
+
+def two_pivots(context: PartContext, near: np.ndarray, normals: np.ndarray) -> float:
+    """Return how far the candidate is supported at two far ends by surfaces that face along the line between them, 0..1.
+
+    Such contacts are pivots, as opposed to the feet of a fixed handle.
+    """
+    points = context.part.samples.points
+    if near.sum() < 4:
+        near = context.gap < max(2 * float(context.gap.min()), 0.004 * context.tolerance_length)
+        if near.sum() < 4:
+            return 0.0
+    held = points[near]
+    spread = held - held.mean(0)
+    line = np.linalg.svd(spread, full_matrices=False)[2][0]
+    t = spread @ line
+    reach = float(np.ptp(t))
+    parted = float(np.quantile(np.abs(t - (t.max() + t.min()) / 2), 0.05)) / max(reach / 2, 1e-12)  # 1: no contact between
+    far = min(reach / max(context.part.box.diagonal, 1e-12), 1.0)
+    return far * parted * float(np.abs(normals[near] @ line).mean())
 
 
 @dataclass(frozen=True, eq=False)

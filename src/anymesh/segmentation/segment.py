@@ -16,11 +16,10 @@ from jaxtyping import Float, Int
 from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.runtime import SEGMENT, Deadline, Progress, silent, usable_cores
-from anymesh.segmentation.candidate_names import NAME_SCORE, name_class, shared_name
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import assign_parts, conflicts, join_floating
-from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
+from anymesh.segmentation.part_candidates import NAME_SCORE, PartCandidates, name_class, part_candidates, shared_name
 from anymesh.segmentation.part_classifier import score_parts, shipped_classifier
 from anymesh.segmentation.part_features import FeatureInputs, candidate_context, part_features
 from anymesh.types import Mesh, Segmentation

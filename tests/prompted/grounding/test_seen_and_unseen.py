@@ -17,7 +17,7 @@ from anymesh.prompted.grounding.ground import add_hidden_parts
 from anymesh.prompted.grounding.views import MAX_CLOSE_UPS, close_ups, inner_faces, unseen_patches
 from anymesh.rendering.render import render
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.surface_regions import patch_sizes
+from anymesh.segmentation.handles import patch_sizes
 from anymesh.types import Mesh, Part, Segmentation
 from anymesh.types.camera import Camera
 

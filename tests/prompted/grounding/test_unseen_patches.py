@@ -3,7 +3,7 @@
 import numpy as np
 from assets import box, mesh_of
 
-from anymesh.articulation.freedom import stays_free
+from anymesh.articulation.estimate import stays_free
 from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.pipeline.solving import Solver

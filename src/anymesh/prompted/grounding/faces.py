@@ -14,7 +14,7 @@ from anymesh.geometry.topology import label_connected
 from anymesh.prompted.grounding.cloud import Cloud
 from anymesh.prompted.grounding.fuse import Instances
 from anymesh.segmentation.contacts import Contacts, dominated_by, find_contacts
-from anymesh.segmentation.surface_regions import patch_sizes
+from anymesh.segmentation.handles import patch_sizes
 from anymesh.types import Mesh
 from anymesh.types.triangles import boxes_meet
 

@@ -28,8 +28,8 @@ from anymesh.prompted.grounding.views import EXACT, MIN_INNER_PATCH_RATIO, Sampl
 from anymesh.rendering.render import View
 from anymesh.rendering.viewpoints import normal_picture
 from anymesh.runtime import Progress, silent
+from anymesh.segmentation.handles import patch_sizes
 from anymesh.segmentation.naming import named_parts
-from anymesh.segmentation.surface_regions import patch_sizes
 from anymesh.types import JointType, Segmentation
 from anymesh.types.motion import Recognition
 from anymesh.types.questions import VisualAnswerer

@@ -14,7 +14,7 @@ from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import components, label_connected
 from anymesh.prompted.grounding.cloud import Cloud
 from anymesh.rendering.render import View
-from anymesh.segmentation.surface_regions import MIN_WHOLE_OBJECT_SHARE
+from anymesh.segmentation.handles import MIN_WHOLE_OBJECT_SHARE
 from anymesh.types import Mesh
 
 MAX_MARKS = 400  # marks per object, over all pictures; above, the smallest regions join their neighbours, with a warning

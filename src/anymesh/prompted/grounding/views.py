@@ -14,7 +14,7 @@ from anymesh.prompted.grounding.cloud import Cloud, sample_cloud, seen_points
 from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE
 from anymesh.prompted.grounding.mark_questions import MarkQuestioner
 from anymesh.rendering.render import View
-from anymesh.segmentation.surface_regions import patch_sizes
+from anymesh.segmentation.handles import patch_sizes
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 

@@ -7,9 +7,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from anymesh.articulation.part_contexts import part_context
+from anymesh.articulation.part_contexts import descendants, parents, part_context
 from anymesh.articulation.repeated_parts import same_size, share_opening_directions
-from anymesh.articulation.tree import descendants, parents
 from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.motion.part_context import PartContext

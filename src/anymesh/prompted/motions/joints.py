@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from anymesh.articulation.closed_pose import away_from_closed
 from anymesh.articulation.estimate import joint_of
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import answered_range, opening_as_answered
