@@ -196,6 +196,12 @@ def test_tests_are_small() -> None:
         assert too_large(path, path.relative_to(ROOT).as_posix()) == (set(), set(), set())
 
 
+def test_names_of_test_files_are_unique() -> None:
+    """They are imported by name, without packages."""
+    names = [path.name for path in (ROOT / "tests").rglob("test_*.py")]
+    assert not sorted({name for name in names if names.count(name) > 1})
+
+
 def test_no_machine_paths_and_no_registry_addresses() -> None:
     listed = subprocess.run(["git", "ls-files"], cwd=ROOT, capture_output=True, text=True)
     names = listed.stdout.split() if listed.returncode == 0 else [str(p.relative_to(ROOT)) for p in ROOT.rglob("*.py")]
