@@ -3,7 +3,7 @@
 from asked import PICTURE
 
 from anymesh.prompted.answerers.vlm_answerer import request_of
-from anymesh.prompted.questions.recognition import recognize
+from anymesh.prompted.questions.recognition import ask_recognition
 from anymesh.types.exchange import DrawnPictures
 from anymesh.types.motion import Recognition
 
@@ -26,6 +26,6 @@ def test_an_answerer_that_does_not_read_pictures_has_none_drawn() -> None:
             asked.append(question)
             return Recognition("box", 1.0, (), None)
 
-    recognize(lambda: (PICTURE,), Reference(), None, (), [0.0])  # ty: ignore[invalid-argument-type]
+    ask_recognition(lambda: (PICTURE,), Reference(), None, (), [0.0])  # ty: ignore[invalid-argument-type]
     assert not asked[0].pictures.are_drawn
     assert request_of(asked[0]).pictures == (PICTURE,)

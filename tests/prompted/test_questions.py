@@ -14,7 +14,7 @@ from anymesh.errors import OptionError
 from anymesh.prompted.questions.asking import BadAnswerError, check_schema
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.prompted.questions.prompting import JointAppearance, WhichPoints
-from anymesh.prompted.questions.recognition import parse_labels, recognize
+from anymesh.prompted.questions.recognition import ask_recognition, parse_labels
 from anymesh.types.motion import RecognizedLabel
 from anymesh.types.questions import VisualAnswerer
 
@@ -93,7 +93,7 @@ def test_labels_that_a_user_told_are_not_asked_for() -> None:
 
     assert isinstance(NoAnswerer(), VisualAnswerer)
     told = parse_labels([" Oven  Door", "knob"])
-    found = recognize(lambda: (), NoAnswerer(), None, told)
+    found = ask_recognition(lambda: (), NoAnswerer(), None, told)
     assert found.labels == tuple(RecognizedLabel(label, None, None, None) for label in ("oven door", "knob"))
     assert (found.category, found.size) == ("object", None)
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from anymesh.errors import OptionError
-from anymesh.prompted.models.rates import Limiter, Rate
+from anymesh.prompted.models.budget import Limiter, Rate
 
 
 class Clock:

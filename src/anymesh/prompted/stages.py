@@ -17,7 +17,7 @@ from anymesh.prompted.grounding.sam_onnx_ import load_sam
 from anymesh.prompted.grounding.views import EXACT, MIN_RECOGNITION_PATCH_RATIO, SampledObject, inner_faces, sample_object
 from anymesh.prompted.motions.joints import Questions, Reground, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
-from anymesh.prompted.questions.recognition import answered_scale, recognize
+from anymesh.prompted.questions.recognition import answered_scale, ask_recognition
 from anymesh.runtime import Progress, silent
 from anymesh.types import Picture, Segmentation
 from anymesh.types.motion import Recognition
@@ -67,7 +67,7 @@ class PromptedStages:
         _ = self._ground  # report unusable weights before anything is asked
         answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._reference_parts))
         azimuths = [azimuth for azimuth, _ in self.config.views.directions]
-        recognition = recognize(self._view_pictures, answerer, self.config.category, self.config.parts_list, azimuths)
+        recognition = ask_recognition(self._view_pictures, answerer, self.config.category, self.config.parts_list, azimuths)
         scale, note, doubt = (
             answered_scale(recognition, float(self.mesh.extents.max()), metric=metric) if sized else (1.0, "", ())
         )

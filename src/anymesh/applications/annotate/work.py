@@ -32,7 +32,7 @@ from anymesh.prompted.models.retry import UnavailableError
 from anymesh.runtime import read_json, write_whole
 
 if TYPE_CHECKING:
-    from anymesh.prompted.models.rates import Limiter
+    from anymesh.prompted.models.budget import Limiter
 
 STORAGE = {getattr(errno, name, errno.ENOSPC) for name in "ENOSPC EROFS EDQUOT EIO ENODEV ESTALE EACCES EPERM".split()}
 FILES = "files:"
@@ -74,7 +74,7 @@ def _annotated(job: Job) -> AttemptOutcome:
 @cache
 def _limiter(requests: int | None, tokens: int | None) -> Limiter:
     """Return the limiter of this process, for all its objects."""
-    from anymesh.prompted.models.rates import Limiter, Rate
+    from anymesh.prompted.models.budget import Limiter, Rate
 
     return Limiter(Rate(requests, tokens))
 

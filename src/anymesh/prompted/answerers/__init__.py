@@ -1,1 +1,1 @@
-"""Who answers: a model, files, a replay, or a reference."""
+"""Who answers: a model, files, a recording, or a reference."""

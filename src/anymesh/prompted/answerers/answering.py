@@ -13,8 +13,7 @@ from anymesh.pipeline.answering import AnswererSetup
 from anymesh.pipeline.options import FILES, Account, AnswererOptions
 from anymesh.prompted.answerers.recordings import Cached, Replay
 from anymesh.prompted.answerers.vlm_answerer import Patience, VlmAnswerer
-from anymesh.prompted.models.budget import Budgeted
-from anymesh.prompted.models.rates import Limiter, RateLimited
+from anymesh.prompted.models.budget import Budgeted, Limiter, RateLimited
 from anymesh.prompted.models.retry import Retrying
 from anymesh.prompted.models.servers import SERVERS
 from anymesh.prompted.models.vision import VisionModel

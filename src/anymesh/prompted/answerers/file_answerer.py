@@ -1,4 +1,10 @@
-"""Answers from files: each question is a folder, and the answer is a file in it."""
+"""Answers in files: reading, checking and writing them, also in a short form.
+
+The short form is `1=2 2=0` for a question whose answer is a list with one entry per part. An entry is NAME=VALUE,VALUE,... The
+name is the entry's first number or choice (a part's number, or a label). The values fill the other properties in their order. A
+list takes all values of its kind. A boolean is false unless its name is given. Missing text is empty, and properties in USUAL
+have a usual value. After a name, `#2` gives a second number (`door#2=5,7` with an `instance`).
+"""
 
 from __future__ import annotations
 
@@ -39,6 +45,7 @@ from anymesh.types.questions import Answer, Question, VisualAnswerer
 ASSIGNMENT = re.compile(r"([^=\s#][^=#]*?)(?:#(-?\d+))?=([^=\s]*)(?=\s|$)")
 Schema = Mapping[str, Any]
 USUAL = {"instance": 1, "part_is": "right"}  # values of properties that need not be given
+POLL = 1.0  # [s] interval between checks for an answer
 
 
 def answer_text(text: str, schema: Schema) -> str:
@@ -134,9 +141,6 @@ def _blank(name: str, schema: Schema) -> Any:
             return []
         case _:
             raise OptionError(f"the short form lacks {name}; give it, or answer in JSON")
-
-
-POLL = 1.0  # [s] interval between checks for an answer
 
 
 class FileAnswerer:

@@ -31,6 +31,7 @@ SHEET, CHECK, OWNER, SUGGESTION = "sheet.png", "check.npz", "object.json", "sugg
 LEAVE = "geometry"  # an answer.json with this word leaves the question to geometry
 LEFT = f"left to {LEAVE}"  # verdict on such a question
 LARGEST_ANSWER = 1_000_000  # [bytes]
+TYPE_WORDS = {"integer": "a whole number", "number": "a number", "string": "text", "boolean": "true or false"}
 
 
 def is_left_to_geometry(text: str) -> bool:
@@ -263,9 +264,6 @@ def _umask() -> int:
     umask = os.umask(0o022)
     os.umask(umask)
     return umask
-
-
-TYPE_WORDS = {"integer": "a whole number", "number": "a number", "string": "text", "boolean": "true or false"}
 
 
 def question_page(request: Request) -> str:

@@ -1,4 +1,7 @@
-"""Cache of answers on disk, keyed by the request, so that the same question is paid only once."""
+"""Answers on disk: a cache, so that the same question is paid only once, the transcript of a run, and its replay.
+
+All hold one record per answer, found by the key of its request (`models.vision.request_key`).
+"""
 
 from __future__ import annotations
 
@@ -19,6 +22,18 @@ from anymesh.runtime import write_whole
 from anymesh.types.exchange import Exchange, Picture
 
 log = logging.getLogger("anymesh")
+OWN_FILES = re.compile(r"\d{3,}_[a-z0-9-]+\.json|[0-9a-f]{64}\.png|index\.html")
+STYLE = """
+:root { color-scheme: light dark }
+body { font: 16px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem }
+article { border-top: 1px solid #8886; padding: 1rem 0 }
+h2 { font-size: 1.1rem; margin: 0 } h2 small { font-weight: normal; opacity: .7 }
+pre { background: #8881; padding: .75rem; overflow-x: auto; white-space: pre-wrap; overflow-wrap: anywhere }
+figure { display: inline-block; margin: .5rem 1rem .5rem 0; vertical-align: top; max-width: 22rem }
+img { max-width: 100%; height: auto; border: 1px solid #8886 } figcaption { font-size: .85rem }
+table { border-collapse: collapse } td, th { padding: .1rem .8rem .1rem 0; text-align: left }
+.good { color: #187a2f } .bad { color: #c22 }
+"""
 
 
 class Cached:
@@ -122,20 +137,6 @@ def _question_record(question: QuestionFolder, answer: str) -> dict[str, Any]:
     """Convert an answered question's folder to the record of a transcript."""
     record = {"kind": question.kind, "key": question.key, "model": NAME, "answer": answer}
     return {**record, "input_tokens": 0, "output_tokens": 0}
-
-
-OWN_FILES = re.compile(r"\d{3,}_[a-z0-9-]+\.json|[0-9a-f]{64}\.png|index\.html")
-STYLE = """
-:root { color-scheme: light dark }
-body { font: 16px/1.5 system-ui, sans-serif; max-width: 72rem; margin: 2rem auto; padding: 0 1rem }
-article { border-top: 1px solid #8886; padding: 1rem 0 }
-h2 { font-size: 1.1rem; margin: 0 } h2 small { font-weight: normal; opacity: .7 }
-pre { background: #8881; padding: .75rem; overflow-x: auto; white-space: pre-wrap; overflow-wrap: anywhere }
-figure { display: inline-block; margin: .5rem 1rem .5rem 0; vertical-align: top; max-width: 22rem }
-img { max-width: 100%; height: auto; border: 1px solid #8886 } figcaption { font-size: .85rem }
-table { border-collapse: collapse } td, th { padding: .1rem .8rem .1rem 0; text-align: left }
-.good { color: #187a2f } .bad { color: #c22 }
-"""
 
 
 def write_transcript(exchanges: Sequence[Exchange], folder: Path) -> None:

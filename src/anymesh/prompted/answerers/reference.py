@@ -1,4 +1,8 @@
-"""Known parts and joints of an object, from which questions can be answered."""
+"""Answers from known parts and joints, by the same marks, points and arrows as a model.
+
+With ground truth as reference it is the oracle (evaluation only), which shows the loss of the geometric half of the method.
+With the geometry answerer's result as reference it is the fallback of a model without a valid answer.
+"""
 
 from __future__ import annotations
 
@@ -27,6 +31,18 @@ from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import Exchange, Joint, JointType, KnownJoint, Mesh, Motion, Segmentation
 from anymesh.types.motion import BASE, Recognition, RecognizedLabel
 from anymesh.types.questions import Answer, Question
+
+MIN_VISIBLE_PIXELS = 40  # [px] minimum visible size of a part
+MIN_MARK_OVERLAP = 0.5  # minimum share of a mark's pixels on the part that the mark is given to
+MIN_SPLIT_OVERLAP = 0.02  # share of a mark's pixels on another part above which the mark is split
+MAX_AXIS_DISTANCE_RATIO = 0.05  # of the part's size: contact points closer to the axis lie on it
+# of the part's extent along the axis: minimum extent of the points on the axis of a visible hinge
+MIN_HINGE_SPREAD_RATIO = 0.25
+# minimum cosine between the contact plane's normal and an axis that enters the surface
+MIN_NORMAL_COSINE = np.cos(np.deg2rad(20.0))
+MIN_OPENING_COSINE = 0.7  # minimum cosine between the opening direction and a slide out of the object
+# of the displacement: maximum distance of the moved part from its true place for a motion to be recognized
+MAX_MOTION_ERROR_RATIO = 0.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -70,19 +86,6 @@ def reference_of(mesh: Mesh, segmentation: Segmentation, joints: tuple[Joint, ..
         parents=tuple(0 if j is None else number[j.parent] for j in made),
         joints=tuple(None if j is None else KnownJoint(j.type, j.origin, j.axis, j.limits) for j in made),
     )
-
-
-MIN_VISIBLE_PIXELS = 40  # [px] minimum visible size of a part
-MIN_MARK_OVERLAP = 0.5  # minimum share of a mark's pixels on the part that the mark is given to
-MIN_SPLIT_OVERLAP = 0.02  # share of a mark's pixels on another part above which the mark is split
-MAX_AXIS_DISTANCE_RATIO = 0.05  # of the part's size: contact points closer to the axis lie on it
-# of the part's extent along the axis: minimum extent of the points on the axis of a visible hinge
-MIN_HINGE_SPREAD_RATIO = 0.25
-# minimum cosine between the contact plane's normal and an axis that enters the surface
-MIN_NORMAL_COSINE = np.cos(np.deg2rad(20.0))
-MIN_OPENING_COSINE = 0.7  # minimum cosine between the opening direction and a slide out of the object
-# of the displacement: maximum distance of the moved part from its true place for a motion to be recognized
-MAX_MOTION_ERROR_RATIO = 0.5
 
 
 class ReferenceAnswerer:

@@ -1,4 +1,4 @@
-"""Parts of faces from labelled points: patches are assigned as a whole, or cut if they hold several parts."""
+"""Parts of faces: patches join a part as a whole, or are cut; unseen ones join the part that supports them."""
 
 from __future__ import annotations
 
@@ -24,6 +24,12 @@ StaysFree = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int], bool]
 
 Arguments: the part index per face of the object's shape without and with the unseen patches, and the part.
 """
+
+MIN_COMPONENT_SHARE = 0.5  # a component joins the part of this share of its visible surface (as in the paper's implementation)
+MIN_SEEN_SHARE = 0.02  # minimum visible share of a patch's surface; less is a glimpse through a gap
+# minimum share of a patch's visible surface in one part for that part to take the whole patch, if the patch may hold several
+# parts because it is large or was cut out of a fused surface
+MIN_CUTTABLE_PATCH_SHARE = 0.85
 
 
 def join_unseen(
@@ -128,13 +134,6 @@ def _near(contacts: Contacts, patch: int, others: np.ndarray, reach: float) -> b
     low, high = contacts.shapes[patch].bounds
     boxes = np.array([contacts.shapes[p].bounds for p in others])
     return bool(boxes_meet(boxes[:, 0], boxes[:, 1], low - reach, high + reach).any())
-
-
-MIN_COMPONENT_SHARE = 0.5  # a component joins the part of this share of its visible surface (as in the paper's implementation)
-MIN_SEEN_SHARE = 0.02  # minimum visible share of a patch's surface; less is a glimpse through a gap
-# minimum share of a patch's visible surface in one part for that part to take the whole patch, if the patch may hold several
-# parts because it is large or was cut out of a fused surface
-MIN_CUTTABLE_PATCH_SHARE = 0.85
 
 
 def face_parts(

@@ -1,4 +1,7 @@
-"""Labels and instances of superpoints from masks in views (paper, 3.2; PartSlip++)."""
+"""Parts of superpoints from the masks of all views (paper, 3.2; PartSlip++).
+
+A model's masks become numbered regions of each view, the answers name the regions of each part, and the views vote.
+"""
 
 from __future__ import annotations
 

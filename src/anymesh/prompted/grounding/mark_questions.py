@@ -1,6 +1,7 @@
 """Questions that ask a visual answerer which marks belong to which part.
 
-The pictures are spread over as many calls as needed. The answer may ask once to split marks.
+As few views as possible show the marks, with close-ups of crowded ones; the pictures are spread over as many calls as needed.
+The answer may ask once to split marks.
 """
 
 from __future__ import annotations
@@ -30,6 +31,8 @@ MIN_MARK_PIXELS = 30.0  # [px of a 640 px view] minimum size of a drawn mark
 MAX_VIEWS_SHOWN_TWICE = 5  # number of views up to which marks are shown a second time
 TILE_AIR = 0.15  # margin around the marks of a close-up, as a share of their box on each side
 TILES = 4  # maximum number of times that a crowded view is halved: 16 close-ups
+INSIDE = "inside"  # prefix of the names of pictures of the inside
+MAX_MARK_PICTURES = 16  # pictures per call
 
 
 @dataclass(frozen=True, eq=False)
@@ -144,10 +147,6 @@ def _halves(middle: np.ndarray, group: np.ndarray) -> list[np.ndarray]:
     axis = int(np.ptp(middle[group], axis=0).argmax())
     order = group[np.argsort(middle[group, axis], kind="stable")]
     return [np.sort(order[: len(order) // 2]), np.sort(order[len(order) // 2 :])]
-
-
-INSIDE = "inside"  # prefix of the names of pictures of the inside
-MAX_MARK_PICTURES = 16  # pictures per call
 
 
 @dataclass(frozen=True, eq=False)

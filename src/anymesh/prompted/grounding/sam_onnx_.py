@@ -32,6 +32,7 @@ TYPES = {
 SIDE = 1024  # [px] input side of every published model, used if the graph leaves it open
 LOW = 4  # ratio of the square's side to that of the decoder's mask input
 SAME = 1e-2  # [logit] tolerance between the results of a batch and of single prompts
+POINTS = ("point_coords", "point_labels", "mask_input", "has_mask_input")
 
 
 @dataclass(frozen=True)
@@ -51,7 +52,6 @@ class Export:
         return {*self.features, *self.prompts}
 
 
-POINTS = ("point_coords", "point_labels", "mask_input", "has_mask_input")
 EXPORTS = (
     # low_res_masks, not masks: those are resized in the graph to the picture shape that was used for the export
     Export("SAM", ("image_embeddings",), (*POINTS, "orig_im_size"), "low_res_masks", "iou_predictions", True, end_point=True),

@@ -1,4 +1,4 @@
-"""Cameras for close-ups of regions that are small or thin in every view, such as a button on a machine."""
+"""The views that marks are chosen from: all sides, close-ups of regions that are too small there, and the inside."""
 
 from __future__ import annotations
 
@@ -22,6 +22,14 @@ MAX_SEEN_SHARE = 0.25  # patches up to this visible share of the surface count a
 MIN_INNER_PATCH_RATIO = 0.05  # of the object's diagonal: hidden patches with a smaller diagonal are not shown
 # of the object's diagonal: minimum size of a hidden patch for the inside to be shown when the object is recognized
 MIN_RECOGNITION_PATCH_RATIO = 0.1
+MAX_CLOSE_UPS = 8  # close-ups per object; each adds a picture to a question
+MIN_AREA_PX, MIN_WIDTH_PX = 250.0, 4.0  # [px, px across] in a 640 px view: regions below either are too small to judge
+LEGIBLE_AREA_PX, LEGIBLE_WIDTH_PX = 1500.0, 12.0  # [px, px across] size that a close-up should give such regions
+MIN_ZOOM = 2.0  # minimum magnification of a close-up
+MIN_CLOSE_UP_SHARE = 0.1  # share of a region's surface that views must see; less is a glimpse through a gap
+WINDOW = 0.8  # share of the close-up's side that holds the centers of its regions
+EXACT = "exact"
+EXACT_POINTS = 120_000  # exact regions use the cloud for superpoints only, which need fewer points
 
 
 def unseen_patches(
@@ -44,14 +52,6 @@ def inner_faces(
     if not (hidden & (size >= min_size)).any():
         return np.zeros(len(whole.mesh_patch), bool)
     return (hidden & (size >= MIN_INNER_PATCH_RATIO))[whole.mesh_patch]
-
-
-MAX_CLOSE_UPS = 8  # close-ups per object; each adds a picture to a question
-MIN_AREA_PX, MIN_WIDTH_PX = 250.0, 4.0  # [px, px across] in a 640 px view: regions below either are too small to judge
-LEGIBLE_AREA_PX, LEGIBLE_WIDTH_PX = 1500.0, 12.0  # [px, px across] size that a close-up should give such regions
-MIN_ZOOM = 2.0  # minimum magnification of a close-up
-MIN_CLOSE_UP_SHARE = 0.1  # share of a region's surface that views must see; less is a glimpse through a gap
-WINDOW = 0.8  # share of the close-up's side that holds the centers of its regions
 
 
 def close_ups(
@@ -129,10 +129,6 @@ def _camera(view: View, pixel: np.ndarray, zoom: float) -> Camera:
     eye = camera.T_world_camera[:3, 3]
     fov = 2 * float(np.arctan(np.tan(camera.fov / 2) / zoom))
     return Camera.looking_at(eye, eye + camera.T_world_camera[:3, :3] @ local, fov, camera.width, camera.height)
-
-
-EXACT = "exact"
-EXACT_POINTS = 120_000  # exact regions use the cloud for superpoints only, which need fewer points
 
 
 @dataclass(frozen=True, eq=False)

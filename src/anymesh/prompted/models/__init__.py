@@ -1,1 +1,1 @@
-"""Clients of vision-language models: providers, retries, budget, cache."""
+"""Clients of vision-language models: names, providers, retries, budget."""

@@ -1,4 +1,4 @@
-"""Conversion of requests to pydantic-ai, and of its responses to text."""
+"""Conversion of requests to pydantic-ai, with pictures that fit the service's limits, and of its responses to text."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ from PIL import Image
 from anymesh.errors import ModelError
 
 IN_WORDS = "{system}\n\nAnswer with one JSON object alone, no other words, that satisfies this JSON schema:\n{schema}"
+MEGABYTE = 1_000_000
 
 
 def the_model(address: Address, http: AsyncClient) -> Model:
@@ -147,7 +148,6 @@ def unfenced(text: str) -> str:
 
 
 log = logging.getLogger("anymesh")
-MEGABYTE = 1_000_000
 
 
 @dataclass(frozen=True)
@@ -160,6 +160,8 @@ class RequestLimits:
     request: int
 
 
+# Checked on 2026-11-21 against the services' pages on image input. If the models of a service differ, the row holds the lowest
+# limit. If a service downscales pictures itself, the row holds the resulting side, since larger pictures only cost traffic.
 LIMITS = {
     "openai": RequestLimits(20 * MEGABYTE, 2048, 500, 50 * MEGABYTE),
     "openai-responses": RequestLimits(20 * MEGABYTE, 2048, 500, 50 * MEGABYTE),

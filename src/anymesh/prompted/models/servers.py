@@ -1,4 +1,4 @@
-"""Local model servers: their addresses and their models."""
+"""Names of models: the provider, the model, the environment variables of the key, and servers on one's own machine."""
 
 from __future__ import annotations
 
@@ -14,6 +14,17 @@ from urllib.parse import urlsplit
 from anymesh.errors import ModelError, OptionError
 
 LONGEST = 4_000_000  # [bytes] maximum size of a list of models
+VALID = (
+    "openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL, vllm:MODEL, "
+    "openai-compatible:BASE_URL#MODEL, files:FOLDER or replay:FOLDER"
+)
+BASES = {
+    "openai": "OPENAI_BASE_URL",
+    "openai-responses": "OPENAI_BASE_URL",
+    "anthropic": "ANTHROPIC_BASE_URL",
+    "google": "GOOGLE_GEMINI_BASE_URL",
+}
+NO_KEY = "no-key"  # placeholder sent to servers that need no key, since the client requires one
 
 
 @dataclass(frozen=True)
@@ -110,10 +121,6 @@ def _fetch(server: Server, url: str, timeout: float) -> dict[str, Any]:
     return answer
 
 
-VALID = (
-    "openai:MODEL, openai-responses:MODEL, anthropic:MODEL, google:MODEL, ollama:MODEL, lmstudio:MODEL, vllm:MODEL, "
-    "openai-compatible:BASE_URL#MODEL, files:FOLDER or replay:FOLDER"
-)
 KEYS = {  # environment variables that may hold the key; the first one that is set is used
     "openai": ("OPENAI_API_KEY",),
     "openai-responses": ("OPENAI_API_KEY",),  # the same models through the newer of OpenAI's two interfaces
@@ -122,13 +129,6 @@ KEYS = {  # environment variables that may hold the key; the first one that is s
     "openai-compatible": ("ANYMESH_API_KEY",),  # never OpenAI's key: it must not be sent to another operator's server
     **{name: server.keys for name, server in SERVERS.items()},
 }
-BASES = {
-    "openai": "OPENAI_BASE_URL",
-    "openai-responses": "OPENAI_BASE_URL",
-    "anthropic": "ANTHROPIC_BASE_URL",
-    "google": "GOOGLE_GEMINI_BASE_URL",
-}
-NO_KEY = "no-key"  # placeholder sent to servers that need no key, since the client requires one
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Parts whose joints are being estimated, and questions about all of them at once."""
+"""Parts whose joints are being estimated: their labels, questions about all of them at once, and contradictory answers."""
 
 from __future__ import annotations
 
@@ -21,6 +21,7 @@ from anymesh.types.questions import Answer, Question, VisualAnswerer
 from anymesh.vocabulary import words_of
 
 MAX_PART_PICTURES = 8  # pictures per call
+TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,9 +125,6 @@ def ask_each(
 
 def _numbered(cases: Sequence[PartCase], picture: Callable[[PartCase, str], Picture]) -> DrawnPictures:
     return DrawnPictures(lambda: tuple(picture(case, f"part {k}: {case.label}") for k, case in enumerate(cases, 1)))
-
-
-TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 
 
 def contradictions(cases: Sequence[PartCase], joints: Sequence[Joint]) -> tuple[str, ...]:

@@ -55,6 +55,7 @@ from anymesh.types.motion import Recognition
 from anymesh.types.questions import VisualAnswerer
 
 MIN_GUIDED_SHARE = 0.4  # minimum share of the sideways directions in which an outward slide is guided
+INTO_POINTS = 8  # candidates for an axis into the surface, half of which stand for axes
 
 
 def normal_outwards(case: PartCase) -> Motion:
@@ -94,7 +95,6 @@ def as_answered(case: PartCase) -> Choice:
     return Choice(best, answer, answered_confidence(as_recognized, line=answers_a_line(case), free=best.is_free))
 
 
-INTO_POINTS = 8  # candidates for an axis into the surface, half of which stand for axes
 ShapeOf = Callable[[Segmentation], ObjectShape]
 Reground = Callable[[Mapping[str, PartFit]], Segmentation | None]  # parts by name that have too much or too little surface
 

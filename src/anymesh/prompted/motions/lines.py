@@ -1,4 +1,8 @@
-"""Candidate points of a hinge (paper, 3.3): clusters of the connecting area, and superpoints if the hinge is hidden."""
+"""Candidate points of a hinge, and the motions that picked points, normals and arrows stand for (paper, 3.3).
+
+Candidates are clusters of the connecting area, superpoints if the hinge is hidden, and axes from the part's own shape, which
+complement those of `hypotheses.propose`.
+"""
 
 from __future__ import annotations
 
@@ -21,6 +25,13 @@ from anymesh.types import JointType, Motion
 
 Project = Callable[[Float[np.ndarray, "n 3"]], Float[np.ndarray, "n 2"]]  # points [m] to pixels of the picture shown
 MAX_POINTS = 4000  # maximum number of points of a connecting area for clustering
+TRIALS = 200  # planes tried by RANSAC
+MAX_CIRCLES = 4  # round patches per part, the largest first
+MAX_PATCHES = 40  # patches examined, the largest first
+# roles of axes that the shape of a part gives
+CENTRAL: tuple[Role, ...] = ("round", "center", "hub", "circle", "pivot", "pin", "two_pivot", "barrel")
+MAX_DISTINCT_COSINE = 0.98  # maximum cosine between two axes through the contact
+MIN_POINTS = 24  # minimum number of points of a contact ring
 
 
 def cluster_points(contact: Float[np.ndarray, "n 3"], project: Project, config: PromptConfig) -> Float[np.ndarray, "k 3"]:
@@ -111,9 +122,6 @@ def _farthest(points: np.ndarray, count: int) -> np.ndarray:
     return np.array(chosen)
 
 
-TRIALS = 200  # planes tried by RANSAC
-
-
 def plane_normal(points: Float[np.ndarray, "n 3"], tolerance: float, seed: int) -> Float[np.ndarray, " 3"]:
     """Fit a plane to points by RANSAC with `tolerance` [m]; return its unit normal."""
     rng = np.random.default_rng(seed)
@@ -157,14 +165,6 @@ def surface_directions(context: PartContext) -> Float[np.ndarray, "4 3"]:
 def prismatic(direction: Float[np.ndarray, " 3"], context: PartContext, source: str) -> Motion:
     """Return the prismatic motion of a part along a direction."""
     return Motion(JointType.PRISMATIC, direction / np.linalg.norm(direction), context.part.box.center, source)
-
-
-MAX_CIRCLES = 4  # round patches per part, the largest first
-MAX_PATCHES = 40  # patches examined, the largest first
-# roles of axes that the shape of a part gives
-CENTRAL: tuple[Role, ...] = ("round", "center", "hub", "circle", "pivot", "pin", "two_pivot", "barrel")
-MAX_DISTINCT_COSINE = 0.98  # maximum cosine between two axes through the contact
-MIN_POINTS = 24  # minimum number of points of a contact ring
 
 
 def round_patches(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) -> tuple[Motion, ...]:

@@ -30,56 +30,26 @@ from anymesh.prompted.motions.lines import CENTRAL, pivots
 from anymesh.prompted.questions.prompting import JointAppearance, MotionTable
 from anymesh.types import JointType
 
-ENOUGH_POINTS = 200  # sample points of the part for comparing motions
-
-
-class MovedPoints:
-    """Points of a part after its motions, each computed once."""
-
-    def __init__(self, context: PartContext, candidates: Sequence[Candidate]) -> None:
-        samples = context.part.samples.points
-        self._points = samples[:: max(1, len(samples) // ENOUGH_POINTS)]
-        self._motions = [c.opening_motion for c in candidates]
-        self._ends: dict[tuple[int, float], Float[np.ndarray, "n 3"]] = {}
-
-    def apart(self, a: int, b: int, amount: float) -> tuple[float, float]:
-        """Return the distance between the points after two motions, and the displacement by the first [m], as means.
-
-        Both motions are by up to `amount` [rad or m], however far each is free.
-        """
-        if self._motions[a].kind is not self._motions[b].kind:
-            return np.inf, 0.0
-        apart = max(_mean_distance(self._after(a, s * amount), self._after(b, s * amount)) for s in (0.5, 1.0))
-        return apart, _mean_distance(self._after(a, amount), self._points)
-
-    def _after(self, k: int, amount: float) -> Float[np.ndarray, "n 3"]:
-        if (k, amount) not in self._ends:
-            T = self._motions[k].transform(amount)
-            self._ends[k, amount] = self._points @ T[:3, :3].T + T[:3, 3]
-        return self._ends[k, amount]
-
-
-def _mean_distance(a: Float[np.ndarray, "n 3"], b: Float[np.ndarray, "n 3"]) -> float:
-    return float(np.linalg.norm(a - b, axis=1).mean())
-
-
-MAX_SHOWN_ANGLE_RAD = np.deg2rad(60.0)  # [rad] maximum rotation in a picture
-MAX_SHOWN_TRAVEL_RATIO = 0.6  # of the part's size: maximum travel of a slide in a picture
+# Set by hand, not fitted. They decide which motions are shown and in which picture, not how answers are weighed (`verify`).
+# How far motions are drawn:
+MAX_SHOWN_ANGLE_RAD = np.deg2rad(60.0)  # [rad] maximum rotation
+MAX_SHOWN_TRAVEL_RATIO = 0.6  # of the part's size: maximum travel of a slide
 BLOCKED_SHOWN_RATIO = 0.6  # share of these maxima at which a blocked motion is shown
-SIMILAR_RATIO = 0.2  # of the travel: motions that take the part's points to places this close are similar
-# limits for similar motions in the first picture: their number, and their loss to the best of them [log-odds]
-MAX_SIMILAR, MAX_SIMILAR_LOSS = 2, 1.0
-DUPLICATE_PART_RATIO = 0.01  # of the part's diagonal: motions this close are near-duplicates; about two or three pixels
-# of the tolerance length: motions that take the part's points to places this close are near-duplicates
-DUPLICATE_OBJECT_RATIO = 0.02
+# Which motions look alike, by the distance between the part's points after them. Of near-duplicates one is kept:
+DUPLICATE_PART_RATIO = 0.01  # of the part's diagonal: near-duplicates; about two or three pixels
+DUPLICATE_OBJECT_RATIO = 0.02  # of the tolerance length: near-duplicates, too
 DUPLICATE_MOTION_RATIO = 0.15  # of the travel: upper limit of the object-based distance, for small parts
-OFF_PART = 0.02  # of the tolerance length: hinge lines farther from the part's surface are not in the first picture
-MAX_LOSS = 8.0  # [log-odds] motions that are worse than the best one by more are in the second picture, unless few are left
-MIN_FREE_MOTIONS = 3  # minimum number of free motions in the first picture, even if implausible
-SHAPE_AXES = 3  # number of axes of the part's own shape that are always in the first picture
-# [log-odds] penalty of a line through picked points, which is less exact than a similar one of the part's own
-PICKED_POINT_PENALTY = 2.0
-ANSWERED_BONUS = 2.0  # [log-odds] bonus of a motion of the answered kind
+SIMILAR_RATIO = 0.2  # of the travel: similar
+# What is in the first picture; the others are in the second:
+MAX_SIMILAR, MAX_SIMILAR_LOSS = 2, 1.0  # number of similar motions; their loss to the best of them [log-odds]
+OFF_PART = 0.02  # of the tolerance length: hinge lines farther from the part's surface are not
+MAX_LOSS = 8.0  # [log-odds] motions that are worse than the best one by more are not, unless few are left
+MIN_FREE_MOTIONS = 3  # minimum number of free motions, even if implausible
+SHAPE_AXES = 3  # number of axes of the part's own shape that always are
+# Which motion stands for its near-duplicates, and comes first:
+PICKED_POINT_PENALTY = 2.0  # [log-odds] of a line through picked points, less exact than a similar one of the part's own
+ANSWERED_BONUS = 2.0  # [log-odds] of a motion of the answered kind
+ENOUGH_POINTS = 200  # sample points of the part for comparing motions
 
 
 @dataclass(frozen=True, eq=False)
@@ -260,3 +230,33 @@ def _pages(
     first = must[:max_motions]
     first += [k for k, good in enumerate(likely) if good and k not in first][: max_motions - len(first)]
     return first, [k for k in range(len(motions)) if k not in first][:max_motions]
+
+
+class MovedPoints:
+    """Points of a part after its motions, each computed once."""
+
+    def __init__(self, context: PartContext, candidates: Sequence[Candidate]) -> None:
+        samples = context.part.samples.points
+        self._points = samples[:: max(1, len(samples) // ENOUGH_POINTS)]
+        self._motions = [c.opening_motion for c in candidates]
+        self._ends: dict[tuple[int, float], Float[np.ndarray, "n 3"]] = {}
+
+    def apart(self, a: int, b: int, amount: float) -> tuple[float, float]:
+        """Return the distance between the points after two motions, and the displacement by the first [m], as means.
+
+        Both motions are by up to `amount` [rad or m], however far each is free.
+        """
+        if self._motions[a].kind is not self._motions[b].kind:
+            return np.inf, 0.0
+        apart = max(_mean_distance(self._after(a, s * amount), self._after(b, s * amount)) for s in (0.5, 1.0))
+        return apart, _mean_distance(self._after(a, amount), self._points)
+
+    def _after(self, k: int, amount: float) -> Float[np.ndarray, "n 3"]:
+        if (k, amount) not in self._ends:
+            T = self._motions[k].transform(amount)
+            self._ends[k, amount] = self._points @ T[:3, :3].T + T[:3, 3]
+        return self._ends[k, amount]
+
+
+def _mean_distance(a: Float[np.ndarray, "n 3"], b: Float[np.ndarray, "n 3"]) -> float:
+    return float(np.linalg.norm(a - b, axis=1).mean())

@@ -1,7 +1,9 @@
-"""Verification of answered motions, beyond the paper.
+"""Choice among motions that are shown, with all answers as evidence in one score with the geometry; beyond the paper.
 
-The answered motion is one more hypothesis. Motions that would look different are shown to choose from, and every answer is
-evidence in one score with the geometry (`answer_evidence`).
+An answerer is taken to give each answer rightly with a probability, its reliability, and to choose at random otherwise. The
+score of a motion is the logarithm of its probability by geometry and of the probability of all answers, if it is the true one.
+The reliability is not assumed: RELIABILITIES are weighted by how probable they make all answers about an object, that is, by
+how well the answers agree with each other and with the geometry.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Numbered arrows along directions in space, and the choice of the view in which they differ most (paper, 3.3)."""
+"""Numbered marks (Yang et al. 2023), points and arrows drawn into pictures (paper, 3.2 and 3.3)."""
 
 from __future__ import annotations
 
@@ -17,6 +17,11 @@ from anymesh.types.camera import Camera
 
 ARROW_FONT, ARROW_WIDTH = 20, 2.0  # [px] font size in a picture of 640 px; line width of an arrow, in the unit of `draw_arrow`
 MIN_VISIBLE_SHARE = 0.25  # minimum share of the part's pixels in its best view; views with fewer are not chosen
+POINT_FONT, DOT = 16, 4  # [px] in a picture of 640 px: font size; radius of a dot
+LARGE_FONT, SMALL_FONT = 19, 15  # [px] font sizes in a picture of 640 px: for regions with enough space, and for the others
+MAX_OVERHANG = 0.3  # share of a plate that may extend beyond its region
+MIDDLE_WEIGHT = 0.02  # weight of the distance to the region's centroid, which keeps a number near the middle of a long region
+FOREIGN_COST, HIDDEN_COST = 40.0, 300.0  # [px] cost of covering other marks with a whole plate; of hiding a whole mark
 
 
 def clearest_view(
@@ -82,9 +87,6 @@ def draw_arrows(
     return np.asarray(drawn)
 
 
-POINT_FONT, DOT = 16, 4  # [px] in a picture of 640 px: font size; radius of a dot
-
-
 def labels_apart(pixels: Float[np.ndarray, "k 2"], min_distance: float) -> bool:
     """Return whether all points are at least `min_distance` [px] apart (`PromptConfig.label_apart`)."""
     gaps = np.linalg.norm(pixels[:, None] - pixels[None], axis=2)
@@ -127,12 +129,6 @@ def draw_points(
     for number, plate in plates.items():
         draw_plate(draw, plate, mark_color(number))
     return np.asarray(drawn)
-
-
-LARGE_FONT, SMALL_FONT = 19, 15  # [px] font sizes in a picture of 640 px: for regions with enough space, and for the others
-MAX_OVERHANG = 0.3  # share of a plate that may extend beyond its region
-MIDDLE_WEIGHT = 0.02  # weight of the distance to the region's centroid, which keeps a number near the middle of a long region
-FOREIGN_COST, HIDDEN_COST = 40.0, 300.0  # [px] cost of covering other marks with a whole plate; of hiding a whole mark
 
 
 def mark_positions(labels: Int[np.ndarray, "H W"], numbers: Sequence[int] | None = None) -> dict[int, Plate]:

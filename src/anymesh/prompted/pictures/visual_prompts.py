@@ -1,4 +1,4 @@
-"""Pictures for questions: an object with its parts, seen from the paper's views."""
+"""Pictures for questions: an object with its parts, seen from the paper's views, from inside and in close-up."""
 
 from __future__ import annotations
 
@@ -36,6 +36,9 @@ BAR = 34  # [px] height of the title bar
 MIN_CARD_SHARE = 0.5  # minimum share of the part's pixels in its best view, for a view to be considered
 CONTACT_POINTS = 300  # maximum number of contact points checked in each view
 CONTACT_UNDER = 0.02  # share of the contact's extent: points deeper than this below a surface count as hidden
+GHOST = 0.75  # share by which the colours of the rest are moved towards white
+ARROW = 0.35  # length of an arrow, as a share of the part's size
+UNDER = 0.003  # share of the diagonal: points deeper than this below a surface count as hidden
 
 
 def part_card(
@@ -115,9 +118,6 @@ def titled(image: UInt8[np.ndarray, "H W 3"], title: str) -> UInt8[np.ndarray, "
     return np.concatenate([np.asarray(bar), image])
 
 
-GHOST = 0.75  # share by which the colours of the rest are moved towards white
-
-
 def inside_views(mesh: Mesh, inside: Bool[np.ndarray, " F"], cameras: Sequence[Camera], scene: RayScene) -> list[View]:
     """Render only the faces `inside` from each camera. scene: of the whole mesh, which is drawn as a ghost."""
     own = np.flatnonzero(inside)
@@ -134,10 +134,6 @@ def inside_views(mesh: Mesh, inside: Bool[np.ndarray, " F"], cameras: Sequence[C
 def _over_ghost(near: View, whole: View) -> UInt8[np.ndarray, "H W 3"]:
     """Return the picture of some faces over the lightened picture of all."""
     return np.where((near.face >= 0)[..., None], near.color, lighten(whole.color, GHOST))
-
-
-ARROW = 0.35  # length of an arrow, as a share of the part's size
-UNDER = 0.003  # share of the diagonal: points deeper than this below a surface count as hidden
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,6 +11,13 @@ import reprlib
 from collections.abc import Mapping
 from typing import Any
 
+REASON = "reason"  # optional property before an answer that lets a model reason
+LARGEST = 1e9  # limit of numbers in answers; a number of a thousand digits would fill the following questions
+INTEGER, NUMBER, STRING, BOOLEAN = ({"type": t} for t in ("integer", "number", "string", "boolean"))
+_TYPES: dict[str, tuple[type, ...]] = {
+    "object": (dict,), "array": (list,), "string": (str,), "boolean": (bool,), "integer": (int,), "number": (int, float),
+}  # fmt: skip
+
 
 class BadAnswerError(Exception):
     """An answer that does not fit its question; the message says what is wrong and what would be valid."""
@@ -19,9 +26,6 @@ class BadAnswerError(Exception):
 def an_object(**properties: dict[str, Any]) -> dict[str, Any]:
     """Return the schema of an object that has exactly these properties."""
     return {"type": "object", "properties": properties, "required": list(properties), "additionalProperties": False}
-
-
-REASON = "reason"  # optional property before an answer that lets a model reason
 
 
 def an_answer(**properties: dict[str, Any]) -> dict[str, Any]:
@@ -42,13 +46,6 @@ def a_list(items: dict[str, Any]) -> dict[str, Any]:
 def one_of(values: tuple[str, ...]) -> dict[str, Any]:
     """Return the schema of a choice between words."""
     return {"type": "string", "enum": list(values)}
-
-
-LARGEST = 1e9  # limit of numbers in answers; a number of a thousand digits would fill the following questions
-INTEGER, NUMBER, STRING, BOOLEAN = ({"type": t} for t in ("integer", "number", "string", "boolean"))
-_TYPES: dict[str, tuple[type, ...]] = {
-    "object": (dict,), "array": (list,), "string": (str,), "boolean": (bool,), "integer": (int,), "number": (int, float),
-}  # fmt: skip
 
 
 def check_schema(value: Any, schema: Mapping[str, Any], at: str = "the answer") -> None:

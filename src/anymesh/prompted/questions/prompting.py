@@ -1,4 +1,4 @@
-"""Geometry-aware visual prompting (paper, 3.3): kinds of joint, candidate points, arrows."""
+"""Geometry-aware visual prompting (paper, 3.3): kinds of joint, points, arrows; beyond the paper, a choice among motions."""
 
 from __future__ import annotations
 

@@ -136,7 +136,7 @@ def parse_labels(labels: Sequence[str]) -> tuple[str, ...]:
         raise OptionError(f"--parts-list: {error}") from None
 
 
-def recognize(
+def ask_recognition(
     pictures: Callable[[], tuple[Picture, ...]],
     answerer: VisualAnswerer,
     category: str | None,

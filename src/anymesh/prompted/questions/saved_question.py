@@ -1,4 +1,4 @@
-"""Conversion of a question to bytes and back, so that an answer can be checked in another process.
+"""Questions as bytes and answers as JSON objects, so that another process can check, show and correct an answer.
 
 The fields of a question besides its pictures (tables, regions, labels) are written as JSON with separate arrays. Only frozen
 dataclasses and enums of this package's own questions and types are read back, so a file cannot refer to other code.
