@@ -9,7 +9,7 @@ from enum import StrEnum
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.applications.plan.approach_ import free_path
+from anymesh.applications.plan.approach_ import Valid, free_path
 from anymesh.applications.plan.asset_ import ArticulatedObject
 from anymesh.applications.plan.hand_ import Hand
 from anymesh.applications.plan.kinematics_ import Kinematics
@@ -194,6 +194,6 @@ class WorkCell:
             self.failures[Reason.PATH] += 1
         return path
 
-    def free(self, route: Route):
+    def free(self, route: Route) -> Valid:
         """Return a predicate that tests whether a posture on the approach is free of collisions."""
         return lambda posture: self.world.touching(posture, route.open_gap, 0.0) is None

@@ -198,6 +198,7 @@ class _Watch:
 
 
 def moved(physics: Physics) -> Float[np.ndarray, "4 4"]:
+    """Return the pose of the true object in the planned frame."""
     c, s = np.cos(physics.yaw), np.sin(physics.yaw)
     T = np.eye(4)
     T[:2, :2] = [[c, -s], [s, c]]

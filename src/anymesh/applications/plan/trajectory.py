@@ -5,14 +5,14 @@ A smooth curve through the postures is timed so that every joint stays within it
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float
 from scipy.interpolate import CubicSpline
 
-from anymesh.applications.plan.approach_ import straight_is_free
+from anymesh.applications.plan.approach_ import Valid
 from anymesh.applications.plan.attempt import Route
 from anymesh.applications.plan.plans import GripperContact, Phase, Trajectory
 from anymesh.applications.plan.robot_ import RobotArm
@@ -28,8 +28,6 @@ SLOWEST = 1.5  # [s] shortest duration of the part's motion
 DENSE = 0.02  # [rad] between the points used to round corners
 ROUNDINGS = (0.8, 0.4, 0.2, 0.1)  # [rad] length of the path over which a corner is rounded, tried in this order
 KNOTS = 0.08  # [rad] between the postures that define a curve
-Valid = Callable[[Float[np.ndarray, " J"]], bool]
-__all__ = ["build_trajectory", "rounded", "straight_is_free"]
 
 
 def build_trajectory(route: Route, robot: RobotArm, speed: float, free: Valid) -> Trajectory:

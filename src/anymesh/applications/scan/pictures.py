@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -109,7 +109,7 @@ def observed(color: np.ndarray, depth: np.ndarray, *masks: np.ndarray | None) ->
     return Observation(color, np.ascontiguousarray(kept, np.float32))
 
 
-def file_reader(color: Path, depth: Path | None, scale: float, *masks: Path | None):
+def file_reader(color: Path, depth: Path | None, scale: float, *masks: Path | None) -> Callable[[], Observation]:
     """Return a function that reads an observation from files; without a depth file, its depth map is a single 0."""
 
     def read() -> Observation:
