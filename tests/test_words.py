@@ -5,8 +5,6 @@ import re
 from collections import defaultdict
 from pathlib import Path
 
-import pytest
-
 SOURCE = Path(__file__).parents[1] / "src" / "anymesh"
 FILES = sorted(SOURCE.rglob("*.py"))
 PROSE = Path(__file__).parents[1] / ".ci" / "glossary.txt"  # words that codespell refuses in prose and names alike
@@ -54,11 +52,11 @@ def names(path: Path) -> set[str]:
     return found
 
 
-@pytest.mark.parametrize("path", FILES, ids=lambda p: str(p.relative_to(SOURCE)))
-def test_replaced_words_do_not_come_back(path: Path) -> None:
-    place = str(path.relative_to(SOURCE))
-    bad = {n for n in names(path) if n.strip("_") in NAMES or words(n) & WORDS}
-    assert not bad - KEPT.get(place, frozenset()), f"{place}: see the glossary for the names to use"
+def test_replaced_words_do_not_come_back() -> None:
+    bad = {path: {n for n in names(path) if n.strip("_") in NAMES or words(n) & WORDS} for path in FILES}
+    places = {str(path.relative_to(SOURCE)): some for path, some in bad.items()}
+    left = {place: some - KEPT.get(place, frozenset()) for place, some in places.items()}
+    assert not {place: some for place, some in left.items() if some}, "see the glossary for the names to use"
 
 
 def test_replaced_words_do_not_come_back_in_tests() -> None:
@@ -99,5 +97,4 @@ def test_no_two_constants_of_the_inner_stages_share_a_name() -> None:
                 if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store) and re.fullmatch("[A-Z][A-Z0-9_]+", node.id):
                     places[node.id].add(path.relative_to(SOURCE).as_posix())
     shared = {name for name, found in places.items() if len(found) > 1}
-    # NONE is a member of an enum, and a number that stands for no node
     assert not shared, {name: places[name] for name in shared}

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from anymesh.evaluation.evaluating import trained_objects
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import ObjectScore
-from anymesh.evaluation.training import trained_objects
 from benchmarks import held_out
 from training.kinds import __main__ as command
 from training.kinds import registry as kinds

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from anymesh.cli.quiet import quiet_libraries
+from anymesh.cli.app import quiet_libraries
 
 LINE = "v 0 0 2\nv 1 0 2\nv 2 0 2\nf 9 10 11\nf 9 9 10\n"  # faces without an area
 OPTIONS = ["--up", "z", "--scale", "1", "--formats", "urdf,mjcf,sdf,glb"]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from anymesh.evaluation.training import trained_note, trained_objects, trained_on
+from anymesh.evaluation.evaluating import trained_note, trained_objects, trained_on
 
 REPORTS = sorted((Path(__file__).parents[2] / "benchmarks" / "reports").glob("*-*.md"))
 ROW = re.compile(r"^\| ([a-z ]+) \| (.*) \|$", re.M)

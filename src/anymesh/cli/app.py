@@ -5,8 +5,12 @@ from __future__ import annotations
 import atexit
 import gc
 import json
+import logging
 import os
 import sys
+import warnings
+from collections.abc import Generator
+from contextlib import contextmanager
 from typing import Annotated, Any
 
 import typer
@@ -14,15 +18,55 @@ from typer.core import TyperCommand
 
 from anymesh import __version__
 from anymesh.cli.output import plain
-from anymesh.cli.quiet import quiet_libraries
 from anymesh.entry_points import COMMANDS, resolve
 from anymesh.errors import DEFECT, AnymeshError, OpenQuestionError
 
+OWN = "anymesh"
+VARIABLE = "PYTHONWARNINGS"  # passes the warning filter to Python child processes
 EXIT_CODES = (
     "Exit codes: 0 done; 2 a wrong option; 3 the mesh cannot be used; 4 the output folder exists or "
     "cannot be written; 5 an optional dependency is missing; 6 a model cannot be used; 7 the budget is spent; "
     "8 a check failed; 9 a question is open; 70 an internal defect, with a report to send; 130 interrupted."
 )
+
+
+class _Once(logging.Handler):
+    """Handler that writes each warning of this package to stderr, as one line, the first time that it occurs."""
+
+    def __init__(self) -> None:
+        super().__init__(logging.WARNING)
+        self._shown: set[str] = set()
+
+    def emit(self, record: logging.LogRecord) -> None:
+        text = plain(" ".join(record.getMessage().split()))
+        if text not in self._shown:
+            self._shown.add(text)
+            sys.stderr.write(f"warning: {text}\n")
+
+
+@contextmanager
+def quiet_libraries() -> Generator[None]:
+    """Silence Python warnings, also of child processes, and log records of libraries; for the command line only.
+
+    Warnings that the user requested (`python -W`, PYTHONWARNINGS) are kept.
+    """
+    root, own = logging.getLogger(), logging.getLogger(OWN)
+    sink, handler = logging.NullHandler(), _Once()  # records without any handler would go to stderr
+    asked, before = bool(sys.warnoptions), os.environ.get(VARIABLE)
+    root.addHandler(sink)
+    own.addHandler(handler)
+    try:
+        with warnings.catch_warnings():
+            if not asked:
+                warnings.simplefilter("ignore")
+                os.environ[VARIABLE] = "ignore"
+            yield
+    finally:
+        root.removeHandler(sink)
+        own.removeHandler(handler)
+        os.environ.pop(VARIABLE, None)
+        if before is not None:
+            os.environ[VARIABLE] = before
 
 
 class _Command(TyperCommand):

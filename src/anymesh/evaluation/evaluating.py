@@ -7,7 +7,7 @@ import math
 import platform
 from collections.abc import Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from functools import partial
+from functools import cache, partial
 from pathlib import Path
 from threading import Event
 from typing import Unpack
@@ -16,6 +16,7 @@ from zlib import crc32
 import numpy as np
 
 from anymesh import __version__
+from anymesh.articulation import motion_classifier
 from anymesh.errors import OpenQuestionError, OptionError
 from anymesh.evaluation.changes import CHANGES, UpSource
 from anymesh.evaluation.datasets.dataset import Dataset
@@ -26,18 +27,46 @@ from anymesh.evaluation.oracle import Noisy, oracle
 from anymesh.evaluation.record import Record, ResultsFolder
 from anymesh.evaluation.report import write_report
 from anymesh.evaluation.score import ObjectScore
-from anymesh.evaluation.training import trained_note
 from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
+from anymesh.loading.upright import up_classifier
 from anymesh.names import legal_name, listed
 from anymesh.pipeline.answering import choose_answerer
 from anymesh.pipeline.options import FILES, GEOMETRY, Answering
 from anymesh.pipeline.solving import solve
 from anymesh.runtime import Progress, silent, usable_cores
+from anymesh.segmentation import part_classifier
 from anymesh.types.questions import AnswererFactory
 
+FOLDERS = ("urdf", "static", "labelled", "mjcf", "partnet-mobility")  # kinds of data sets whose objects may have any source
 ORACLE = "oracle"
 Examined = list[Record] | OpenQuestionError  # the records of an object, or the question that it waits for
 Done = Iterator[tuple[str, Examined]]
+
+
+@cache
+def trained_objects() -> frozenset[str]:
+    """Return SOURCE/NAME of every object that a shipped classifier was trained on."""
+    classifiers = (part_classifier.shipped_classifier(), motion_classifier.shipped_classifier(), up_classifier())
+    return frozenset(name for classifier in classifiers for name in classifier.manifest["objects"])
+
+
+def trained_on(dataset: str, names: Sequence[str]) -> int:
+    """Count the objects of a data set that were used for training; in data sets of kind FOLDERS by their names alone."""
+    known = trained_objects()
+    if dataset in FOLDERS:
+        plain = {name.partition("/")[2] for name in known}
+        return sum(name in plain for name in names)
+    return sum(f"{dataset}/{name}" in known for name in names)
+
+
+def trained_note(dataset: str, names: Sequence[str]) -> str:
+    """Describe for a report whether its figures are held out."""
+    count = trained_on(dataset, names)
+    if count:
+        return f"{count} of {len(names)} objects: figures on them are not held out"
+    if any(name.startswith(f"{dataset}/") for name in trained_objects()):
+        return "other objects of this set: figures are not held out"
+    return "none of these objects"
 
 
 def evaluate(
