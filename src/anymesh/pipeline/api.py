@@ -25,39 +25,6 @@ from anymesh.types import Asset, Exchange, Joint, Segmentation
 log = logging.getLogger("anymesh")
 
 
-@contextmanager
-def kept_transcript(run: RunFolder, who: AnswererSetup) -> Generator[None]:
-    """Write OUT.transcript beside the output if the run ends early, else remove that of an earlier run."""
-    folder = run.target.parent / f"{run.target.name}.transcript"
-    try:
-        yield
-    except OpenQuestionError:
-        raise  # the folders of its questions contain them
-    except BaseException:
-        _write(run, who, folder)
-        raise
-    if folder.exists():
-        with suppress(OSError):
-            resolve(REMOVE_TRANSCRIPT)(folder)
-
-
-def _write(run: RunFolder, who: AnswererSetup, folder: Path) -> None:
-    saved = list(_saved(run))
-    exchanges = [*saved, *(e for e in who.exchanges() if e not in saved)]
-    if exchanges:
-        try:
-            resolve(WRITE_TRANSCRIPT)(exchanges, folder)
-            log.warning("what was asked and answered until then: %s", folder / "index.html")
-        except OSError as error:  # the error that ended the run is more important
-            log.warning("the transcript cannot be written to %s: %s", folder, error.strerror or error)
-
-
-def _saved(run: RunFolder) -> Iterator[Exchange]:
-    for stage in (RECOGNITION, SEGMENTATION, JOINTS):
-        with suppress(OutputError):
-            yield from run.need(stage).exchanges
-
-
 def articulate(
     mesh_path: str | Path,
     out: str | Path,
@@ -123,7 +90,7 @@ def _new_run(
     """Begin a run that makes a new output, in the folder `out`."""
     deadline = Deadline(time_limit)
     who = choose_answerer(answering, about=object_name(mesh_path), deadline=deadline)
-    with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as folder, kept_transcript(folder, who):
+    with RunFolder.create(Path(out), source=Path(mesh_path), force=force) as folder, _kept_transcript(folder, who):
         yield Run(folder, who, deadline, progress)
 
 
@@ -137,7 +104,7 @@ def joints(
     """Run only Stage B, on the parts that `segment` saved in `folder`. Options as for `articulate`."""
     deadline = Deadline(time_limit)
     who = choose_answerer(answering, deadline=deadline)
-    with RunFolder.open(Path(folder)) as kept, kept_transcript(kept, who):
+    with RunFolder.open(Path(folder)) as kept, _kept_transcript(kept, who):
         run = Run(kept, who, deadline, progress)
         recognized, segmented = kept.recognition(), Keyed(kept.need(SEGMENTATION), kept.key(SEGMENTATION))
         solver = run.solver(recognized.sized(kept.need(MESH)).mesh)
@@ -175,3 +142,36 @@ def export_asset(
     if archive is not None:
         write_zip(Path(folder), Path(archive))
     return asset
+
+
+@contextmanager
+def _kept_transcript(run: RunFolder, who: AnswererSetup) -> Generator[None]:
+    """Write OUT.transcript beside the output if the run ends early, else remove that of an earlier run."""
+    folder = run.target.parent / f"{run.target.name}.transcript"
+    try:
+        yield
+    except OpenQuestionError:
+        raise  # the folders of its questions contain them
+    except BaseException:
+        _write_exchanges(run, who, folder)
+        raise
+    if folder.exists():
+        with suppress(OSError):
+            resolve(REMOVE_TRANSCRIPT)(folder)
+
+
+def _write_exchanges(run: RunFolder, who: AnswererSetup, folder: Path) -> None:
+    saved = list(_saved_exchanges(run))
+    exchanges = [*saved, *(e for e in who.exchanges() if e not in saved)]
+    if exchanges:
+        try:
+            resolve(WRITE_TRANSCRIPT)(exchanges, folder)
+            log.warning("what was asked and answered until then: %s", folder / "index.html")
+        except OSError as error:  # the error that ended the run is more important
+            log.warning("the transcript cannot be written to %s: %s", folder, error.strerror or error)
+
+
+def _saved_exchanges(run: RunFolder) -> Iterator[Exchange]:
+    for stage in (RECOGNITION, SEGMENTATION, JOINTS):
+        with suppress(OutputError):
+            yield from run.need(stage).exchanges
