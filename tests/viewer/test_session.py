@@ -79,5 +79,5 @@ def test_two_people_do_not_overwrite_each_other(tmp_path):
     with pytest.raises(StaleError):
         mine.save()
     assert mine.unsaved
-    mine.reload()
+    mine = opened(folder)
     assert mine.asset.joints[0].limits == (0.0, 1.0)

@@ -25,9 +25,8 @@ from anymesh.viewer.questions.scene_ import (
     nearest_point,
     point_places,
     scale_of,
-    surface,
 )
-from anymesh.viewer.scene import color_of
+from anymesh.viewer.scene import color_of, surface
 
 KINDS = list(questions())
 

@@ -14,7 +14,7 @@ from jaxtyping import Bool, Float, Int
 from anymesh.errors import OptionError
 from anymesh.evaluation.details import detailed, floored, furnished
 from anymesh.evaluation.fused_ import joined, wrapped
-from anymesh.evaluation.ground_truth import EvalSample
+from anymesh.evaluation.ground_truth import EvalSample, of_parts
 from anymesh.evaluation.posing import ajar
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.raycast_ import RayScene
@@ -267,23 +267,11 @@ def _only(sample: EvalSample, kept: Bool[np.ndarray, " F"]) -> EvalSample:
 
     Parts without faces are removed from the ground truth; their child parts get the nearest remaining ancestor as parent.
     """
-    truth, labels = sample.truth, sample.labels[kept]
-    there = np.bincount(labels, minlength=len(truth.parts)) > 0
+    labels = sample.labels[kept]
+    there = np.bincount(labels, minlength=len(sample.truth.parts)) > 0
     there[0] = True
-    number = np.cumsum(there) - 1
-    parts = tuple(p for p, here in zip(truth.parts, there, strict=True) if here)
-    names = {p.name for p in parts}
-    parent = {j.child: j.parent for j in truth.joints}
-
-    def carrier(name: str) -> str:
-        while name not in names and name in parent:
-            name = parent[name]
-        return name
-
-    joints = tuple(replace(j, parent=carrier(j.parent)) for j in truth.joints if j.child in names)
-    return replace(
-        sample, truth=replace(truth, parts=parts, joints=joints), mesh=sample.mesh.subset(kept), labels=number[labels]
-    )
+    truth, number = of_parts(sample.truth, np.flatnonzero(there))
+    return replace(sample, truth=truth, mesh=sample.mesh.subset(kept), labels=number[labels])
 
 
 CHANGES: Mapping[str, Change] = MappingProxyType(

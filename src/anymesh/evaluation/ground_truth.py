@@ -122,3 +122,24 @@ def prepared(truth: GroundTruth) -> EvalSample:
     """Load the truth's mesh and place it."""
     placed = place_mesh(load_mesh(truth.mesh))
     return EvalSample(truth, placed.mesh, truth.labels, placed.T_asset_source)
+
+
+def of_parts(truth: GroundTruth, kept: Int[np.ndarray, " k"]) -> tuple[GroundTruth, Int[np.ndarray, " p"]]:
+    """Return the ground truth of some parts (indices, base first), and the new index of each old part.
+
+    Omitted parts become base, and their children get the nearest remaining ancestor as parent.
+    """
+    number = np.zeros(len(truth.parts), np.int64)
+    number[kept] = np.arange(len(kept))
+    parts = tuple(truth.parts[k] for k in kept)
+    names = {p.name for p in parts}
+    by_child = {j.child: j for j in truth.joints}
+
+    def parent(joint: TrueJoint) -> str:
+        at = joint.parent
+        while at not in names and at in by_child:
+            at = by_child[at].parent
+        return at if at in names else parts[0].name
+
+    joints = tuple(replace(j, parent=parent(j)) for j in truth.joints if j.child in names)
+    return replace(truth, parts=parts, labels=number[truth.labels], joints=joints), number

@@ -18,7 +18,7 @@ from jaxtyping import Bool, Float, Int
 from scipy.ndimage import maximum_filter
 
 from anymesh.errors import InputError
-from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
+from anymesh.evaluation.ground_truth import EvalSample, of_parts
 from anymesh.evaluation.posing import posed
 from anymesh.geometry.boxes import OrientedBox, box_in_frame
 from anymesh.geometry.raycast_ import RayScene
@@ -265,7 +265,7 @@ def observed(sample: EvalSample, camera: Camera, rays: RayScene | None = None) -
     if not covered[0] or not covered[1:].any():
         return None
     kept = np.flatnonzero(covered[labels])
-    truth, number = _of_parts(sample.truth, np.flatnonzero(covered))
+    truth, number = of_parts(sample.truth, np.flatnonzero(covered))
     mesh, labels = _closed(mesh.subset(kept), number[labels[kept]], view)
     return replace(sample, truth=truth, mesh=mesh, labels=labels, diagonal=2 * sample.unit)
 
@@ -311,24 +311,3 @@ def front(sample: EvalSample) -> tuple[float, Int[np.ndarray, " k"]]:
         if pixels[1:].sum() > most[1:].sum():
             best, most = float(azimuth), pixels
     return best, 1 + np.flatnonzero(most[1:])
-
-
-def _of_parts(truth: GroundTruth, kept: Int[np.ndarray, " k"]) -> tuple[GroundTruth, Int[np.ndarray, " p"]]:
-    """Return the ground truth of some parts (indices, base first), and the new index of each old part.
-
-    Omitted parts become base, and their children get the nearest remaining ancestor as parent.
-    """
-    number = np.zeros(len(truth.parts), np.int64)
-    number[kept] = np.arange(len(kept))
-    parts = tuple(truth.parts[k] for k in kept)
-    names = {p.name for p in parts}
-    by_child = {j.child: j for j in truth.joints}
-
-    def parent(joint: TrueJoint) -> str:
-        at = joint.parent
-        while at not in names and at in by_child:
-            at = by_child[at].parent
-        return at if at in names else parts[0].name
-
-    joints = tuple(replace(j, parent=parent(j)) for j in truth.joints if j.child in names)
-    return replace(truth, parts=parts, labels=number[truth.labels], joints=joints), number

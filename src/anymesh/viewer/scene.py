@@ -43,6 +43,15 @@ class DisplayMesh:
     faces: Int[np.ndarray, "F 3"]
 
 
+def surface(mesh: Mesh, faces: Int[np.ndarray, " f"], most: int = MAX_DISPLAY_FACES) -> DisplayMesh:
+    """Return some faces as a surface, decimated if the mesh has more than `most` faces."""
+    if len(mesh.faces) <= most:
+        piece = mesh.subset(faces)
+        return DisplayMesh(piece.vertices, piece.faces)
+    few = simplify(mesh.triangles[faces], max(MIN_PART_FACES, most * len(faces) // len(mesh.faces)))
+    return DisplayMesh(few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
+
+
 @dataclass
 class Surfaces:
     """Display surfaces of the parts. Decimated ones are cached while their mesh and faces are unchanged."""
@@ -56,18 +65,10 @@ class Surfaces:
         mesh, surfaces, keys = asset.mesh, {}, {}
         if mesh is not self._of:
             self._of, self._kept = mesh, {}
-        dense = len(mesh.faces) > self.most
         for number, part in enumerate(asset.segmentation.parts):
             faces = asset.segmentation.faces(number)
             keys[part.name] = key = hashlib.sha256(faces.tobytes()).digest()
-            if key in self._kept:
-                surfaces[part.name] = self._kept[key]
-            elif dense:
-                few = simplify(mesh.triangles[faces], max(MIN_PART_FACES, self.most * len(faces) // len(mesh.faces)))
-                surfaces[part.name] = DisplayMesh(few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
-            else:
-                piece = mesh.subset(faces)
-                surfaces[part.name] = DisplayMesh(piece.vertices, piece.faces)
+            surfaces[part.name] = self._kept[key] if key in self._kept else surface(mesh, faces, self.most)
         self._kept |= {keys[name]: surface for name, surface in surfaces.items()}
         return surfaces
 

@@ -104,12 +104,6 @@ class Session:
         self._opened = save_asset(self._opened)
         self._saved = self.history.done
 
-    def reload(self) -> None:
-        """Load the saved state, dropping unsaved changes."""
-        self._opened = open_asset(self.folder)
-        self._saved = self.history.done
-        self._settle()
-
     def _go(self, history: History) -> None:
         self._opened = Opened(self._opened.folder, history, self._opened.version)
         self._settle()

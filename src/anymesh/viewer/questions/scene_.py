@@ -11,13 +11,12 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.export.notation import quaternion
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.geometry.simplify_ import simplify
 from anymesh.prompted.questions.prompting import ArrowTable, MotionTable, PartShown, PointTable
 from anymesh.rendering.marks import axis_line
 from anymesh.rendering.viewpoints import away
 from anymesh.types import JointType, Mesh
 from anymesh.viewer.questions.forms import SPLIT, ArrowsForm, Form, MarksForm, MotionsForm, PartsForm, PointsForm
-from anymesh.viewer.scene import MAX_DISPLAY_FACES, MIN_PART_FACES, Color, DisplayMesh, color_of
+from anymesh.viewer.scene import Color, color_of, surface
 
 SAME_SIZE = 0.05  # tolerance of the ratio of sizes, below which a part has the scale of the mesh
 REACH = 0.03  # maximum distance of a clicked point from the ray, as a share of its distance from the eye
@@ -35,15 +34,6 @@ REST, PART, AXIS = (205, 205, 210), color_of(1), (190, 20, 40)
 POINT, HIDDEN_POINT, CHOSEN = (40, 90, 200), (150, 180, 235), (230, 0, 200)
 GHOST, SEE_INTO = 0.15, 0.3  # opacity of the rest of the object, and of the part while its points are chosen
 SECONDS = 2.5  # duration of a motion's play, there and back
-
-
-def surface(mesh: Mesh, faces: Int[np.ndarray, " f"], most: int = MAX_DISPLAY_FACES) -> DisplayMesh:
-    """Return some faces as a surface, decimated if the mesh has more than `most` faces."""
-    if len(mesh.faces) <= most:
-        piece = mesh.subset(faces)
-        return DisplayMesh(piece.vertices, piece.faces)
-    few = simplify(mesh.triangles[faces], max(MIN_PART_FACES, most * len(faces) // len(mesh.faces)))
-    return DisplayMesh(few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
 
 
 def scale_of(part: PartShown, mesh: Mesh) -> float:
