@@ -23,9 +23,9 @@ import time
 from pathlib import Path
 from typing import Any
 
+from benchmarks import EXAMPLES
 from benchmarks.fuzz_scenes import scene, write_scene
 
-EXAMPLES = Path(__file__).parents[1] / "examples" / "meshes"
 Figures = dict[str, Any]
 
 
@@ -34,7 +34,7 @@ def build(folder: Path, count: int) -> Path:
     if folder.is_dir() and len([p for p in folder.iterdir() if p.is_dir()]) == count:
         return folder
     shutil.rmtree(folder, ignore_errors=True)
-    examples = sorted(EXAMPLES.glob("*.glb"))[: count // 4]
+    examples = sorted((EXAMPLES / "meshes").glob("*.glb"))[: count // 4]
     for path in examples:
         (folder / path.stem).mkdir(parents=True)
         shutil.copy2(path, folder / path.stem)

@@ -1,6 +1,6 @@
 """Measure whether collision shapes let joints move: ours and others, with true parts and joints given.
 
-python -m benchmarks.collision [--coacd] [SET ...]      writes benchmarks/collision.md; a set as `anymesh eval` names it;
+python -m benchmarks.collision [--coacd] [SET ...]      writes reports/collision.md; a set as `anymesh eval` names it;
                                                         --coacd: also one CoACD run per link, which takes minutes per object
 
 A joint is free if, at 21 positions over its range, no two shapes of different links penetrate by more than .1 % of the
@@ -9,13 +9,10 @@ diagonal where the surfaces do not intersect. Shapes are computed without the ca
 
 from __future__ import annotations
 
-import datetime
-import platform
 import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
-from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -29,8 +26,8 @@ from anymesh.physics.collision import CollisionConfig, collision_shapes, joint_p
 from anymesh.physics.convex import hull_of
 from anymesh.physics.decompose import Component
 from anymesh.types import Asset, JointType, Shape
+from benchmarks import REPORTS, made_with
 
-PAGE = Path(__file__).with_suffix(".md")
 SETS = ("examples", "scene-synthesizer", "metaworld", "libero")
 DEEP = 1e-3  # of the diagonal
 Shapes = dict[str, tuple[Shape, ...]]
@@ -115,10 +112,9 @@ def main() -> None:
             rows.append("| " + " | ".join(cells) + " |")
             print(rows[-1], flush=True)
     head = "| set | shapes | joints free | shapes per link | seconds per object, median | most |\n|---|---|---|---|---|---|"
-    packages = ", ".join(f"{p} {version(p)}" for p in ("manifold3d", "mujoco", "numpy"))
-    footer = f"{datetime.date.today()}, Python {platform.python_version()}, {packages}; `python -m benchmarks.collision`."
+    footer = f"{made_with('manifold3d', 'mujoco', 'numpy')}; `python -m benchmarks.collision`."
     text = "\n\n".join(["# Collision shapes", (__doc__ or "").split("\n\n", 2)[2].strip(), "\n".join([head, *rows]), footer])
-    PAGE.write_text(text + "\n", encoding="utf-8")
+    (REPORTS / "collision.md").write_text(text + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

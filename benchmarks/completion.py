@@ -8,13 +8,10 @@ python -m benchmarks.completion --only NAME --changes fused  some objects, one w
 from __future__ import annotations
 
 import argparse
-import platform
 import tempfile
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from datetime import date
-from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -32,15 +29,15 @@ from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.topology import components, weld
 from anymesh.geometry.triangle_set import sample_surface, spread_directions
 from anymesh.types import Asset, JointType, Mesh
+from benchmarks import EXAMPLES, made_with
 
-EXAMPLES = Path(__file__).parents[1] / "examples"
 CHANGES = ("unseen-gone", "fused")
 LEAST = 0.01  # share of the grid that a cavity takes at least; less is a gap
 STEPS = 60  # places along a joint's range in the simulator
 PACKAGES = ("articulate-anymesh", "numpy", "mujoco", "manifold3d", "scene_synthesizer")
 HEAD = """# Shape completion (paper, 3.4)
 
-`python -m benchmarks.completion --markdown benchmarks/completion.md`, {date}, Python {python}, {packages}.
+`python -m benchmarks.completion --markdown benchmarks/reports/completion.md`, {made_with}.
 
 The interior of objects whose interior is known is removed: `unseen-gone` removes the faces that no view shows at rest,
 `fused` wraps the visible surface in one closed surface, as scans and generators produce it, and cuts it into parts by the
@@ -242,8 +239,7 @@ def main() -> None:
     parser.add_argument("--only", nargs="*", help="names of objects")
     parser.add_argument("--changes", nargs="*", default=CHANGES, help="how they are made into surfaces")
     options = parser.parse_args()
-    packages = ", ".join(f"{name} {version(name)}" for name in PACKAGES)
-    done = [HEAD.format(date=date.today().isoformat(), python=platform.python_version(), packages=packages)]
+    done = [HEAD.format(made_with=made_with(*PACKAGES))]
     with tempfile.TemporaryDirectory() as folder:
         examples = [t for t in example_truths(EXAMPLES) if not t.name.endswith("_fused")]
         sets = {"examples": examples, "scene-synthesizer": [synthesize(c, Path(folder)) for c in CLASSES]}

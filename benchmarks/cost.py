@@ -19,6 +19,7 @@ from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepare
 from anymesh.evaluation.oracle import SimulatedVlm, oracle
 from anymesh.export.asset_json import usage
 from anymesh.pipeline.solving import Solver
+from benchmarks import EXAMPLES
 
 HEAD = """# Cost of a model
 
@@ -30,7 +31,6 @@ without calls or cost.
 | object | faces | parts | calls | pictures | tokens in | tokens out | USD | s | processor s | s cached |
 |---|---|---|---|---|---|---|---|---|---|---|
 """
-EXAMPLES = Path(__file__).parents[1] / "examples"
 
 
 def row(truth: GroundTruth, change: str, like: str, cache: Path) -> str:

@@ -12,12 +12,10 @@ done; the report covers all of it.
 from __future__ import annotations
 
 import argparse
-import datetime
 import faulthandler
 import hashlib
 import json
 import os
-import platform
 import re
 import shutil
 import signal
@@ -30,7 +28,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass, replace
 from functools import partial
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
@@ -44,9 +41,9 @@ from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
 from anymesh.loading import load_mesh
 from anymesh.loading.files import FORMATS as MESH_FORMATS
 from anymesh.pipeline import articulate
+from benchmarks import REPORTS, made_with
 from benchmarks.fuzz_scenes import FIXTURES, fixture, scene, write_scene
 
-REPORT = Path(__file__).parent / "reports" / "fuzz.md"
 FORMATS = "urdf,mjcf,usd,sdf,glb"
 GIVEN = ("nodes", "labels")
 CHECKED, TWICE = 4, 10  # one case in as many is held against the output contract, and run twice
@@ -236,7 +233,6 @@ def report(results: Mapping[str, Result], command: str, limit: float) -> str:
     """Return the page over results by the key of their case."""
     made = [r for r in results.values() if r["outcome"] == "asset"]
     checked, twice = ([r for r in made if name in r] for name in ("contract", "same"))
-    packages = ", ".join(f"{p} {version(p)}" for p in PACKAGES)
     where = {o: [(f"{r['kind']} in `{r['where']}`", k) for k, r in results.items() if r["outcome"] == o] for o in OUTCOMES[2:]}
     errors = [(f"{r['kind']}: {_stem(r['message'])}", k) for k, r in results.items() if r["outcome"] == "error"]
     noted = [(w, k) for k, r in results.items() for w in r.get("warnings", ())]
@@ -244,7 +240,7 @@ def report(results: Mapping[str, Result], command: str, limit: float) -> str:
     slowest = sorted(results.items(), key=lambda item: -item[1]["seconds"])[:SLOWEST]
     return "\n".join([
         "# Fuzzing", "",
-        f"`{command}`, {datetime.date.today()}, {os.cpu_count()} cores, Python {platform.python_version()}, {packages}.", "",
+        f"`{command}`, {made_with(*PACKAGES)}, {os.cpu_count()} cores.", "",
         "Each input goes through loading, segmentation, joints, completion and all five formats; limit of processor time "
         f"{limit:g} s.", "",
         *_outcomes(results), "",
@@ -351,7 +347,7 @@ def main() -> None:
                 print(f"{result['seconds']:7.1f} s  {case.key}: {result['outcome']} {cause[:160]}", flush=True)
     finally:
         command = " ".join(["python -m benchmarks.fuzz WORK", *(Path(a).name for a in sys.argv[2:])])
-        REPORT.write_text(report(results, command, how.time_limit), encoding="utf-8")
+        (REPORTS / "fuzz.md").write_text(report(results, command, how.time_limit), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -27,9 +27,9 @@ from typing import Any
 from anymesh.errors import InputError
 from anymesh.isolation import ChildError, ChildLimits, ChildPool
 from anymesh.loading import load_mesh
+from benchmarks import ROOT
 from benchmarks.fuzz_scenes import scene, write_scene
 
-ROOT = Path(__file__).parents[1]
 sys.path += [str(ROOT / "tests" / "loading"), str(ROOT / "tests")]  # the hand-written files of the tests
 
 MEMORY = 3 << 30  # [bytes] of address space for one input

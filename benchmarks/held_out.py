@@ -21,10 +21,10 @@ from anymesh.evaluation.evaluating import evaluate
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.report import markdown
 from anymesh.evaluation.summary import Summary, group_table, summarize
+from benchmarks import REPORTS
 from training.error_sources import causes_table, proposed_parts
 from training.kinds import registry as kinds
 
-HERE = Path(__file__).parent
 SEED, COUNT = 23, 2  # of the objects; COUNT of each kind
 STATIC = ("wine_rack", "picnic_table", "barrel")  # reserved kinds of which nothing moves
 SAMPLE = sorted(set(kinds.RESERVED) - set(STATIC))[::2]  # kinds whose first object is in the sample
@@ -110,7 +110,7 @@ def check(work: Path) -> int:
     names = [name for kind in SAMPLE for name in objects(work, kind, [0])]
     found = figures({what: measure(work, names, *MEASURED[what]) for what in CHECKED})
     print(json.dumps(found, indent=1))
-    left = worse(found, json.loads((HERE / "held_out.json").read_text())["sample"])
+    left = worse(found, json.loads((REPORTS / "held_out.json").read_text())["sample"])
     print("\n".join(left) or f"no figure on {len(names)} held-out objects is worse than the baseline by more than {TOLERANCE}")
     return int(bool(left))
 
@@ -129,7 +129,7 @@ def write(work: Path) -> int:
         "all": figures(records),
         "sample": figures({what: [r for r in records[what] if r.score.name in sample] for what in CHECKED}),
     }
-    (HERE / "held_out.json").write_text(json.dumps(baseline, indent=1) + "\n")
+    (REPORTS / "held_out.json").write_text(json.dumps(baseline, indent=1) + "\n")
     by_kind = {
         protocol: [
             (kind, [r for r in some if r.score.name.startswith(f"{kind}-")]) for kind in kinds.RESERVED if kind not in STATIC
@@ -153,7 +153,7 @@ def write(work: Path) -> int:
     for protocol, groups in by_kind.items():
         text += [f"## {protocol}", "", markdown(group_table(protocol, [*groups, ("all", records[protocol])])), ""]
     text += ["## Where the errors come from", "", *_causes(work, by_kind), ""]
-    (HERE / "held_out.md").write_text("\n".join(text))
+    (REPORTS / "held_out.md").write_text("\n".join(text))
     print(json.dumps(baseline, indent=1))
     return 0
 
@@ -201,7 +201,7 @@ def still_page(records: Sequence[Record]) -> str:
 def count_still(work: Path) -> int:
     """Measure the models of which nothing moves, and write still_models.md."""
     text = still_page(measure(work, write_still(work / "real"), "end-to-end", dataset="static:real"))
-    (HERE / "still_models.md").write_text(text)
+    (REPORTS / "still_models.md").write_text(text)
     print(text)
     return 0
 

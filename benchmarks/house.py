@@ -1,19 +1,25 @@
-"""Count files and lines of every part of the repository, at one or more revisions, as a Markdown table.
+"""Count files and lines of every part of the repository, or the files that `anymesh articulate` goes through.
 
 python -m benchmarks.house                                 the working tree
-python -m benchmarks.house --rev 80cc4289 --rev HEAD       files and lines before and after
+python -m benchmarks.house --rev 80cc4289 --rev HEAD       files and lines before and after, as a table
+python -m benchmarks.house --walk [--list] --rev HEAD      files that one run imports, and those of which a function runs
 """
 
 from __future__ import annotations
 
-import argparse
 import io
+import json
 import subprocess
+import sys
 import tarfile
+import tempfile
 from collections import Counter
+from contextlib import nullcontext
 from pathlib import Path, PurePosixPath
 
-ROOT = Path(__file__).parents[1]
+from benchmarks import EXAMPLES, ROOT, parser_of, table_head, table_row, worktree
+
+MESH = EXAMPLES / "meshes" / "cabinet.glb"  # that --walk articulates
 TREE = "working tree"
 PARTS = (
     "core",
@@ -47,6 +53,26 @@ PROMPTED_MODULES = {  # among modules of the core, before the paper's method had
     "rendering": "arrows card insides marks points sheet visual_prompts",
     "pipeline": "prompted_stages answering",
 }
+CHILD = """
+import json, sys, threading
+source, mesh, folder = sys.argv[1:]
+sys.path.insert(0, source)
+IN_A_FUNCTION = 1  # flag of code: neither a module nor the body of a class
+ran = set()
+def profile(frame, event, argument):
+    code = frame.f_code
+    if event == "call" and code.co_flags & IN_A_FUNCTION and code.co_filename.startswith(source):
+        ran.add(code.co_filename)
+threading.setprofile(profile)
+sys.setprofile(profile)
+from anymesh.cli.app import run
+code = run(["articulate", mesh, "-o", folder + "/asset", "--quiet"])
+sys.setprofile(None)
+modules = [m for name, m in sys.modules.items() if name.split(".")[0] == "anymesh"]
+imported = sorted(m.__file__ for m in modules if getattr(m, "__file__", None))
+with open(folder + "/walk.json", "w") as file:
+    json.dump({"code": code, "imported": imported, "ran": sorted(ran)}, file)
+"""
 
 
 def part_of(path: PurePosixPath) -> str:
@@ -99,14 +125,36 @@ def counted(revision: str) -> tuple[Counter[str], Counter[str]]:
     return files, lines
 
 
+def walk(tree: Path) -> dict[str, list[str]]:
+    """Return the files of the package, relative to it, that were imported and that ran, when the code of a tree articulates."""
+    source = tree.resolve() / "src"
+    with tempfile.TemporaryDirectory() as folder:
+        subprocess.run([sys.executable, "-c", CHILD, source, MESH, folder], check=True)
+        found = json.loads((Path(folder) / "walk.json").read_text())
+    if found.pop("code"):
+        raise SystemExit(f"{MESH}: articulate failed")
+    return {what: [str(Path(file).relative_to(source)) for file in files] for what, files in found.items()}
+
+
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Files and lines of every part of the repository.")
+    parser = parser_of(__doc__)
     parser.add_argument("--rev", action="append", help="a revision of git, more than once for columns beside each other")
-    revisions = parser.parse_args().rev or [TREE]
-    counts = [counted(revision) for revision in revisions]
-    print(f"| files / lines | {' | '.join(revisions)} |\n|---|{'---|' * len(revisions)}")
-    for part in PARTS:
-        print(f"| {part} | {' | '.join(f'{files[part]} / {lines[part]:,}' for files, lines in counts)} |")
+    parser.add_argument("--walk", action="store_true", help="count the files that articulating a mesh goes through")
+    parser.add_argument("--list", action="store_true", help="with --walk: name the files that ran")
+    options = parser.parse_args()
+    revisions = options.rev or [TREE]
+    if not options.walk:
+        counts = [counted(revision) for revision in revisions]
+        print(*table_head(["files / lines", *revisions]), sep="\n")
+        for part in PARTS:
+            print(table_row([part, *(f"{files[part]} / {lines[part]:,}" for files, lines in counts)]))
+        return
+    for revision in revisions:
+        with nullcontext(ROOT) if revision == TREE else worktree(revision) as tree:
+            found = walk(tree)
+        print(f"{revision}: {len(found['imported'])} files imported, {len(found['ran'])} with a function that runs")
+        if options.list:
+            print(*found["ran"], sep="\n")
 
 
 if __name__ == "__main__":

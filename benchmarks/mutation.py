@@ -3,7 +3,7 @@
     pip install '.[test,mutation]'
     python -m benchmarks.mutation WORK --map                  # which test runs which line, 4 minutes of processor time
     python -m benchmarks.mutation WORK --count 60 --seed 2    # resumable; 12 minutes
-    python -m benchmarks.mutation WORK --report benchmarks/mutation.md --seed 2
+    python -m benchmarks.mutation WORK --report benchmarks/reports/mutation.md --seed 2
 
 Each mutant runs in a copy of the source, against the tests that run the changed line, until the first one fails.
 """
@@ -34,7 +34,8 @@ from cosmic_ray.mutating import mutate_code
 from cosmic_ray.plugins import get_operator
 from coverage import CoverageData
 
-ROOT = Path(__file__).parents[1]
+from benchmarks import REPORTS, ROOT
+
 PACKAGES = ("geometry", "segmentation", "physics", "articulation")
 SWAPS = {  # one replacement or two per operator: the inverse, and the neighbour
     "BinaryOperator": "Add_Sub Sub_Add Mul_Div Div_Mul FloorDiv_Mul Mod_Mul Pow_Mul BitOr_BitAnd BitAnd_BitOr BitXor_BitAnd",
@@ -51,7 +52,7 @@ WALL = 900  # [s]
 LIBRARIES = (
     "pytest hypothesis numpy scipy.spatial scipy.sparse scipy.optimize scipy.ndimage trimesh mujoco igl networkx PIL.Image"
 )
-EQUIVALENT = Path(__file__).with_name("mutation_equivalent.json")
+EQUIVALENT = REPORTS / "mutation_equivalent.json"
 COSTS = """
 import json, os, time, pytest
 OUT = open(os.environ["MUTATION_COSTS"], "w")

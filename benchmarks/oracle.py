@@ -25,15 +25,15 @@ from anymesh.evaluation.report import markdown
 from anymesh.evaluation.score import JointScore, ObjectScore, score
 from anymesh.evaluation.summary import group_table
 from anymesh.pipeline.solving import solve
+from benchmarks import EXAMPLES
 
 HEAD = """# The oracle
 
-`python -m benchmarks.oracle --noise --markdown benchmarks/oracle.md --plot docs/images/noise.svg`. Each question is answered
-from the ground truth, with the same marks, points, arrows and motions that a model would see. The remaining error is that of
-the geometry.
+`python -m benchmarks.oracle --noise --markdown benchmarks/reports/oracle.md --plot docs/images/noise.svg`. Each question
+is answered from the ground truth, with the same marks, points, arrows and motions that a model would see. The remaining error
+is that of the geometry.
 Position: the diagonal is 2; mIoU is over the movable parts, where a part that is not found counts as 0.
 """
-EXAMPLES = Path(__file__).parents[1] / "examples"
 VERIFY = ("motion", "free", "off")
 WRONG = (0.0, 0.1, 0.2, 0.35, 0.5)
 COLORS = {"motion": "#0a6", "free": "#26c", "off": "#c33"}

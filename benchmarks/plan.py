@@ -7,7 +7,7 @@ A second MuJoCo simulation with the true joints stands in for the real robot. Tw
 corrected (ours with the sign of the joint set right by hand), truth (the true parts and joints: an upper bound), paper (the
 paper's rule alone for every joint, `verify="off"`, with ground truth in the place of the model), scan (ours of a simulated
 RGB-D scan of the object, by `anymesh scan`) and answered (the drill's scan again, with the recorded blind answers of a general
-model that saw the pictures, `scan_answers/`). The last two are not among the defaults. Where a
+model that saw the pictures, `recordings/scans/`). The last two are not among the defaults. Where a
 twin allows less than the task's value, the nearest value that the planner names is planned and asked of the true object, if it
 is at least half of it.
 """
@@ -40,10 +40,8 @@ from anymesh.evaluation.oracle import oracle
 from anymesh.export import write_asset
 from anymesh.pipeline import articulate
 from anymesh.pipeline.solving import solve
+from benchmarks import EXAMPLES, RECORDINGS
 
-ROOT = Path(__file__).parents[1]
-EXAMPLES = ROOT / "examples"
-ANSWERS = Path(__file__).with_name("scan_answers")
 TWINS = ("ours", "corrected", "truth", "paper")
 MIN_SHARE = 0.5  # of the task's value, that a twin must allow
 LEAN = 35.0  # [deg] of the wheel's axis from the horizontal
@@ -187,7 +185,7 @@ def scanned(subject: EvalSample, task: Task, kind: str, work: Path) -> tuple[Pat
         T = np.linalg.inv(T_glb_scan @ np.array(report.T_scan_world) @ np.array(truth["T_world_mesh"]))
         (folder / "T.json").write_text(json.dumps(T.tolist()), encoding="utf-8")
     if not (asset / "asset.json").exists():
-        answerer = f"replay:{ANSWERS / task.thing}" if kind == "answered" else "geometry"
+        answerer = f"replay:{RECORDINGS / 'scans' / task.thing}" if kind == "answered" else "geometry"
         articulate(folder / "scan.glb", asset, force=True, answerer=answerer)
     return asset, np.array(json.loads((folder / "T.json").read_text(encoding="utf-8")))
 

@@ -18,8 +18,8 @@ from anymesh.cli import run
 from anymesh.evaluation.record import Record, record_of
 from anymesh.evaluation.report import markdown
 from anymesh.evaluation.summary import group_table
+from benchmarks import REPORTS
 
-REPORTS = Path(__file__).parent / "reports"
 SETS = ("examples", "scene-synthesizer", "sweethome3d", "metaworld", "libero")
 HARSH = "none,turned,spun,lying,noise.0005,half-faces,unseen-gone,joined,fused,fused-coarse"
 CARELESS = "none,doubled,two-sided,inside-out,mixed,cracked"  # what careless exports do to the faces
@@ -51,8 +51,8 @@ Made by `python -m benchmarks.reports WORK`; each report begins with its command
 The columns are explained in [docs/evaluation.md](../../docs/evaluation.md); "all" is over all sets together.
 
 The shipped classifiers were trained on these sets (each report says on how many of its objects). These figures therefore show
-that the components work together, not the accuracy on new objects; for that see [parts.md](../parts.md) and
-[motions.md](../motions.md). Other jobs ran on the same two cores, so seconds are upper limits.
+that the components work together, not the accuracy on new objects; for that see [parts.md](parts.md) and
+[motions.md](motions.md). Other jobs ran on the same two cores, so seconds are upper limits.
 """
 
 
@@ -106,7 +106,6 @@ def main() -> int:
     unknown = sorted(set(options.names) - set(RUNS))
     if unknown:
         parser.error(f"found {', '.join(unknown)}; valid are {', '.join(RUNS)}")
-    REPORTS.mkdir(exist_ok=True)
     names = options.names or list(RUNS)
     if options.anew:
         for name in names:

@@ -17,30 +17,17 @@ import re
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
-ROOT = Path(__file__).parents[1]
-MESHES = ROOT / "examples" / "meshes"
+from benchmarks import EXAMPLES, ROOT, worktree
+
+MESHES = EXAMPLES / "meshes"
 FORMATS = "urdf,mjcf,usd,sdf,glb"
 FINISHED = "finished"  # folder of Stage C's result
 DURATIONS = "timing.json"
 LEFT_OUT = {"version", "key", "reason"}  # in JSON; a key is a hash that contains the version
-
-
-@contextmanager
-def worktree(revision: str) -> Iterator[Path]:
-    """Check a revision out into a temporary folder."""
-    with tempfile.TemporaryDirectory() as folder:
-        tree = Path(folder) / "tree"
-        subprocess.run(["git", "worktree", "add", "--quiet", "--detach", tree, revision], cwd=ROOT, check=True)
-        try:
-            yield tree
-        finally:
-            subprocess.run(["git", "worktree", "remove", "--force", tree], cwd=ROOT, check=True)
 
 
 def write_assets(tree: Path, name: str, out: Path) -> None:

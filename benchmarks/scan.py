@@ -2,7 +2,7 @@
 
     python -m benchmarks.scan OUT [NAME ...] [--answers geometry,recorded] [--views 60] [--noise 0.0015] [--seed 0] [--pictures]
 
---answers: by geometry, and with the recorded answers of a general model to the pictures of the scans (scan_answers/).
+--answers: by geometry, and with the recorded answers of a general model to the pictures of the scans (recordings/scans/).
 --pictures: scan the pictures without their depth (needs CUDA and the extra scan-gpu); no answers are recorded for these scans.
 A folder an object: its recording, scan.glb, the assets, and the results; what is there is not made again. Prints the tables.
 """
@@ -32,9 +32,8 @@ from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.triangle_set import sample_surface
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.types import Asset, JointType, Mesh
+from benchmarks import EXAMPLES, RECORDINGS
 
-EXAMPLES = Path(__file__).parents[1] / "examples"
-ANSWERS = Path(__file__).parent / "scan_answers"  # recorded, by object
 NAMES = ("cabinet", "microwave", "fridge", "laptop", "drill", "storage_box", "stove")
 POINTS = 50_000  # on each surface
 SEEN = 0.002  # [m] a ray may end before the point that it is cast at
@@ -74,7 +73,7 @@ def articulated(name: str, out: Path, answers: str, T_glb_loaded: np.ndarray) ->
     answers: "geometry" or "recorded"; T_glb_loaded: from the mesh as loaded to the scan's file.
     """
     truth = true_example(name)
-    answerer = "geometry" if answers == "geometry" else f"replay:{ANSWERS / name}"
+    answerer = "geometry" if answers == "geometry" else f"replay:{RECORDINGS / 'scans' / name}"
     began = time.perf_counter()
     asset = anymesh.articulate(out / "scan.glb", out / answers, force=True, formats="urdf,glb", answerer=answerer)
     seconds = time.perf_counter() - began

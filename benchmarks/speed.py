@@ -1,6 +1,6 @@
 """Times, peak memory and the time of each stage on synthetic objects with more and more faces or components.
 
-python -m benchmarks.speed [NAME[:SIZE,...] ...]      writes benchmarks/speed.md
+python -m benchmarks.speed [NAME[:SIZE,...] ...]      writes benchmarks/reports/speed.md
 
 Names: pot (by faces), boards, chandelier, shelf and pile (by connected components). The slope is that of
 a line fitted to log(processor time) over log(size), sizes below a tenth of the largest left out: 1 is linear.
@@ -26,7 +26,8 @@ import trimesh
 from trimesh.creation import box, cylinder, icosphere, revolve
 from trimesh.util import concatenate
 
-HERE = Path(__file__).parent
+from benchmarks import REPORTS
+
 STAGES = ("load", "segment", "joints", "export")
 Z_TO_Y = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])  # GLB files are Y up
 LIMIT = 600.0  # [s] for one object
@@ -231,7 +232,7 @@ def write(lines: list[str]) -> None:
         + " |",
         "|---|---|---|---|---|---|---|---|---|---|---|",
     ]
-    (HERE / "speed.md").write_text("\n".join([*head, *lines, ""]), encoding="utf-8")
+    (REPORTS / "speed.md").write_text("\n".join([*head, *lines, ""]), encoding="utf-8")
 
 
 if __name__ == "__main__":

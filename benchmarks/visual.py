@@ -2,7 +2,7 @@
 
 python -m benchmarks.visual ask FOLDER --place infinigen=DIR --wait --jobs 4    asks, in FOLDER/NNN/PROTOCOL/, to the end
 python -m benchmarks.visual keep FOLDER                                         answers to benchmarks/recordings/, no pictures
-python -m benchmarks.visual table --place infinigen=DIR                         benchmarks/visual.md, from the recordings alone
+python -m benchmarks.visual table --place infinigen=DIR                         reports/visual.md, from the recordings alone
 python -m benchmarks.visual pictures FOLDER --only 001                          recorded questions with their pictures
 
 Objects have numbers in the folders of questions, as their names would show what they are (`recordings/objects.json`), and what
@@ -32,11 +32,10 @@ from anymesh.pipeline.solving import solve
 from anymesh.prompted.answerers.file_answerer import open_questions
 from anymesh.prompted.answerers.question_files import ANSWER, OWNER, QUESTION, find_questions
 from anymesh.types.questions import Answer, Question, VisualAnswerer
+from benchmarks import RECORDINGS, REPORTS
 from benchmarks.visual_choices import FILE as CHOICES
 from benchmarks.visual_choices import Wrapper, choices_of, replayed, write_choices
 
-HERE = Path(__file__).parent
-RECORDINGS = HERE / "recordings"
 PROTOCOLS = (EvalProtocol.END_TO_END, EvalProtocol.PARTS)
 FORMS = {"as it is": "none", "fused": "fused"}
 RECORD = "record.json"
@@ -283,7 +282,7 @@ def main() -> None:
     parser.add_argument("--protocol", choices=[str(p) for p in PROTOCOLS], help="one alone")
     parser.add_argument("--wait", action="store_true", help="wait for answers")
     parser.add_argument("--jobs", type=int, default=1, help="objects at a time")
-    parser.add_argument("--markdown", type=Path, default=HERE / "visual.md")
+    parser.add_argument("--markdown", type=Path, default=REPORTS / "visual.md")
     options = parser.parse_args()
     if options.folder is None and options.what != "table":
         parser.error("name the folder of questions")

@@ -24,7 +24,6 @@ version = release = __version__
 root_doc = "docs/index"
 include_patterns = [
     "docs/**.md",
-    "benchmarks/*.md",
     "benchmarks/reports/*.md",
     "CHANGELOG.md",
     "CONTRIBUTING.md",

@@ -1,6 +1,6 @@
 """Train the classifier of motions (`anymesh.articulation.motion_classifier`) and measure it on what it was not trained on.
 
-python -m training.train_motions FOLDER            benchmarks/motions.md: leave one source out, leave kinds out
+python -m training.train_motions FOLDER            benchmarks/reports/motions.md: leave one source out, leave kinds out
 python -m training.train_motions FOLDER --write    also trains on all and writes motion_classifier.npz and
                                                      unswept_classifier.npz with their manifests
 
@@ -149,7 +149,7 @@ def main(argv: Sequence[str] | None = None) -> None:
         "", *calibration_table(answers, slope, offset), "", "The same on other sources:", "",
         *calibration_table(confidences(*by_source), slope, offset), "",
     ]  # fmt: skip
-    (ROOT / "benchmarks" / "motions.md").write_text("\n".join(text), encoding="utf-8")
+    (ROOT / "benchmarks" / "reports" / "motions.md").write_text("\n".join(text), encoding="utf-8")
     print("\n".join(text))
     if options.write:
         scores = {"right, other sources": right_of(*by_source), "right, other kinds": right_of(*by_kind)}

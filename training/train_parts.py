@@ -1,6 +1,6 @@
 """Train the classifier of parts (`anymesh.segmentation.part_classifier`) and measure it on what it was not trained on.
 
-python -m training.train_parts FOLDER            benchmarks/parts.md: leave one source out, leave kinds out
+python -m training.train_parts FOLDER            benchmarks/reports/parts.md: leave one source out, leave kinds out
 python -m training.train_parts FOLDER --write    also trains on all and writes part_classifier.npz with its manifest
 
 FOLDER: rows as `training/part_rows.py` writes them. Needs lightgbm and torch. For the shipped classifier:
@@ -216,7 +216,7 @@ def write_page(
         "The same on other sources:", "",
         *calibration_table(right["source"], slope, offset), "",
     ]  # fmt: skip
-    (ROOT / "benchmarks" / "parts.md").write_text("\n".join(text), encoding="utf-8")
+    (ROOT / "benchmarks" / "reports" / "parts.md").write_text("\n".join(text), encoding="utf-8")
     print("\n".join(text))
     return {f"F1, other {left}s": f1_of(rows, some) for left, some in found.items()}
 

@@ -1,6 +1,6 @@
 """Train the classifier of the direction that points up (`anymesh.loading.upright`), and measure it on what was left out.
 
-python -m training.train_up SPEC ...            writes benchmarks/up.md: leave one source out, leave kinds out
+python -m training.train_up SPEC ...            writes benchmarks/reports/up.md: leave one source out, leave kinds out
 python -m training.train_up SPEC ... --write    also trains on all and writes up_classifier.npz with its manifest
 
 SPEC: a data set as for `anymesh eval`, with @NAME to name the source otherwise; its objects stand upright. Each is rotated at
@@ -116,7 +116,7 @@ def main(argv: Sequence[str] | None = None) -> None:
         "",
         *table(rows, by_kind),
     ]
-    (ROOT / "benchmarks" / "up.md").write_text("\n".join(lines) + "\n")
+    (ROOT / "benchmarks" / "reports" / "up.md").write_text("\n".join(lines) + "\n")
     print("\n".join(lines))
     if options.write:
         objects = [(r.source, r.kind, r.name) for r in rows]

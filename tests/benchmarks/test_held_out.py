@@ -9,11 +9,9 @@ import pytest
 from anymesh.evaluation.evaluating import trained_objects
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import ObjectScore
-from benchmarks import held_out
+from benchmarks import REPORTS, held_out
 from training.kinds import __main__ as command
 from training.kinds import registry as kinds
-
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
 
 
 def test_no_shipped_classifier_was_trained_on_a_kind_for_measuring() -> None:
@@ -57,7 +55,7 @@ def test_each_kind_counts_once_in_a_mean_over_kinds(monkeypatch: pytest.MonkeyPa
 
 
 def test_the_baseline_has_a_figure_of_each_kind() -> None:
-    baseline = json.loads((BENCHMARKS / "held_out.json").read_text())
+    baseline = json.loads((REPORTS / "held_out.json").read_text())
     for group, measured in (("all", held_out.MEASURED), ("sample", held_out.CHECKED)):
         assert set(baseline[group]) == set(measured)
         for row in baseline[group].values():

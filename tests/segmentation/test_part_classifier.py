@@ -50,8 +50,8 @@ def test_the_manifest_says_what_it_was_trained_on(shipped: Callable[[], Classifi
 
 
 def test_the_scores_in_the_manifest_are_those_of_the_page() -> None:
-    """The manifest has the F1 that `benchmarks/parts.md` states for sources and kinds that were left out of training."""
-    page = (Path(__file__).parents[2] / "benchmarks" / "parts.md").read_text(encoding="utf-8")
+    """The manifest has the F1 that `reports/parts.md` states for sources and kinds that were left out of training."""
+    page = (Path(__file__).parents[2] / "benchmarks" / "reports" / "parts.md").read_text(encoding="utf-8")
     _, sources, kinds, *_ = page.split("\n## ")
     scores = part_classifier.shipped_classifier().manifest["scores"]
     for section, title in ((sources, "F1, other sources"), (kinds, "F1, other kinds")):

@@ -30,7 +30,7 @@ MISLED_SHARE = 0.1  # share of the parts about whose motion geometry says nothin
 FIXED_SHARE = 0.1  # share of the parts of a model that do not move
 KINDS = 4  # kinds of joint that differ: turns, slides out, slides along the surface, fixed
 BLOCKED_RATIO = 0.5  # factor on the confidence in an answered motion that the sweep finds blocked
-OFFERED_SHARE = 0.98  # share of the parts whose true motion is among the candidates (benchmarks/motions.md)
+OFFERED_SHARE = 0.98  # share of the parts whose true motion is among the candidates (benchmarks/reports/motions.md)
 LINE_RIGHT = 0.6  # share of right answers whose points and arrows lead to exactly the right one of the motions shown
 MISSED = 0.02  # probability that the right motion is not recognized although it is shown
 
