@@ -6,13 +6,15 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from assets import box
-from known import the_case
-from scenes import Scene, door, drawer
+from scenes import Scene, built, door, drawer
 
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import answered_range, ends_near, limits, opening_as_answered
 from anymesh.articulation.motion_question import Candidate
+from anymesh.articulation.part_contexts import part_context
+from anymesh.config import ArticulationConfig
 from anymesh.motion.part_context import PartContext
+from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion
 from anymesh.types.motion import RecognizedLabel
 
@@ -49,7 +51,11 @@ OUT = Motion(JointType.PRISMATIC, -Y, np.zeros(3), "out")
 
 
 def swept(scene: Callable[[], Scene], motion: Motion) -> tuple[PartContext, Candidate]:
-    context = the_case(scene()).context
+    mesh, segmentation = built(scene())
+    whole = object_shape(mesh, 0, labels=segmentation.face_part)
+    label = segmentation.face_part[whole.source]
+    shapes = [whole.of(np.flatnonzero(label == k)) for k in range(2)]
+    context = part_context(whole, label, shapes, [-1, 0], 1, ArticulationConfig())
     return context, max(sweep_candidates(context, [("asked", motion)]), key=lambda c: c.outward)
 
 

@@ -5,14 +5,10 @@ import pytest
 from assets import box
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from known import QUICK, ready
 from scenes import Scene, built, door, drawer, joints_of
 
 from anymesh.articulation.part_contexts import descendants, parents
-from anymesh.prompted.motions.cases import make_cases
 from anymesh.segmentation.divide import object_shape
-from anymesh.types import JointType
-from anymesh.types.motion import Recognition, RecognizedLabel
 
 
 def test_the_parent_of_a_handle_is_its_door_and_that_of_the_door_the_case() -> None:
@@ -127,11 +123,3 @@ def parents_of(scene: Scene, told) -> list[int]:
     whole = object_shape(mesh, 0, labels=segmentation.face_part)
     shapes = [whole.of(np.flatnonzero(segmentation.face_part[whole.source] == k)) for k in range(len(scene))]
     return parents(shapes, whole.diagonal, told)
-
-
-def test_a_label_that_hangs_on_itself_is_that_of_a_chain() -> None:
-    arms = {"base": [box((0, 0, 0), (2, 2, 0.2))], "low": [box((0.9, 0.9, 0.2), (1.1, 1.1, 3.2))]}
-    arms["high"] = [box((0.9, 1.1, 3.0), (1.1, 1.3, 6))]
-    _, whole, segmentation = ready(arms)
-    told = Recognition("lamp", None, (RecognizedLabel("part", JointType.REVOLUTE, "part", (-1.0, 1.0)),))
-    assert [c.parent for c in make_cases(whole, segmentation, told, QUICK)] == ["base", "low"]

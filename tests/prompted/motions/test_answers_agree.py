@@ -176,3 +176,11 @@ def test_each_axis_goes_with_the_point_where_it_comes_out() -> None:
         assert abs(found.axis @ table.axes[pick]) == pytest.approx(1)
         outer = table.points[pick] @ Y
         assert outer == pytest.approx(-0.03, abs=2e-3)  # where the axis leaves the pins
+
+
+def test_a_label_that_hangs_on_itself_is_that_of_a_chain() -> None:
+    arms = {"base": [box((0, 0, 0), (2, 2, 0.2))], "low": [box((0.9, 0.9, 0.2), (1.1, 1.1, 3.2))]}
+    arms["high"] = [box((0.9, 1.1, 3.0), (1.1, 1.3, 6))]
+    _, whole, segmentation = ready(arms)
+    told = Recognition("lamp", None, (RecognizedLabel("part", JointType.REVOLUTE, "part", (-1.0, 1.0)),))
+    assert [c.parent for c in make_cases(whole, segmentation, told, QUICK)] == ["base", "low"]

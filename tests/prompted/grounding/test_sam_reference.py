@@ -1,6 +1,6 @@
 """Our automatic masks against segment-anything's own, on the same logits and on the same small random model.
 
-    pip install torch==2.13.0 segment-anything onnx onnxruntime && pytest -m slow tests/prompted/masks
+    pip install torch==2.13.0 segment-anything onnx onnxruntime && pytest -m slow tests/prompted/grounding
 
 segment-anything takes box suppression from torchvision. Where that does not load (its wheels want the CUDA build of
 torch) ONNX Runtime's NonMaxSuppression stands in: not ours either.
