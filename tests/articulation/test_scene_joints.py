@@ -93,10 +93,10 @@ def test_a_pane_slides_along_its_rails_as_far_as_they_go() -> None:
     assert joint.limits == (0, pytest.approx(0.5, abs=0.01))
 
 
-MOVES = [similarity(30), similarity(0, (0.3, -0.2, 0.1), 0.01), similarity(200, (4, 2, -1), 2.5)]
+MOVES = [similarity(30, (0.3, -0.2, 0.1), 0.01), similarity(200, (4, 2, -1), 2.5)]
 
 
-@pytest.mark.parametrize("T", MOVES, ids=["turned", "shrunk", "all"])
+@pytest.mark.parametrize("T", MOVES, ids=["shrunk", "enlarged"])
 @pytest.mark.parametrize("name", ["left", "right", "drawer", "tilted", "wheel", "lid", "slider"])
 def test_joints_move_with_the_scene(name: str, T: np.ndarray) -> None:
     at_home, factor = found(name), float(np.linalg.norm(T[:3, 0]))

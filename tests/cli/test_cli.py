@@ -53,7 +53,7 @@ def test_output_is_text_or_json_or_nothing(mesh, capfd) -> None:
 
 
 def test_stages_run_alone_write_the_same_bytes(mesh, capfd) -> None:
-    assert called(capfd, "articulate", mesh, "-o", "whole", *PARTS, "-q")[0] == 0
+    assert called(capfd, "articulate", mesh, "-o", "whole", *PARTS, "--formats", "urdf", "-q")[0] == 0
     code, out, _ = called(capfd, "segment", mesh, "-o", "stages", *PARTS, "--json")
     assert code == 0
     assert sum(part["faces"] for part in json.loads(out)["parts"]) == FACES
@@ -61,7 +61,7 @@ def test_stages_run_alone_write_the_same_bytes(mesh, capfd) -> None:
     code, out, _ = called(capfd, "joints", "stages", "--json")
     assert code == 0
     assert {j["child"] for j in json.loads(out)["joints"]} == set(CABINET) - {"base"}
-    assert called(capfd, "export", "stages", "--quiet") == (0, "", "")
+    assert called(capfd, "export", "stages", "--formats", "urdf", "--quiet") == (0, "", "")
     whole, stages = contents(Path("whole")), contents(Path("stages"))
     assert set(whole) == set(stages)
     assert [name for name in whole if whole[name] != stages[name]] in ([], ["timing.json"])
@@ -79,7 +79,7 @@ def test_an_interrupt_is_an_object_where_one_is_asked_for(mesh, monkeypatch, cap
 
 def test_the_category_changes_keys_and_the_note_on_size(mesh, capfd) -> None:
     for out, more in (("plain", []), ("told", ["--category", "cabinet"])):
-        assert called(capfd, "articulate", mesh, "-o", out, *PARTS, *more, "-q")[0] == 0
+        assert called(capfd, "articulate", mesh, "-o", out, *PARTS, *more, "--formats", "urdf", "-q")[0] == 0
     plain, told = contents(Path("plain")), contents(Path("told"))
     assert plain.keys() == told.keys()
     changed = {name for name in plain if plain[name] != told[name]} - {"timing.json"}

@@ -2,6 +2,7 @@
 
 import hashlib
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -33,45 +34,50 @@ def digests(folder: Path) -> dict[str, str]:
     return {p.relative_to(folder).as_posix(): hashlib.sha256(p.read_bytes()).hexdigest() for p in files}
 
 
-def test_a_surface_becomes_a_whole_asset_and_the_input_stays(surface, tmp_path):
+@pytest.fixture(scope="module")
+def finished(surface, tmp_path_factory) -> Path:
+    folder = tmp_path_factory.mktemp("finished") / "done"
     before = digests(surface)
-    asset = finish(surface, tmp_path / "done")
+    asset = finish(surface, folder)
     assert digests(surface) == before
-    record = json.loads((tmp_path / "done" / "asset.json").read_text())
+    assert json.loads((folder / "asset.json").read_text())["finish"] == list(asset.notes)
+    return folder
+
+
+def test_a_surface_becomes_a_whole_asset(surface, finished):
+    record = json.loads((finished / "asset.json").read_text())
     assert all(p["new_faces"] > 0 for p in record["parts"])
-    assert record["finish"] == list(asset.notes)
     assert any(note.startswith("base:") or note.startswith("part_0") for note in record["finish"])
     first = json.loads((surface / "asset.json").read_text())
     for part, old in zip(record["parts"], first["parts"], strict=True):
-        np.testing.assert_array_equal(np.load(tmp_path / "done" / part["faces"]), np.load(surface / old["faces"]))
+        np.testing.assert_array_equal(np.load(finished / part["faces"]), np.load(surface / old["faces"]))
         assert part["face_count"] == old["face_count"]
-        mesh = trimesh.load(tmp_path / "done" / "meshes" / f"{part['name']}.obj", force="mesh")
+        mesh = trimesh.load(finished / "meshes" / f"{part['name']}.obj", force="mesh")
         mesh.merge_vertices(merge_tex=True, merge_norm=True)
         assert mesh.is_watertight
     assert record["joints"] == first["joints"]
-    assert check_asset(tmp_path / "done").ok
+    assert check_asset(finished).ok
 
 
-def test_finish_past_its_time_limit_leaves_surfaces_open_and_says_so(surface, tmp_path):
-    asset = finish(surface, tmp_path / "done", time_limit=1e-6)
+def test_finish_past_its_time_limit_leaves_surfaces_open_and_says_so(surface, finished, tmp_path):
+    shutil.copytree(finished, tmp_path / "done")
+    asset = finish(surface, tmp_path / "done", force=True, time_limit=1e-6)  # another limit computes the stage anew
     record = json.loads((tmp_path / "done" / "asset.json").read_text())
     assert not any(p.get("new_faces") for p in record["parts"])
     assert "time limit of 1e-06 s: completion: some surfaces remain open" in asset.notes
     assert record["joints"] == json.loads((surface / "asset.json").read_text())["joints"]
     assert check_asset(tmp_path / "done").ok
-    whole = finish(surface, tmp_path / "done", force=True)  # another limit computes the stage anew
-    assert any("given" in note for note in whole.notes)
 
 
-def test_a_rerun_and_an_export_write_the_same(surface, tmp_path):
-    finish(surface, tmp_path / "a")
-    finish(surface, tmp_path / "b")
-    a, b = digests(tmp_path / "a"), digests(tmp_path / "b")
-    assert {k: v for k, v in a.items() if k != "timing.json"} == {k: v for k, v in b.items() if k != "timing.json"}
-    export_asset(tmp_path / "a")  # the finished stage is what is exported
-    assert {k: v for k, v in digests(tmp_path / "a").items() if k != "timing.json"} == {
-        k: v for k, v in a.items() if k != "timing.json"
-    }
+def test_a_rerun_and_an_export_write_the_same(surface, finished, tmp_path):
+    def written() -> dict[str, str]:
+        return {name: digest for name, digest in digests(tmp_path / "done").items() if name != "timing.json"}
+
+    finish(surface, tmp_path / "done")
+    first = written()
+    assert first == {name: digest for name, digest in digests(finished).items() if name != "timing.json"}
+    export_asset(tmp_path / "done")  # the finished stage is what is exported
+    assert written() == first
 
 
 def test_shapes_can_be_left_and_looks_baked(surface, tmp_path):

@@ -62,7 +62,7 @@ def test_a_run_without_a_limit_loads_libraries_before_it_draws_beside(tmp_path, 
     order, draw = [], stages.write_preview
     monkeypatch.setattr(stages, "load_libraries", lambda formats: order.append([str(f) for f in formats]))
     monkeypatch.setattr(stages, "write_preview", lambda *given: [order.append("preview"), draw(*given)])
-    anymesh.articulate(CABINET, tmp_path / "out", time_limit=math.inf, formats="urdf")
+    anymesh.articulate(EXAMPLES / "meshes" / "bookcase.glb", tmp_path / "out", time_limit=math.inf, formats="urdf")
     assert order == [["urdf"], "preview"]
 
 

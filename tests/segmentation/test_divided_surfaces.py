@@ -53,7 +53,7 @@ def test_a_surface_is_cut_at_concave_creases_of_more_than_25_degrees(degrees: fl
     assert is_cut(slab_with_bump(2.0, 0.2, 0.2 / np.tan(np.deg2rad(degrees)))) == cut
 
 
-def grooved_plate(closed: float, cells: int = 80) -> Mesh:
+def grooved_plate(closed: float, cells: int = 40) -> Mesh:
     """Return a closed plate of 2 x 1 x .2 m with a groove across its top and sides at x = 0.
 
     closed: share of the top over which the groove is closed, in the middle.
@@ -84,7 +84,7 @@ def test_a_dense_surface_is_cut_at_seams_that_are_closed_in_places(closed: float
 def test_patches_are_numbered_without_gaps_where_no_face_lies_in_a_region(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(divide, "divide_at_seams", lambda points, *_: 2 * (points[:, 0] > 0))  # none is numbered 1
     plate = trimesh.creation.box(bounds=[(-1, -0.5, -0.1), (1, 0.5, 0.1)])
-    fine = trimesh.remesh.subdivide_to_size(plate.vertices, plate.faces, 0.03)
+    fine = trimesh.remesh.subdivide_to_size(plate.vertices, plate.faces, 0.06)
     mesh = mesh_of([(np.asarray(fine[0]), np.asarray(fine[1]))])[0]
     assert np.unique(object_shape(mesh, config=replace(CONFIG, seams=True)).mesh_patch).tolist() == [0, 1]
 
