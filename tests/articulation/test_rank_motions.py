@@ -1,22 +1,27 @@
-"""Test the ranking of motions by scores and labels, and the validation of answers."""
+"""Test the ranking of motions, the validation of answers, and the label of a part from its motion."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from assets import box, mesh_of
 from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, X, Y, Z
 
+from anymesh.articulation.estimate import choose_motion, motion_questions
 from anymesh.articulation.motion_classifier import shipped_classifier
 from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts, SlideDirection
 from anymesh.articulation.rank_motions import (
+    label_of,
     motion_scores,
     rank_motions,
     reason,
     same_joints,
     share_of_best,
 )
+from anymesh.config import Config
 from anymesh.scoring.classifier import MAX_CONFIDENCE
-from anymesh.types import JointType, Motion, Sweep
+from anymesh.segmentation.divide import object_shape
+from anymesh.types import JointType, Motion, Part, Segmentation, Sweep
 
 
 def asked(part: PartFacts, candidates: list[Candidate], scores: list[float]) -> MotionAnswer:
@@ -197,3 +202,33 @@ def test_a_motion_is_free_if_it_opens_or_presses_far_enough(c: Candidate, free: 
 def test_a_rotation_is_endless_if_it_is_free_both_ways(opening: float, closing: float, endless: bool) -> None:
     assert replace(EDGE, opening=opening, closing=closing).is_endless == endless
     assert not replace(PULL, opening=opening, closing=closing).is_endless
+
+
+def chest(stop: bool) -> list:
+    """Return a case with one drawer and its handle, and optionally a bar in front that stops it."""
+    walls = [box((0, 0, 0), (0.6, 0.4, 0.02)), box((0, 0, 0.28), (0.6, 0.4, 0.3)), box((0.02, 0.38, 0.02), (0.58, 0.4, 0.28))]
+    walls += [box((x, 0, 0.02), (x + 0.02, 0.4, 0.28)) for x in (0, 0.58)]
+    front = [box((0.025, 0, 0.025), (0.575, 0.02, 0.275)), box((0.2, -0.03, 0.14), (0.4, 0, 0.15))]
+    tray = [box((0.03, 0.02, 0.03), (0.57, 0.35, 0.04)), box((0.03, 0.34, 0.04), (0.57, 0.35, 0.2))]
+    bar = [box((0, -0.005, 0.2), (0.6, -0.004, 0.3)), box((0, -0.004, 0.285), (0.6, 0, 0.295))]
+    return [*walls, *front, *tray, *(bar if stop else [])]
+
+
+def label(solids: list, moving: list[int]) -> str:
+    """Return the label of one part of an object."""
+    mesh, number = mesh_of(solids)
+    segmentation = Segmentation(np.isin(number, moving).astype(np.int64), (Part("base", "base"), Part("it", "part")))
+    whole = object_shape(mesh, 0, labels=segmentation.face_part)
+    _, _, context, question = next(iter(motion_questions(whole, segmentation, Config())))
+    return label_of(context, choose_motion(context, question)[1])
+
+
+@pytest.mark.parametrize(("stop", "expected"), [(False, "drawer"), (True, "")])
+def test_a_drawer_comes_out_or_is_none(stop: bool, expected: str) -> None:
+    assert label(chest(stop), [5, 6, 7, 8]) == expected
+
+
+def test_a_plate_on_top_is_a_lid() -> None:
+    walls = [box((0, 0, 0), (1, 0.6, 0.02)), box((0, 0, 0.02), (1, 0.02, 0.4)), box((0, 0.58, 0.02), (1, 0.6, 0.4))]
+    walls += [box((x, 0.02, 0.02), (x + 0.02, 0.58, 0.4)) for x in (0, 0.98)]
+    assert label([*walls, box((0, 0, 0.402), (1, 0.6, 0.42))], [5]) == "lid"

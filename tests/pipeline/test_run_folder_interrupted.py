@@ -92,7 +92,6 @@ def test_a_mount_point_is_written_file_by_file(tmp_path, source, monkeypatch):
 
 CHILD = """
 import sys, time
-sys.path[:0] = sys.argv[3:]
 from pathlib import Path
 from test_run_folder import results, cabinet
 from anymesh.pipeline.stage_files import MESH
@@ -107,8 +106,10 @@ with RunFolder.create(Path(sys.argv[1]), source=Path(sys.argv[2])) as run:
 @pytest.mark.skipif(sys.platform == "win32", reason="SIGKILL and file locks")
 def test_a_killed_run_leaves_no_output_and_its_stages_are_taken_over(tmp_path, source):
     out = tmp_path / "out"
-    command = [sys.executable, "-c", CHILD, str(out), str(source), *map(str, Path(__file__).parents[:2])]
-    child = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+    command = [sys.executable, "-c", CHILD, str(out), str(source)]
+    paths = [*map(str, Path(__file__).parents[:2]), *os.environ.get("PYTHONPATH", "").split(os.pathsep)]
+    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(paths)}
+    child = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
     assert child.stdout
     assert child.stdout.readline() == "ready\n"
     with RunFolder.create(out, source=source) as run:  # the other process is alive: nothing is taken from it

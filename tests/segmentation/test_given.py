@@ -1,4 +1,4 @@
-"""Test parts given by a user: nodes of the scene, or a file of face labels."""
+"""Test parts given by a user: nodes of the scene, a file of face labels, and names of materials."""
 
 import io
 import json
@@ -9,8 +9,9 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.errors import OptionError
+from anymesh.pipeline.solving import Solver
 from anymesh.segmentation.naming import parts_from_file, parts_from_nodes
-from anymesh.types import Mesh, Node
+from anymesh.types import Material, Mesh, Node, Segmentation
 
 SMALL, LARGE, MIDDLE = box((0, 0, 0), (1, 1, 1)), box((0, 0, 0), (5, 5, 5)), box((0, 0, 0), (2, 2, 2))
 MESH, PIECE = mesh_of([SMALL, LARGE, MIDDLE])
@@ -147,3 +148,31 @@ def test_the_length_found_and_the_one_expected_are_told(tmp_path) -> None:
         parts_from_file(MESH, tmp_path / "l.npy")
     with pytest.raises(OptionError, match="found no file"):
         parts_from_file(MESH, tmp_path / "none.npy")
+
+
+WALLS = [
+    box((-0.3, 0.28, 0), (0.3, 0.3, 0.8)),
+    box((-0.3, 0, 0), (-0.28, 0.28, 0.8)),
+    box((0.28, 0, 0), (0.3, 0.28, 0.8)),
+    box((-0.28, 0, 0), (0.28, 0.28, 0.02)),
+    box((-0.28, 0, 0.78), (0.28, 0.28, 0.8)),
+]
+FRONT = box((-0.3, -0.02, 0), (0.3, 0, 0.8))  # a plate that covers the opening, without handle and clearance
+
+
+def segmented(wood: str, paint: str) -> Segmentation:
+    materials = (Material(wood),) if wood == paint else (Material(wood), Material(paint))
+    number = np.repeat([0] * len(WALLS) + [len(materials) - 1], 12)
+    mesh, _ = mesh_of([*WALLS, FRONT], number, materials=materials)
+    return Solver(mesh).parts().segmentation
+
+
+@pytest.mark.parametrize(("paint", "found"), [("Door_white", ["base", "door"]), ("paint_2", ["base"])])
+def test_a_front_in_a_material_named_door(paint: str, found: list[str]) -> None:
+    assert [p.name for p in segmented("wood", paint).parts] == found
+
+
+def test_the_name_of_the_only_material_tells_nothing() -> None:
+    named, plain = segmented("door_oak", "door_oak"), segmented("wood", "wood")
+    assert named.face_part.tolist() == plain.face_part.tolist()
+    assert [(p.name, p.confidence, p.reason) for p in named.parts] == [(p.name, p.confidence, p.reason) for p in plain.parts]

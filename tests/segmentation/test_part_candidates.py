@@ -1,12 +1,13 @@
-"""Test that the candidates include every part of a cabinet of boards once, whatever their order in the file."""
+"""Test that the candidates include every part of a cabinet once, and that names are evidence for them."""
 
 import numpy as np
+import pytest
 from assets import box, mesh_of
 
-from anymesh.config import SegmentationConfig
+from anymesh.config import Config, SegmentationConfig
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
+from anymesh.segmentation.part_candidates import NAME_SCORE, NameClass, PartCandidates, name_class, part_candidates, shared_name
 
 BODY = box((0, 0.05, 0), (1, 0.5, 1))
 LEAF = [box((0.0, 0, 0), (0.1, 0.049, 1)), box((0.9, 0, 0), (1, 0.049, 1)), box((0.1, 0.01, 0), (0.9, 0.04, 1))]  # framed
@@ -72,3 +73,26 @@ def test_a_leaf_in_the_plane_of_its_frame_is_a_candidate() -> None:
     leaf, pane = box((0.1, 0, 0), (0.9, 0.05, 0.9)), box((0.2, -0.01, 0.2), (0.8, 0, 0.8))
     found = sets(candidates([wall, *frame, leaf, pane]))
     assert {frozenset({4}), frozenset({4, 5})} <= found
+
+
+def test_names_that_begin_alike_are_one_part() -> None:
+    """The wood and the metal of a drawer are one part, as exporters split a node by material; other names are not."""
+    names = ("drawer_top_metal", "drawer_top_wood", "Door_left_wood", "base_body", "DRAWER_low")
+    mesh, _ = mesh_of([box((k, 0, 0), (k + 0.5, 1, 1)) for k in range(5)])
+    whole = object_shape(mesh, 0, Config().patches)
+    members = np.array([[1, 1, 0, 0, 0], [0, 1, 0, 0, 0], [1, 1, 1, 0, 0], [1, 1, 1, 1, 1], [1, 0, 0, 0, 1]], bool)
+    tree = PartCandidates(whole, find_contacts(whole, SegmentationConfig()), members, names)
+    assert [shared_name(tree, k) for k in range(5)] == ["drawer top", "drawer_top_wood", "", "", "drawer"]
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [("LeftDoor_02", NameClass.MOVABLE), ("door_handle", NameClass.HANDLE), ("side_wall", NameClass.FIXED),
+     ("Cube.001", NameClass.NONE), ("", NameClass.NONE)],
+)  # fmt: skip
+def test_the_last_known_word_gives_the_class(name: str, expected: NameClass) -> None:
+    assert name_class(name) is expected
+
+
+def test_names_count_for_and_against_a_part_and_unknown_ones_not_at_all() -> None:
+    assert NAME_SCORE[NameClass.FIXED] < NAME_SCORE[NameClass.NONE] == 0 < NAME_SCORE[NameClass.MOVABLE]
