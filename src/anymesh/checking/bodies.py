@@ -13,6 +13,7 @@ from anymesh.checking.engines.robot import Inertial, RobotLink
 from anymesh.checking.report import Finding, failure, warning
 from anymesh.geometry.distance_ import distance_to_triangles, winding_number
 from anymesh.geometry.simplify_ import simplify
+from anymesh.types.triangles import unshared
 
 INERTIA = "inertia"
 REL_TOLERANCE = 1e-6  # relative, for rounded numbers
@@ -150,8 +151,7 @@ def _cavity(content: Content, link: str) -> Iterator[Finding]:
     surface = simplify(seen, FACES)
     empty = grid[inside]
     empty = empty[distance_to_triangles(empty, surface) > 0.5 * float(np.linalg.norm(steps))]
-    corners = surface.reshape(-1, 3)
-    empty = empty[winding_number(empty, corners, np.arange(len(corners)).reshape(-1, 3)) < 0.5] if len(empty) else empty
+    empty = empty[winding_number(empty, *unshared(surface)) < 0.5] if len(empty) else empty
     if len(empty) < HOLLOW * inside.sum():
         return
     taken = np.zeros(len(empty), bool)

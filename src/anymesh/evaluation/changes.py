@@ -24,7 +24,7 @@ from anymesh.geometry.triangle_set import SurfacePoints, sample_surface, spread_
 from anymesh.loading.upright import infer_up, up_of
 from anymesh.prompted.grounding.cloud import point_colors
 from anymesh.types import Mesh, Node
-from anymesh.types.triangles import bounds_of, normals_and_areas
+from anymesh.types.triangles import bounds_of, normals_and_areas, unshared
 
 CRACK = 1e-5  # of the diagonal: how far corners of neighbouring faces are apart, as where pieces are rounded on their own
 OFF = 0.003  # of the diagonal: how far components that are placed by eye are off along each axis, at most
@@ -185,8 +185,7 @@ def _decimated(sample: EvalSample, rng: np.random.Generator, *, share: float) ->
         simplify(mesh.triangles[mine], max(ROUGHEST, round(share * len(mine))))
         for mine in np.split(np.argsort(label, kind="stable"), np.cumsum(np.bincount(label))[:-1])
     ]
-    corners = np.concatenate(made).reshape(-1, 3)
-    return resurfaced(sample, corners, np.arange(len(corners)).reshape(-1, 3), nodes=True)
+    return resurfaced(sample, *unshared(np.concatenate(made)), nodes=True)
 
 
 def _unseen_gone(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
@@ -221,7 +220,7 @@ def _fused(sample: EvalSample, rng: np.random.Generator, *, cells: int) -> EvalS
     t = sample.mesh.triangles
     vertices, faces = wrapped(t, float(sample.mesh.extents.max()) / cells)
     few = simplify(vertices[faces], FUSED_FACES)
-    return resurfaced(sample, few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
+    return resurfaced(sample, *unshared(few))
 
 
 def _joined(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
@@ -231,8 +230,7 @@ def _joined(sample: EvalSample, rng: np.random.Generator) -> EvalSample:
     triangles = np.where(mesh_components.flip[:, None, None], mesh.triangles[:, ::-1], mesh.triangles)
     solids = [triangles[mesh_components.label == c] for c in np.flatnonzero(mesh_components.solid)]
     open_ones = triangles[~mesh_components.solid[mesh_components.label]]
-    corners = np.concatenate([joined(solids), open_ones] if solids else [open_ones]).reshape(-1, 3)
-    return resurfaced(sample, corners, np.arange(len(corners)).reshape(-1, 3))
+    return resurfaced(sample, *unshared(np.concatenate([joined(solids), open_ones]) if solids else open_ones))
 
 
 def resurfaced(

@@ -9,7 +9,7 @@ from jaxtyping import Float, Int
 from scipy import ndimage
 
 from anymesh.errors import MissingExtraError
-from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.topology import weld
 from anymesh.geometry.triangle_set import sample_surface
 from anymesh.types.triangles import normals_and_areas
@@ -51,9 +51,8 @@ def _field(triangles: np.ndarray, low: np.ndarray, cell: float) -> np.ndarray:
     band = np.zeros(shape, bool)
     band[tuple(at.T)] = True
     band = ndimage.binary_dilation(band, np.ones((3, 3, 3)), iterations=BAND)
-    corners = triangles.reshape(-1, 3)
     field = np.full(shape, BAND * cell)
-    field[band] = distance_to_mesh(np.argwhere(band) * cell + low, corners, np.arange(len(corners)).reshape(-1, 3))[0]
+    field[band] = distance_to_triangles(np.argwhere(band) * cell + low, triangles)
     field -= OFFSET * cell
     region = ndimage.label(field >= 0)[0]
     outside = (field >= MIN_WRAP_CELLS * cell) & (region == region[0, 0, 0])

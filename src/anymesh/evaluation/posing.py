@@ -13,6 +13,7 @@ from anymesh.geometry.kinematics import carried_links, joint_motion
 from anymesh.geometry.surface import mesh_surface
 from anymesh.geometry.sweep import Obstacles, free_amount
 from anymesh.types import JointType
+from anymesh.types.triangles import unshared
 
 MOVED_SHARE = 0.5  # probability that a joint is moved
 PENETRATION = 0.003  # of the object's diagonal [m]: depth behind a surface at which a joint is stopped
@@ -28,8 +29,8 @@ def posed(sample: EvalSample, positions: Mapping[str, float]) -> EvalSample:
     for number, part in enumerate(sample.truth.parts):
         mine = sample.labels == number
         triangles[mine] = triangles[mine] @ T[part.name][:3, :3].T + T[part.name][:3, 3]
-    faces = np.arange(3 * len(triangles)).reshape(-1, 3)
-    mesh = replace(sample.mesh, vertices=triangles.reshape(-1, 3), faces=faces, corner_normal=None)
+    vertices, faces = unshared(triangles)
+    mesh = replace(sample.mesh, vertices=vertices, faces=faces, corner_normal=None)
     back = np.linalg.inv(sample.T)
     joints = tuple(_moved(j, back @ T[j.parent] @ sample.T, positions.get(j.child, 0.0)) for j in sample.truth.joints)
     return replace(sample, truth=replace(sample.truth, joints=joints), mesh=mesh, diagonal=2 * sample.unit)

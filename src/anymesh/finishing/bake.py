@@ -17,6 +17,7 @@ from anymesh.finishing.texture import Carried, Painted, colors_at
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.topology import edge_pairs, label_connected
 from anymesh.types import Material, Mesh, Texture
+from anymesh.types.triangles import unshared
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
 BASE, ALPHA, METAL, LIGHT = "base_color", "alpha", "metallic_roughness", "emissive"
@@ -191,7 +192,7 @@ def _shelves(boxes: Int[np.ndarray, "c 2"], size: int) -> Int[np.ndarray, "c 2"]
 def _covered(layout: Layout, depth: np.ndarray, chart: np.ndarray) -> np.ndarray:
     """Return which faces have their centroid below another face of their chart."""
     corners = np.concatenate([layout.corners, (depth * layout.scale)[:, :, None]], axis=2)
-    scene = RayScene(corners.reshape(-1, 3), np.arange(3 * len(corners)).reshape(-1, 3))
+    scene = RayScene(*unshared(corners))
     middle = corners.mean(1)
     middle[:, 2] = corners[:, :, 2].max() + 1
     hit = scene.first_hit(middle, np.repeat([[0.0, 0.0, -1.0]], len(middle), 0)).face
@@ -259,8 +260,7 @@ def paint(layout: Layout, sample: Sample, channels: int) -> UInt8[np.ndarray, "S
     without a face copy the nearest texel with one.
     """
     size, corners = layout.size, layout.corners
-    flat = np.concatenate([corners, np.zeros((len(corners), 3, 1))], 2).reshape(-1, 3)
-    scene = RayScene(flat, np.arange(len(flat)).reshape(-1, 3))
+    scene = RayScene(*unshared(np.concatenate([corners, np.zeros((len(corners), 3, 1))], 2)))
     total, count = np.zeros((size * size, channels)), np.zeros(size * size)
     met = np.zeros(len(corners), bool)
     for first in range(0, size * size, BAND):

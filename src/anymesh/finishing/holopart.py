@@ -28,6 +28,7 @@ from anymesh.geometry.topology import components, weld
 from anymesh.geometry.triangle_set import sample_surface
 from anymesh.prompted.models.retry import persist
 from anymesh.types import Asset, Mesh, Node
+from anymesh.types.triangles import face_cross
 
 VALID = "holopart:FOLDER, holopart:FOLDER#PYTHON or holopart:URL"
 MODULE = "scripts.inference_holopart"
@@ -208,8 +209,7 @@ def _welded(triangles: np.ndarray) -> tuple[Float[np.ndarray, "V 3"], Int[np.nda
 
 def _solid(vertices: np.ndarray, faces: np.ndarray, depth: float) -> PartMesh:
     """Return an open surface with a copy `depth` [m] behind it, and walls along its border."""
-    t = vertices[faces]
-    cross = np.cross(t[:, 1] - t[:, 0], t[:, 2] - t[:, 0])
+    cross = face_cross(vertices[faces])
     normal = np.zeros_like(vertices)
     for corner in range(3):
         np.add.at(normal, faces[:, corner], cross)

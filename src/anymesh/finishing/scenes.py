@@ -16,6 +16,7 @@ from anymesh.geometry.sweep import Obstacles, free_amount
 from anymesh.geometry.topology import triangle_set_of
 from anymesh.geometry.triangle_set import SurfacePoints, sample_surface, spread_directions
 from anymesh.types import Asset, Joint, JointType, Mesh
+from anymesh.types.triangles import unshared
 
 PROBES = 20_000  # points on the surface, besides the centroid of every face
 DIRECTIONS = 96  # directions from which each point is viewed
@@ -111,7 +112,7 @@ class Scenes:
         if part not in self._opened:
             T = self.opened(part)[self.asset.segmentation.face_part]
             t = np.einsum("fij,fkj->fki", T[:, :3, :3], self.asset.mesh.triangles) + T[:, None, :3, 3]
-            self._opened[part] = RayScene(t.reshape(-1, 3), np.arange(3 * len(t)).reshape(-1, 3))
+            self._opened[part] = RayScene(*unshared(t))
         return self._opened[part]
 
     def seen(self, points: Float[np.ndarray, "n 3"], normals: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, "n 2"]:
@@ -169,9 +170,7 @@ class Growing:
 
 def scene_of(triangles: Float[np.ndarray, "n 3 3"]) -> RayScene | None:
     """Return a ray scene of triangles; None without any."""
-    if len(triangles) == 0:
-        return None
-    return RayScene(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
+    return RayScene(*unshared(triangles)) if len(triangles) else None
 
 
 def room(

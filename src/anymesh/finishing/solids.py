@@ -16,6 +16,7 @@ from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.topology import components, weld
 from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
 from anymesh.loading.polygons_ import triangulate
+from anymesh.types.triangles import unshared
 
 MITER = 2.5  # maximum offset of a skin at a corner, as a multiple of its thickness
 STIFF = 0.03  # share of the largest eigenvalue of the normals' moment at a vertex, below which a direction is unconstrained
@@ -271,8 +272,7 @@ def close_part(part: int, growing: Growing, config: ShapeConfig) -> bool:
 
 def _still_open(mine: np.ndarray, sheets: list[Sheet], made: list[np.ndarray]) -> list[int]:
     """Return the closed sheets of which any face is not part of a closed, consistently wound surface."""
-    corners = np.concatenate([mine, *made]).reshape(-1, 3)
-    surface_components = components(corners, np.arange(len(corners)).reshape(-1, 3))
+    surface_components = components(*unshared(np.concatenate([mine, *made])))
     bad = ~(surface_components.solid & surface_components.agree)[surface_components.label]
     begin = len(mine) + np.cumsum([0, *(len(new) for new in made)])
     own = (np.r_[sheet.own, begin[k] : begin[k + 1]] for k, sheet in enumerate(sheets))

@@ -12,7 +12,7 @@ from anymesh.config import PatchConfig
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.superpoints import superpoints
 from anymesh.geometry.topology import edge_pairs, label_connected
-from anymesh.types.triangles import normals_and_areas
+from anymesh.types.triangles import normals_and_areas, unshared
 
 BOX_MARGIN = 1.01  # of `reach`: faces outside this margin around a border's box are farther away than `reach`
 AROUND = 32  # points around a point, over which positions and normals are averaged
@@ -33,8 +33,8 @@ def convex_regions(triangles: Float[np.ndarray, "F 3 3"], diagonal: float, confi
     surface within `reach` of it, so that the inside of a bowl is not split.
     """
     few = simplify(triangles, config.superpoint_faces)
-    corners = few.reshape(-1, 3)
-    edges = edge_pairs(corners, np.arange(len(corners)).reshape(-1, 3))
+    corners, faces = unshared(few)
+    edges = edge_pairs(corners, faces)
     normals, areas = normals_and_areas(few)
     areas = np.maximum(areas, 1e-300)
     middle = corners[edges.vertices].mean(1)

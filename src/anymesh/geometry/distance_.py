@@ -5,6 +5,8 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Float, Int
 
+from anymesh.types.triangles import unshared
+
 
 def distance_to_mesh(
     points: Float[np.ndarray, "n 3"], vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
@@ -29,8 +31,8 @@ class TriangleTree:
 
         if not len(triangles):  # libigl's search would end the process
             raise ValueError("found no triangles to measure distances to; at least one is needed")
-        self._vertices = np.ascontiguousarray(triangles.reshape(-1, 3), np.float64)
-        self._faces = np.arange(3 * len(triangles)).reshape(-1, 3)
+        vertices, self._faces = unshared(triangles)
+        self._vertices = np.ascontiguousarray(vertices, np.float64)
         self._tree = igl.AABB()
         self._tree.init(self._vertices, self._faces)
 

@@ -14,7 +14,7 @@ from anymesh.geometry.distance_ import TriangleTree, winding_number
 from anymesh.geometry.topology import MAX_CRACK_RATIO, Components, components, label_connected, weld, without_cracks
 from anymesh.geometry.triangle_set import TriangleSet, spread_directions, spread_points
 from anymesh.types import Mesh
-from anymesh.types.triangles import normals_and_areas
+from anymesh.types.triangles import normals_and_areas, unshared
 
 BACK_TO_BACK_COSINE = 0.999  # minimum cosine between the normals of a face and one that lies on it, up to the sign
 SAME_AREA = 1e-6  # maximum relative difference of the areas of copies
@@ -137,7 +137,7 @@ def plain_triangles(
 
     diagonal: of the object that they are part of [m].
     """
-    vertices, faces, kept, parts = _plain(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3), diagonal)
+    vertices, faces, kept, parts = _plain(*unshared(triangles), diagonal)
     return vertices[np.where(parts.flip[:, None], faces[:, ::-1], faces)], kept
 
 

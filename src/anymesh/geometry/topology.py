@@ -12,7 +12,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
 from anymesh.geometry.triangle_set import SLANTED, TriangleSet
-from anymesh.types.triangles import bounds_of, face_cross, normals_and_areas
+from anymesh.types.triangles import bounds_of, face_cross, normals_and_areas, unshared
 
 MIN_VOLUME_SHARE = 0.1  # of the volumes between the faces and their middle: a surface around less has no outside
 FLAT = 1e-9  # of the area to the power of 1.5: a smaller volume is rounding
@@ -338,7 +338,7 @@ def components(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
 
 def triangle_set_of(triangles: Float[np.ndarray, "F 3 3"]) -> TriangleSet:
     """Build a triangle set with the normals of closed components outward, whatever their winding."""
-    parts = components(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
+    parts = components(*unshared(triangles))
     normals = normals_and_areas(triangles)[0]
     outwards = np.where(parts.flip[:, None], -normals, normals)
     return TriangleSet(triangles, outwards, parts.solid[parts.label], np.arange(len(triangles)))

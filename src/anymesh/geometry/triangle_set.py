@@ -14,7 +14,7 @@ from jaxtyping import Bool, Float, Int
 from anymesh.geometry.boxes import OrientedBox, box_in_frame, fit_box
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.types.triangles import bounds_of, box_corners, boxes_meet, corner_bounds, normals_and_areas
+from anymesh.types.triangles import bounds_of, box_corners, boxes_meet, corner_bounds, normals_and_areas, unshared
 
 SAMPLES = 3000  # surface points per triangle set; a share of 1 % is 30 points
 SLANTED = np.array([0.3127, 0.5241, 0.7922])  # direction of the rays that tell inside from outside; along no usual face
@@ -170,10 +170,7 @@ class TriangleSet:
     @cached_property
     def scene(self) -> RayScene:
         """Return the ray caster of these triangles."""
-        if self.known is not None:
-            return RayScene(*self.known.compact)
-        corners = self.triangles.reshape(-1, 3)
-        return RayScene(corners, np.arange(len(corners)).reshape(-1, 3))
+        return RayScene(*(unshared(self.triangles) if self.known is None else self.known.compact))
 
     @cached_property
     def corners(self) -> Float[np.ndarray, "n 3"]:

@@ -20,6 +20,7 @@ from anymesh.geometry.surface import mesh_surface
 from anymesh.geometry.triangle_set import sample_surface, spread_directions
 from anymesh.scoring.classifier import MISSING, Classifier
 from anymesh.types import Mesh
+from anymesh.types.triangles import face_cross
 
 MAX_FACETS = 14  # largest flat facets of the convex hull on which the object may stand
 END_RATIO = 0.02  # of the height: the ends of the object, for samples
@@ -327,7 +328,7 @@ def _facets(hull: ConvexHull) -> tuple[Float[np.ndarray, "f 3"], Float[np.ndarra
     Facets without any of the hull's MAX_SEEDS largest triangles are left out.
     """
     normals, corners = hull.equations[:, :3], hull.points[hull.simplices]
-    areas = 0.5 * np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1)
+    areas = 0.5 * np.linalg.norm(face_cross(corners), axis=1)
     left, facets, sizes = areas > 0, [], []
     for k in np.argsort(-areas, kind="stable")[:MAX_SEEDS]:
         if left[k]:

@@ -20,7 +20,7 @@ from anymesh.physics.convex import EXACT, as_hull, fitted, trimmed, volume
 from anymesh.physics.decompose import Component
 from anymesh.physics.split import outline
 from anymesh.types import Shape
-from anymesh.types.triangles import box_corners, normals_and_areas, transformed
+from anymesh.types.triangles import box_corners, normals_and_areas, transformed, unshared
 
 MAX_PLANED_RATIO = 0.15  # maximum share of a shape that is trimmed before its component is refined instead
 MAX_PLANED_RATIO_LAST = 0.7  # maximum share that is trimmed at the finest resolution
@@ -50,8 +50,7 @@ class LinkSurface:
         if len(start) == 0:
             return False
         if self._scene is None:
-            corners = self.triangles.reshape(-1, 3)
-            self._scene = RayScene(corners, np.arange(len(corners)).reshape(-1, 3))
+            self._scene = RayScene(*unshared(self.triangles))
         for origin, direction in ((start, end - start), (end, start - end)):  # the first hit from either end
             hits = self._scene.first_hit(origin, direction, 1.0)
             met = np.flatnonzero(hits.face >= 0)

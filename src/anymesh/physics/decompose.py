@@ -26,7 +26,7 @@ from anymesh.physics.convex import fitted, hull_of, planes, shifted
 from anymesh.physics.solids_ import decompose_solid
 from anymesh.physics.split import patch_of, solid_mesh, split_surface
 from anymesh.types import Box, Cylinder, Hull, Shape
-from anymesh.types.triangles import CUBE_CORNERS, normals_and_areas
+from anymesh.types.triangles import CUBE_CORNERS, normals_and_areas, unshared
 
 FACES = 3000  # faces of a component for its shapes; more take seconds without better accuracy
 SOLID_FACES = 1000  # faces of a solid that is cut exactly
@@ -77,7 +77,7 @@ def split_components(
     Omitted are components smaller than `min_size` [m], unless all are, components without a surface, and components inside the
     hull of a convex one. If there are more than `max_components`, the smaller ones are joined per cell of a grid.
     """
-    surface_components = components(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
+    surface_components = components(*unshared(triangles))
     order = np.argsort(surface_components.label, kind="stable")
     wound = np.where(surface_components.flip[:, None, None], triangles[:, ::-1], triangles)
     pieces = np.split(wound[order], np.cumsum(np.bincount(surface_components.label, minlength=surface_components.count))[:-1])

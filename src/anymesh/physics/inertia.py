@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.geometry.topology import components
-from anymesh.types.triangles import face_cross
+from anymesh.types.triangles import face_cross, unshared
 
 DENSITIES = {  # [kg/m^3] by the thickness of solids and of walls [m]: those of `Substance`
     (0.015, 0.0012): {
@@ -118,7 +118,7 @@ def raw_inertia(triangles: Float[np.ndarray, "n 3 3"], config: InertiaConfig, ma
     cross = face_cross(t)
     volumes = np.einsum("ij,ij->i", t[:, 0], cross) / 6
     areas = np.linalg.norm(cross, axis=1) / 2
-    surface_components = components(corners, np.arange(len(corners)).reshape(-1, 3))
+    surface_components = components(*unshared(triangles))
     volume = np.bincount(surface_components.label, volumes, surface_components.count)
     flat = np.abs(volume) <= 1e-9 * np.bincount(surface_components.label, np.abs(volumes), surface_components.count)
     wall = config.wall(float(np.linalg.norm(np.ptp(corners, axis=0))))

@@ -19,7 +19,7 @@ from anymesh.geometry.topology import edge_pairs, weld
 from anymesh.geometry.triangle_set import sample_surface
 from anymesh.physics.convex import DIRECTIONS, cut, hull_of
 from anymesh.types import Hull
-from anymesh.types.triangles import normals_and_areas
+from anymesh.types.triangles import normals_and_areas, unshared
 
 SAMPLES = 200  # sample points of a hull for its distance from the surface
 PLACES = 5  # positions of a cutting plane along each direction
@@ -181,8 +181,8 @@ def concave_planes(triangles: Float[np.ndarray, "n 3 3"], most: int) -> list[tup
 
     They are ordered by the total length of these edges, longest first.
     """
-    corners = triangles.reshape(-1, 3)
-    pairs = edge_pairs(corners, np.arange(len(corners)).reshape(-1, 3))
+    corners, faces = unshared(triangles)
+    pairs = edge_pairs(corners, faces)
     normals, middle = normals_and_areas(triangles)[0], triangles.mean(1)
     f, g = pairs.faces.T
     inward = np.einsum("ij,ij->i", middle[g] - middle[f], normals[f] - normals[g])

@@ -34,7 +34,7 @@ from anymesh.rendering.render import lit, shade, turned
 from anymesh.rendering.viewpoints import SKETCH, box_of, orbit_camera, zoom
 from anymesh.types import JointType, Mesh, Motion
 from anymesh.types.camera import Camera
-from anymesh.types.triangles import bounds_of, box_corners, transformed
+from anymesh.types.triangles import bounds_of, box_corners, transformed, unshared
 
 PANEL = 400  # [px] size of a panel
 MARGIN = 0.35  # margin around the moving part, as a share of its diagonal, so that its neighbours are visible
@@ -61,8 +61,8 @@ def moved(mesh: Mesh, moving: Bool[np.ndarray, " F"], T: Float[np.ndarray, "4 4"
     """Return the mesh with some faces moved. Faces keep their indices; vertices are no longer shared."""
     triangles = mesh.triangles.copy()
     triangles[moving] = transformed(triangles[moving], T)
-    faces = np.arange(3 * len(triangles)).reshape(-1, 3)
-    return replace(mesh, vertices=triangles.reshape(-1, 3), faces=faces, corner_normal=None)
+    vertices, faces = unshared(triangles)
+    return replace(mesh, vertices=vertices, faces=faces, corner_normal=None)
 
 
 def motion_strip(
@@ -145,7 +145,7 @@ def _lines(
 
 def silhouette(triangles: Float[np.ndarray, "n 3 3"], camera: Camera, rays: Rays | None = None) -> Bool[np.ndarray, "H W"]:
     """Return the pixels that would show these triangles alone. rays: the camera's, if already computed."""
-    scene = RayScene(triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3))
+    scene = RayScene(*unshared(triangles))
     return (scene.first_hit(*(rays or camera.rays())).face >= 0).reshape(camera.height, camera.width)
 
 

@@ -9,7 +9,7 @@ from jaxtyping import Float, Int
 
 from anymesh.config import SAME_AXIS_COSINE
 from anymesh.geometry.boxes import OrientedBox, fit_box
-from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.surface import MeshSurface
 from anymesh.geometry.topology import label_connected
@@ -117,8 +117,7 @@ def _near(surface: MeshSurface, faces: np.ndarray, host: np.ndarray) -> Int[np.n
     points = _corners(surface, faces)
     if np.ptp(points, axis=0).max() > MAX_BAR_LENGTH_RATIO * surface.diagonal:
         return np.zeros(0, np.int64)
-    corners = surface.shape.triangles[host].reshape(-1, 3)
-    gap, face, _ = distance_to_mesh(points, corners, np.arange(len(corners)).reshape(-1, 3))
+    gap, face, _ = TriangleTree(surface.shape.triangles[host]).nearest(points)
     near = gap < min(float(gap.min()) + TOUCH * surface.diagonal, MAX_HANDLE_GAP_RATIO * surface.diagonal)
     return np.unique(host[face[near]])
 

@@ -17,6 +17,11 @@ def face_cross(triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, "F 3"
     return np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
 
 
+def unshared(triangles: Float[np.ndarray, "F 3 3"]) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "F 3"]]:
+    """Return the vertices and faces of triangles, of which no two share a vertex."""
+    return triangles.reshape(-1, 3), np.arange(3 * len(triangles)).reshape(-1, 3)
+
+
 def normals_and_areas(triangles: Float[np.ndarray, "F 3 3"]) -> tuple[Float[np.ndarray, "F 3"], Float[np.ndarray, " F"]]:
     """Return the unit normals, zero for triangles without area, and the areas."""
     normals = face_cross(triangles)

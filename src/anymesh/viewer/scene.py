@@ -17,6 +17,7 @@ from anymesh.physics.inertia import Inertia
 from anymesh.rendering.marks import axis_line, ring
 from anymesh.rendering.preview import BASE, PALETTE, best_camera, shown_position
 from anymesh.types import Asset, Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
+from anymesh.types.triangles import unshared
 
 MAX_DISPLAY_FACES = 200_000  # maximum number of faces drawn; a denser object is decimated for display
 MIN_PART_FACES = 200  # minimum number of faces of a part
@@ -49,7 +50,7 @@ def surface(mesh: Mesh, faces: Int[np.ndarray, " f"], most: int = MAX_DISPLAY_FA
         piece = mesh.subset(faces)
         return DisplayMesh(piece.vertices, piece.faces)
     few = simplify(mesh.triangles[faces], max(MIN_PART_FACES, most * len(faces) // len(mesh.faces)))
-    return DisplayMesh(few.reshape(-1, 3), np.arange(3 * len(few)).reshape(-1, 3))
+    return DisplayMesh(*unshared(few))
 
 
 @dataclass

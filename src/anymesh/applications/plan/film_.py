@@ -24,6 +24,7 @@ from anymesh.rendering.drawing import Window, draw, face_colors, ground, render_
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 from anymesh.types.mesh import Node
+from anymesh.types.triangles import unshared
 
 WIDTH, HEIGHT = 640, 480  # [px] of a frame
 RATE = 10.0  # [1/s] frames
@@ -119,8 +120,7 @@ def draw_surfaces(
     surfaces: list[Float[np.ndarray, "_ 3 3"]], colors: UInt8[np.ndarray, "F 3"], camera: Camera
 ) -> UInt8[np.ndarray, "H W 3"]:
     """Draw surfaces with a colour per face, with outlines between them."""
-    corners = np.concatenate(surfaces).reshape(-1, 3)
-    faces = np.arange(len(corners)).reshape(-1, 3)
+    corners, faces = unshared(np.concatenate(surfaces))
     none = np.zeros(len(faces), np.int64)
     mesh = Mesh(corners, faces, none, (Node("scene"),), none - 1)
     scene = RayScene(mesh.vertices, mesh.faces)

@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float
 from anymesh.applications.plan.plans import GripperContact, Target
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.types import JointType, Motion
-from anymesh.types.triangles import face_cross
+from anymesh.types.triangles import face_cross, unshared
 
 POINTS = 3000  # samples of the part's surface
 OPPOSED = np.cos(np.deg2rad(15))  # cosine; two faces within this angle of opposite can be grasped
@@ -40,8 +40,7 @@ class PartSurfaces:
     @cached_property
     def scene(self) -> RayScene:
         """Ray casting scene of both surfaces; the part's faces come first."""
-        corners = np.concatenate([self.part, self.others]).reshape(-1, 3)
-        return RayScene(corners, np.arange(len(corners)).reshape(-1, 3))
+        return RayScene(*unshared(np.concatenate([self.part, self.others])))
 
     @cached_property
     def part_normals(self) -> Float[np.ndarray, "n 3"]:
@@ -77,7 +76,7 @@ def sample_targets(
 
 def _samples(triangles: np.ndarray, rng: np.random.Generator) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
     """Sample points on a surface; return them with its normals."""
-    cross = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    cross = face_cross(triangles)
     area = np.linalg.norm(cross, axis=1)
     chosen = rng.choice(len(triangles), POINTS, p=area / area.sum())
     u, v = rng.random((2, POINTS, 1))

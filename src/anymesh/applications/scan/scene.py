@@ -11,6 +11,7 @@ from scipy import ndimage
 from anymesh.applications.scan.agreement import Glimpse
 from anymesh.applications.scan.frames import Frames
 from anymesh.errors import InputError, OptionError
+from anymesh.types.triangles import face_cross
 
 TRIES = 600  # planes through three points tried as floor
 LEVEL_KNOWN, LEVEL_GUESSED = 20.0, 50.0  # [deg] largest tilt of a floor against the layout's up, or the cameras' mean up
@@ -130,7 +131,7 @@ def _floor(points: np.ndarray, up: np.ndarray, lean: float, tolerance: float, rn
     """
     some = points[rng.permutation(len(points))[:COUNTED]]
     corners = some[rng.integers(len(some), size=(TRIES, 3))]
-    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    normal = face_cross(corners)
     normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-12)
     normal *= np.where(normal @ up < 0, -1.0, 1.0)[:, None]
     planes = np.c_[normal, -np.einsum("ij,ij->i", normal, corners[:, 0])][normal @ up > np.cos(np.deg2rad(lean))]
