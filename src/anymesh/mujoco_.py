@@ -5,6 +5,8 @@ from __future__ import annotations
 import logging
 from typing import Any
 
+import numpy as np
+
 from anymesh.errors import MissingExtraError
 
 log = logging.getLogger("anymesh")
@@ -19,6 +21,18 @@ def load_mujoco() -> Any:
     mujoco: Any = untyped  # its compiled names have no stubs
     mujoco.set_mju_user_warning(_warn)
     return mujoco
+
+
+def name_elements(spec: Any) -> None:
+    """Name the joints and bodies that have no name."""
+    for word, things in (("joint", spec.joints), ("body", spec.bodies)):
+        for number, thing in enumerate(things):
+            thing.name = thing.name or f"{word}_{number}"
+
+
+def is_unstable(data: Any) -> bool:
+    """Return whether a simulation diverged or warned."""
+    return not np.isfinite(data.qpos).all() or any(w.number for w in data.warning)
 
 
 def _warn(message: str) -> None:

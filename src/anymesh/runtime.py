@@ -13,7 +13,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
-from anymesh.errors import OptionError
+from anymesh.errors import OptionError, OutputError
 
 
 def usable_cores() -> int:
@@ -56,6 +56,15 @@ def write_whole(path: Path, content: bytes) -> None:
     except BaseException:
         Path(temporary).unlink(missing_ok=True)
         raise
+
+
+@contextmanager
+def writing(path: Path) -> Generator[None]:
+    """Convert errors of the file system, in whatever is written to a file or folder, to OutputError."""
+    try:
+        yield
+    except OSError as error:
+        raise OutputError(f"cannot write {path}: {error.strerror or error}") from error
 
 
 CALL_SECONDS = 120.0  # [s] default of `--timeout`, for one call of a model

@@ -258,8 +258,7 @@ def rename(asset: Asset, c: Rename) -> Asset:
     others = {p.name.lower() for p in asset.segmentation.parts if p.name != c.part}
     if legal_name(c.name) != c.name or c.name.lower() in others or c.name == c.part:
         raise CorrectionError(f"the name {c.name!r} is not legal, or taken; valid is {_new_name(asset, c.name)!r}")
-    renamed = _with_part(asset, c.part, replace(part, name=c.name))
-    return replace(renamed, joints=_renamed(asset.joints, {c.part: c.name}))
+    return _with_part(asset, c.part, replace(part, name=c.name))
 
 
 def _with_part(asset: Asset, name: str, part: Part) -> Asset:

@@ -14,7 +14,7 @@ from typing import Any, get_args, get_origin, get_type_hints
 
 from anymesh.errors import OutputError
 from anymesh.evaluation.score import MIN_MATCH_IOU, JointScore, ObjectScore
-from anymesh.runtime import read_json, write_json
+from anymesh.runtime import read_json, write_json, writing
 
 SETTINGS = "eval.json"
 OBJECTS = "objects"  # folder with one file per object and one line per record
@@ -97,10 +97,8 @@ class ResultsFolder:
 
         Raise OutputError if the folder holds anything else, or an evaluation with other settings.
         """
-        try:
+        with writing(folder):
             return cls._open(Path(folder), settings, force)
-        except OSError as error:
-            raise OutputError(f"cannot write to {folder}: {error.strerror or error}") from error
 
     @classmethod
     def _open(cls, folder: Path, settings: Mapping[str, str], force: bool) -> ResultsFolder:

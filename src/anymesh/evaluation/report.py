@@ -16,12 +16,12 @@ import numpy as np
 from jaxtyping import UInt8
 from PIL import Image
 
-from anymesh.errors import OutputError
 from anymesh.evaluation.drawing import captioned, contact_sheet, without_caption
 from anymesh.evaluation.record import Off, Record, what_is_off, worst
 from anymesh.evaluation.score import JointScore
 from anymesh.evaluation.summary import RULES, Cell, Table, report_tables
 from anymesh.rendering.render import encode
+from anymesh.runtime import writing
 from anymesh.types import JointType
 
 QUALITY = 82  # JPEG quality: a report with two dozen pictures has about a megabyte
@@ -129,7 +129,7 @@ def write_report(records: Sequence[Record], folder: Path, *, title: str, setting
     shown = [(o, without_caption(pixels)) for o, pixels in drawn if pixels is not None]
     tables = report_tables(records, settings, [o for o, _ in shown])
     rows = "".join(json.dumps(row, allow_nan=False) + "\n" for row in joint_rows(records))
-    try:
+    with writing(folder):
         if shown:
             pictures = [captioned(pixels, o.title, what_is_off(o.joint)) for o, pixels in shown]
             _write(folder / SHEET, encode(contact_sheet(pictures, SHEET_COLUMNS, SHEET_WIDTH)).png)
@@ -138,8 +138,6 @@ def write_report(records: Sequence[Record], folder: Path, *, title: str, setting
         _write(folder / "joints.jsonl", rows.encode())
         _write(folder / "report.md", markdown_report(title, tables, sheet=SHEET if shown else "").encode())
         _write(folder / "report.html", html_report(title, settings, records, tables, shown).encode())
-    except OSError as error:
-        raise OutputError(f"cannot write the report to {folder}: {error.strerror or error}") from error
 
 
 def joint_rows(records: Sequence[Record]) -> Iterator[dict[str, Any]]:

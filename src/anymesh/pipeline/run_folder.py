@@ -56,7 +56,7 @@ from anymesh.pipeline.stage_files import (
     stage_files,
     write_stage,
 )
-from anymesh.runtime import read_json, write_json
+from anymesh.runtime import read_json, write_json, writing
 from anymesh.types import Asset
 
 Result = TypeVar("Result")
@@ -202,7 +202,7 @@ class RunFolder(Saved):
         target = Path(target).resolve()
         if source.resolve().is_relative_to(target):
             raise OutputError(f"the source mesh {source} lies in the output folder {target}; choose another folder")
-        try:
+        with writing(target):
             recover(target, atomic_prefix(target, "old"))
             if target.exists() and not target.is_dir():
                 raise OutputError(f"{target} is a file; an output is a folder")
@@ -216,8 +216,6 @@ class RunFolder(Saved):
             earlier = [d.path for d in dead] + ([target] if old else [])
             base = target if inside else None
             run = cls(target, make_locked_folder(*place), base=base, earlier=earlier, dead=dead)
-        except OSError as error:
-            raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
         run._resumable = locks_known()
         run._stale = {stage.name for stage in STAGES} if inside else set()
         return run
@@ -226,12 +224,10 @@ class RunFolder(Saved):
     def open(cls, target: Path) -> RunFolder:
         """Open an existing output to add a stage or the final files. Raise OutputError if there is none."""
         target = Path(target).resolve()
-        try:
+        with writing(target):
             existing_files(target)
             dead = stale_folders(target, f"{FOLDER_PREFIX}tmp-")
             hidden = make_locked_folder(target, f"{FOLDER_PREFIX}tmp-")
-        except OSError as error:
-            raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
         return cls(target, hidden, base=target, earlier=[], dead=dead)
 
     @classmethod
@@ -243,7 +239,7 @@ class RunFolder(Saved):
         target = Path(target).resolve()
         if os.path.ismount(target):
             return cls.open(target)
-        try:
+        with writing(target):
             ours = set(existing_files(target))
             run = cls(
                 target, make_locked_folder(target.parent, atomic_prefix(target, "tmp")), base=None, earlier=[target], dead=[]
@@ -251,8 +247,6 @@ class RunFolder(Saved):
             run._foreign = set(list_files(target)) - ours
             stages = {name for stage in STAGES for name in stage_files(stage)}
             copy_files(target, run.folder, (ours & (stages | {TIMING})) | set(filter(is_origin, ours)) | run._foreign)
-        except OSError as error:
-            raise OutputError(f"cannot write {target}: {error.strerror or error}") from error
         return run
 
     def load(self, stage: Stage[Result], key: str) -> Result | None:
@@ -320,7 +314,7 @@ class RunFolder(Saved):
     def _commit(self) -> None:
         """Move everything written into place."""
         new = {*list_files(self.folder), MANIFEST} - self._foreign
-        try:
+        with writing(self.target):
             if self._base is None:
                 write_manifest(self.folder, new)
                 aside = self.target.parent / f"{atomic_prefix(self.target, 'old')}{os.getpid()}"
@@ -330,8 +324,6 @@ class RunFolder(Saved):
                 kept = before - outdated_files(before, stale=self._stale, final=LAST in new)
                 write_manifest(self.folder, new | kept)
                 move_files(self.folder, self.target, remove=sorted(before - kept - new), last=LAST)
-        except OSError as error:
-            raise OutputError(f"cannot write {self.target}: {error.strerror or error}") from error
 
     def __enter__(self) -> RunFolder:
         return self

@@ -70,11 +70,6 @@ class DrawnPictures:
     def _drawn(self) -> tuple[Picture, ...]:
         return self._draw()
 
-    @property
-    def are_drawn(self) -> bool:
-        """Return whether the pictures were read."""
-        return "_drawn" in vars(self)
-
     @overload
     def __getitem__(self, index: int) -> Picture: ...
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import io
-import os
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -12,7 +11,7 @@ import numpy as np
 from jaxtyping import UInt8
 from PIL import Image, ImageDraw
 
-from anymesh.errors import InputError, MissingExtraError, OptionError, OutputError
+from anymesh.errors import InputError, MissingExtraError, OptionError
 from anymesh.export.glb import tracks
 from anymesh.export.model import ExportConfig
 from anymesh.geometry.kinematics import posed
@@ -31,7 +30,7 @@ from anymesh.rendering.drawing import (
 from anymesh.rendering.marks import axis_shapes, draw_axes, font
 from anymesh.rendering.preview import best_camera, part_colors, shown_position
 from anymesh.rendering.viewpoints import away, zoom
-from anymesh.runtime import Progress, silent
+from anymesh.runtime import Progress, silent, writing
 from anymesh.types import Asset, JointType, Mesh
 from anymesh.types.camera import Camera
 from anymesh.viewer.report_asset import displayed, find_assets, read_asset
@@ -296,7 +295,7 @@ def write_picture(
         how = Turntable(size - size % 2, rate, turn, materials)
     except ValueError as error:
         raise OptionError(str(error)) from error
-    try:
+    with writing(out):
         if kind == ".png" or several:
             assets = _read_all(folder, folders, progress)
         if kind == ".png":
@@ -308,8 +307,6 @@ def write_picture(
             asset = displayed(read_asset(folders[0]), faces=FACES)[0]
             progress("picture", asset.name, 0, 1)
             _write_film(film(asset, how), out, rate)
-    except OSError as error:
-        raise OutputError(f"cannot write {out}: {os.strerror(error.errno) if error.errno else error}") from error
     return out
 
 

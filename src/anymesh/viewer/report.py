@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import os
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
 from typing import Any
 
-from anymesh.errors import InputError, OutputError
-from anymesh.runtime import Progress, silent
+from anymesh.errors import InputError
+from anymesh.runtime import Progress, silent, writing
 from anymesh.types import Asset
 from anymesh.viewer.report_asset import FACES, ReportEntry, asset_entry, find_assets, folder_entry, within
 from anymesh.viewer.report_html import html_report
@@ -56,12 +55,10 @@ def write_report(
         entries.append(folder_entry(place, title, faces=faces))
     entries = within(sorted(entries, key=_order), megabytes)
     data = html_report(whole.name, entries).encode()
-    try:
+    with writing(out):
         temporary = out.with_name(f".{out.name}.part")  # so that the page is written atomically
         temporary.write_bytes(data)
         temporary.replace(out)
-    except OSError as error:
-        raise OutputError(f"cannot write {out}: {os.strerror(error.errno) if error.errno else error}") from error
     return Reported(
         path=out,
         assets=len(entries),

@@ -17,11 +17,11 @@ from anymesh.applications.annotate.runner import Outage, Plan, Runner
 from anymesh.applications.annotate.states import AttemptOutcome
 from anymesh.applications.annotate.tally import Tally, tally
 from anymesh.applications.annotate.workers import LocalWorkers, Workers, object_limits
-from anymesh.errors import OptionError, OutputError
+from anymesh.errors import OptionError
 from anymesh.export.formats import DEFAULT, ExportOptions
 from anymesh.pipeline.answering import choose_answerer
 from anymesh.pipeline.options import FILES, GEOMETRY, Answering
-from anymesh.runtime import DEFAULT_SECONDS, Deadline, usable_cores
+from anymesh.runtime import DEFAULT_SECONDS, Deadline, usable_cores, writing
 
 PARQUET = "ledger.parquet"
 UNPINNED = ("max_calls", "max_cost", "cache", "timeout")  # options that may differ between runs on one output
@@ -158,10 +158,8 @@ def export_ledger(ledger: Ledger, path: Path) -> None:
     """Write the table of objects as Parquet. Raise MissingExtraError or OutputError."""
     from anymesh.applications.annotate.parquet_ import write_rows
 
-    try:
+    with writing(path):
         write_rows(path, OBJECTS, ledger.export_rows())
-    except OSError as error:
-        raise OutputError(f"cannot write {path}: {error.strerror or error}") from error
 
 
 def collection_status(out: str | Path) -> Tally:

@@ -11,8 +11,7 @@ from urllib.parse import quote
 from anymesh.applications.annotate.ledger import Ledger
 from anymesh.applications.annotate.states import State
 from anymesh.applications.annotate.tally import duration, tally
-from anymesh.errors import OutputError
-from anymesh.runtime import write_whole
+from anymesh.runtime import write_whole, writing
 from anymesh.viewer.report_asset import jpeg
 from anymesh.viewer.report_html import html_text, sure
 
@@ -38,11 +37,9 @@ meter{width:160px}
 def write_report(ledger: Ledger) -> Path:
     """Write OUT/report.html atomically; return its path. Raise OutputError if it cannot be written."""
     path = ledger.out / REPORT
-    try:
+    with writing(path):
         write_whole(path, report_page(ledger).encode())
         path.chmod(0o644)
-    except OSError as error:
-        raise OutputError(f"cannot write {path}: {error.strerror or error}") from error
     return path
 
 

@@ -7,8 +7,7 @@ from pathlib import Path
 
 from anymesh.applications.annotate.ledger import Ledger
 from anymesh.applications.annotate.states import State
-from anymesh.errors import OutputError
-from anymesh.runtime import write_whole
+from anymesh.runtime import write_whole, writing
 
 METRICS = "metrics.prom"
 
@@ -71,8 +70,6 @@ def write_metrics(out: Path, tally: Tally, ledger_seconds: float) -> None:
     lines += [f'anymesh_annotate_objects{{state="{state}"}} {tally.counts[state]}' for state in State]
     for name, (kind, description, value) in metrics.items():
         lines += [f"# HELP {name} {description}", f"# TYPE {name} {kind}", f"{name} {value:.10g}"]
-    try:
+    with writing(out / METRICS):
         write_whole(out / METRICS, "\n".join([*lines, ""]).encode())
         (out / METRICS).chmod(0o644)
-    except OSError as error:
-        raise OutputError(f"cannot write {out / METRICS}: {error.strerror or error}") from error

@@ -24,7 +24,7 @@ from anymesh.geometry.topology import components
 from anymesh.loading import load_mesh
 from anymesh.pipeline.atomic_folder import GENERATED, GENERATION, locked
 from anymesh.pipeline.run_folder import RunFolder
-from anymesh.runtime import read_json, write_json, write_whole
+from anymesh.runtime import read_json, write_json, write_whole, writing
 
 MADE = "made.json"
 ANEW = "anew"  # marker file that exists while another mesh than that of the output is made
@@ -49,10 +49,8 @@ class WorkFolder:
     @contextmanager
     def open(self) -> Generator[None]:
         """Create the folder and lock it for this run. Raise OutputError if that fails."""
-        try:
+        with writing(self.folder):
             self.folder.mkdir(parents=True, exist_ok=True)
-        except OSError as error:
-            raise OutputError(f"cannot write {self.folder}: {error.strerror or error}") from None
         with locked(self.folder) as free:
             if not free:
                 raise OutputError(f"another run works in {self.folder}; wait for it, or choose another output folder")

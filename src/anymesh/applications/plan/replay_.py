@@ -15,7 +15,7 @@ from anymesh.applications.plan.plans import BasePose, Phase, Trajectory
 from anymesh.applications.plan.robot_ import RobotArm, finger_bodies, positions_of
 from anymesh.applications.plan.scene_ import OBJECT, ROBOT, bodies_of, compose
 from anymesh.errors import OptionError
-from anymesh.mujoco_ import load_mujoco
+from anymesh.mujoco_ import is_unstable, load_mujoco
 
 FIRM = 0.9  # share of the requested motion at which a task counts as done
 HIT = 20.0  # [N] between the arm and anything else that counts as a collision
@@ -146,7 +146,7 @@ class ReplaySimulation:
             if step % every == 0:
                 times.append(t)
                 states.append(data.qpos.copy())
-        unstable = not np.isfinite(data.qpos).all() or any(w.number for w in data.warning)
+        unstable = is_unstable(data)
         failure = ReplayFailure.UNSTABLE if unstable else watch.failure(wanted)
         kept = np.array(states) if states else np.zeros((0, model.nq))
         return ReplayResult(watch.value, failure, watch.penetration, watch.lag, watch.force, np.array(times), kept)

@@ -18,7 +18,7 @@ from jaxtyping import Bool, Float, Int
 from anymesh.applications.plan.robot_packages_ import RobotFiles
 from anymesh.checking.engines.robot import find_file
 from anymesh.errors import InputError, OptionError
-from anymesh.mujoco_ import load_mujoco
+from anymesh.mujoco_ import load_mujoco, name_elements
 
 STIFFNESS = 50.0  # [1/rad] over the effort limit: full effort at a lag of 0.02 rad, as in MuJoCo Menagerie's Panda
 DAMPING = 0.1  # [s] damping over stiffness
@@ -65,7 +65,7 @@ def load_robot(files: RobotFiles, *, tool: str | None = None, gripper: Sequence[
         spec = _read(mujoco, files.arm)
         if files.hand is not None and files.preset is not None:
             _mount(spec, _read(mujoco, files.hand), files.preset.site)
-        _name_joints(spec)
+        name_elements(spec)
         model = without_visuals(spec).compile()
     except (ValueError, mujoco.FatalError, OSError) as error:
         raise InputError(f"MuJoCo cannot load the robot {files.name}: {' '.join(str(error).split())}") from error
@@ -242,12 +242,6 @@ def _mount(spec: Any, hand: Any, site: str) -> None:
     if place is None:
         raise ValueError(f"the arm has no site {site!r} to mount a gripper at")
     spec.attach(hand, site=place, prefix=HAND)
-
-
-def _name_joints(spec: Any) -> None:
-    for word, things in (("joint", spec.joints), ("body", spec.bodies)):
-        for number, thing in enumerate(things):
-            thing.name = thing.name or f"{word}_{number}"
 
 
 def _split(model: Any, name: str, tool: str | None, gripper: Sequence[str]) -> tuple[list[int], list[int]]:

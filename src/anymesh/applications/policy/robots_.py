@@ -65,12 +65,6 @@ def make_robot(name: str, R_world_tool: Float[np.ndarray, "3 3"]) -> TaskRobot:
     raise OptionError(f"--robot: found {name!r}; valid are {', '.join(NAMES)}")
 
 
-def gripper_hand() -> Hand:
-    """Return the geometry of the floating gripper, as `anymesh plan` measures it for others."""
-    posture = np.array([[0.0, 0.0], [STROKE / 2, STROKE / 2]])
-    return Hand(np.eye(4), np.array([0.0, STROKE]), np.full(2, REACH), posture, posture.copy())
-
-
 def _floating(R_world_tool: np.ndarray) -> tuple[Any, Any]:
     """Return a spec with a mount that six servos move, and the body of the hand on it."""
     mujoco = load_mujoco()

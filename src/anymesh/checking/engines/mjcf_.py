@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.checking.engines.mujoco_ import load_errors, name_elements, read_spec
+from anymesh.checking.engines.mujoco_ import load_errors, read_spec
 from anymesh.checking.engines.robot import Geometry, Inertial, Robot, RobotJoint, RobotLink, shape_triangles
-from anymesh.mujoco_ import load_mujoco
+from anymesh.mujoco_ import load_mujoco, name_elements
 
 
 def read_mjcf(path: Path) -> Robot:

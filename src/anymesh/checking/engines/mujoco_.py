@@ -23,7 +23,7 @@ from anymesh.checking.engines.driving import (
 from anymesh.checking.engines.robot import find_file
 from anymesh.errors import InputError
 from anymesh.loading import load_mesh
-from anymesh.mujoco_ import load_mujoco
+from anymesh.mujoco_ import is_unstable, load_mujoco, name_elements
 
 TOUCH = 1e-4  # share of the asset's extent: bodies with deeper penetration at rest overlap
 MOTOR_FREQUENCY_1S = 30.0  # [rad/s] natural frequency of a motor whose motion takes 1 s; lower for a longer one
@@ -62,13 +62,6 @@ def read_spec(mujoco: Any, path: Path) -> Any:
             content = load_mesh(mesh_path).mesh
             mesh.file, mesh.uservert, mesh.userface = "", content.vertices.reshape(-1), content.faces.reshape(-1)
     return spec
-
-
-def name_elements(spec: Any) -> None:
-    """Name the joints and bodies that have no name."""
-    for word, things in (("joint", spec.joints), ("body", spec.bodies)):
-        for number, thing in enumerate(things):
-            thing.name = thing.name or f"{word}_{number}"
 
 
 @dataclass(frozen=True, eq=False)
@@ -274,7 +267,7 @@ def _driven(bench: MujocoBench, index: int, posture: np.ndarray) -> tuple[tuple[
             drift = max(drift, float(np.abs((data.qpos - posture)[others]).max(initial=0.0)))
         start = goal
         mujoco.mj_forward(model, data)
-        blew_up |= not np.isfinite(data.qpos).all() or any(w.number for w in data.warning)
+        blew_up |= is_unstable(data)
         off = max(off, _off(bench, index, float(data.qpos[address]), data.geom_xpos[geoms], geoms))
         reached[way] = float(data.qpos[address])
     return (reached[-1.0], reached[1.0]), drift, off, bool(blew_up)

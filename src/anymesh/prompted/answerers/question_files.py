@@ -12,8 +12,7 @@ import os
 import re
 import shutil
 import tempfile
-from collections.abc import Generator, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Event
@@ -21,7 +20,7 @@ from typing import Any
 
 from anymesh.errors import OptionError, OutputError
 from anymesh.prompted.models.vision import Request, request_key
-from anymesh.runtime import write_whole
+from anymesh.runtime import write_whole, writing
 from anymesh.types.exchange import Picture
 
 NAME = "files"  # model name in keys and transcripts, the same for every folder
@@ -88,10 +87,7 @@ class QuestionFolder:
 
     def suggestion(self) -> str | None:
         """Read the answer suggested by geometry; None if there is none."""
-        try:
-            return (self.path / SUGGESTION).read_text(encoding="utf-8")
-        except OSError:
-            return None
+        return self._text(SUGGESTION)
 
     def write_suggestion(self, text: str) -> None:
         """Write the answer suggested by geometry."""
@@ -110,8 +106,11 @@ class QuestionFolder:
 
     def refusal(self) -> str | None:
         """Read why the answer was refused; None if it was not."""
+        return self._text(REFUSED)
+
+    def _text(self, name: str) -> str | None:
         try:
-            return (self.path / REFUSED).read_text(encoding="utf-8")
+            return (self.path / name).read_text(encoding="utf-8")
         except OSError:
             return None
 
@@ -145,15 +144,6 @@ def find_questions(folder: Path) -> list[QuestionFolder]:
     """Find all questions in a folder, which may be that of a question, of an object, or of many objects."""
     questions = (read_question(path.parent) for path in sorted(folder.rglob(QUESTION)))
     return [q for q in questions if q is not None and not q.path.name.startswith(".")]
-
-
-@contextmanager
-def writing(folder: Path) -> Generator[None]:
-    """Convert file errors to OutputError."""
-    try:
-        yield
-    except OSError as error:
-        raise OutputError(f"cannot write the question to {folder}: {error.strerror or error}") from error
 
 
 def wait_for_answer(question: QuestionFolder, seen: str | None, every: float, stop: Event | None = None) -> str | None:
