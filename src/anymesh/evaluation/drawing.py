@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Bool, Float, UInt8
+from jaxtyping import Bool, UInt8
 from PIL import Image, ImageDraw
 
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
@@ -14,10 +14,10 @@ from anymesh.evaluation.record import what_is_off
 from anymesh.evaluation.score import JointScore, part_ious
 from anymesh.geometry.kinematics import joint_motion
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.rendering.marks import Color, axis_line, blend, draw_arrow, font, lighten, rim, ring
+from anymesh.rendering.marks import Color, blend, draw_arrow, font, lighten, rim
 from anymesh.rendering.render import lit, render
-from anymesh.rendering.strips import moved, silhouette, strip_camera
-from anymesh.rendering.viewpoints import zoom
+from anymesh.rendering.strips import motion_axis, moved, silhouette, strip_camera
+from anymesh.rendering.viewpoints import framed
 from anymesh.types import Joint, JointType, Mesh, Motion, Segmentation
 from anymesh.types.camera import Camera
 
@@ -30,11 +30,7 @@ GREY = np.array([185, 185, 185], np.uint8)
 PALE = 0.45  # share by which the colours of static parts are moved towards white
 GHOST = 0.25  # opacity of a part where it is hidden
 AIR = 0.06  # margin around the object, as a share of the picture
-LEGIBLE, MIN_AXIS_RATIO, RING = (
-    0.4,
-    3.0,
-    0.1,
-)  # as in motion strips: minimum size of an axis (share of the picture), and size of its ring
+LEGIBLE, RING = 0.4, 0.1  # as in motion strips: minimum size of an axis (share of the picture), and size of its ring
 RIM = 5  # [px] width of outlines, in pictures of twice the size
 AXES = (4.2, 2.0)  # line widths of the true and the found axis
 DENSE = 20_000  # number of faces above which a mesh is thinned to choose the camera
@@ -148,14 +144,10 @@ def _sketch(mesh: Mesh, faces: Bool[np.ndarray, " F"]) -> tuple[Mesh, Bool[np.nd
 
 def _whole(near: Camera, mesh: Mesh, mine: Bool[np.ndarray, " F"], right: _Move) -> Camera:
     """Return a camera at the same place that frames the whole object and the true axis."""
-    camera = _turned(near, mesh.vertices)
-    ends = [_axis(mesh, mine, right, camera, AXES[0])[0]] if right.motion else []
-    return _turned(near, np.concatenate([mesh.vertices, *ends]))
-
-
-def _turned(camera: Camera, points: Float[np.ndarray, "n 3"]) -> Camera:
-    pixels = camera.project(points)[0]
-    return zoom(camera, np.concatenate([pixels.min(0), pixels.max(0)]), AIR, camera.height)
+    camera = framed(near, mesh.vertices, AIR, near.height)
+    corners = mesh.triangles[mine].reshape(-1, 3)
+    ends = [motion_axis(corners, right.motion, right.amount, camera, LEGIBLE)[0]] if right.motion else []
+    return framed(near, np.concatenate([mesh.vertices, *ends]), AIR, near.height)
 
 
 def _at_rest(
@@ -176,20 +168,6 @@ def _opened(mesh: Mesh, right: _Move, ours: _Move, moves: Sequence[_Move], camer
     return _with_axes(picture, mesh, right.faces, moves, camera)
 
 
-def _axis(
-    mesh: Mesh, faces: Bool[np.ndarray, " F"], move: _Move, camera: Camera, scale: float
-) -> tuple[Float[np.ndarray, "2 3"], Float[np.ndarray, "k 3"] | None]:
-    """Return the arrow along the axis in the opening direction, and the ring of a rotation."""
-    motion = move.motion
-    assert motion is not None
-    corners = mesh.triangles[faces].reshape(-1, 3)
-    depth = float(camera.project(corners.mean(0)[None])[1][0])
-    size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), LEGIBLE * 2 * depth * float(np.tan(camera.fov / 2)))
-    axis, slides = (-motion.axis if move.amount < 0 else motion.axis), motion.kind is JointType.PRISMATIC
-    ends, center = axis_line(corners, motion.origin, axis, slides, MIN_AXIS_RATIO * size)
-    return ends, None if slides else ring(center, axis, RING * size * (1 + scale / AXES[0]))
-
-
 def _painted(mesh: Mesh, camera: Camera, color: Color, faces: Bool[np.ndarray, " F"]) -> UInt8[np.ndarray, "H W 3"]:
     """Draw the object light grey, with some faces in colour, blended over what hides them."""
     scene = RayScene(mesh.vertices, mesh.faces)
@@ -208,8 +186,11 @@ def _with_axes(
     """Draw the true axis thick and the found one thinner on top, so that both are visible where they agree."""
     drawn = Image.fromarray(picture)
     draw = ImageDraw.Draw(drawn)
+    corners = mesh.triangles[faces].reshape(-1, 3)
     for move, scale in zip(moves, AXES, strict=False):
-        ends, circle = _axis(mesh, faces, move, camera, scale)
+        assert move.motion is not None
+        radius = RING * (1 + scale / AXES[0])  # the rings of both axes differ, so that both are visible
+        ends, circle = motion_axis(corners, move.motion, move.amount, camera, LEGIBLE, radius)
         draw_arrow(draw, camera.project(ends)[0], move.color, scale)
         if circle is not None:
             pixels = camera.project(circle)[0]

@@ -13,6 +13,7 @@ from anymesh.finishing.protocol import ShapeConfig
 from anymesh.finishing.scenes import SKIP, Growing, Scenes, room, scene_of
 from anymesh.finishing.sheets import Sheet, SheetVisibility, is_laid_open, open_sheets, sheet_visibility
 from anymesh.geometry.raycast_ import RayScene
+from anymesh.geometry.surface import earlier_equals, number_rows
 from anymesh.geometry.topology import components, weld
 from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
 from anymesh.loading.polygons_ import triangulate
@@ -126,15 +127,11 @@ def without_folds(new: Float[np.ndarray, "n 3 3"], beside: Float[np.ndarray, "m 
     if len(new) == 0:
         return new
     turn = (number.argmin(1)[:, None] + np.arange(3)) % 3
-    a, b, c = np.take_along_axis(number, turn, 1).T
+    _, b, c = np.take_along_axis(number, turn, 1).T
     side = np.where(b < c, 1, -1)
-    kind = np.unique(np.stack([a, np.minimum(b, c), np.maximum(b, c)], 1), axis=0, return_inverse=True)[1].reshape(-1)
+    kind = number_rows(np.sort(number, axis=1))
     excess = np.bincount(kind, side)
-    order = np.lexsort((np.arange(len(new)), side, kind))
-    rank = np.empty(len(new), np.int64)
-    start = np.r_[True, np.diff(kind[order]) + np.abs(np.diff(side[order])) != 0]
-    rank[order] = np.arange(len(new)) - np.maximum.accumulate(np.where(start, np.arange(len(new)), 0))
-    return new[(side * excess[kind] > 0) & (rank < np.abs(excess[kind]))]
+    return new[(side * excess[kind] > 0) & (earlier_equals(2 * kind + (side > 0)) < np.abs(excess[kind]))]
 
 
 def with_caps(seen: SheetVisibility, part: int, scenes: Scenes, config: ShapeConfig) -> tuple[Sheet, bool]:

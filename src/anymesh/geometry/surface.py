@@ -226,14 +226,14 @@ def _several_times(corner: Int[np.ndarray, "F 3"], place: Int[np.ndarray, " F"])
     if count.max(initial=1) == 1:
         return first
     ends = np.sort(np.stack([corner, np.roll(corner, -1, 1)], 2).reshape(-1, 2), 1)
-    owner, edge = np.repeat(first, 3), _number_rows(ends)
+    owner, edge = np.repeat(first, 3), number_rows(ends)
     surface = label_connected(len(corner) + int(edge.max()) + 1, np.stack([owner, len(corner) + edge], 1))[: len(corner)]
     times = np.zeros(int(surface.max()) + 1, np.int64)
     np.gcd.at(times, surface, count[place])
     wound = _number_wound(corner)
-    order = np.lexsort((first, _rank(wound), place))  # at each place one face of each winding, then the others
+    order = np.lexsort((first, earlier_equals(wound), place))  # at each place one face of each winding, then the others
     rank = np.empty(len(corner), np.int64)
-    rank[order] = _rank(place[order])
+    rank[order] = earlier_equals(place[order])
     kept = np.flatnonzero(rank < count[place] // times[surface])
     stands_for = np.full((2, int(max(place.max(), wound.max())) + 1), -1)
     stands_for[0][place[kept[::-1]]] = kept[::-1]
@@ -261,7 +261,7 @@ def _same_components(
     order = np.argsort(label, kind="stable")
     start = np.flatnonzero(np.r_[True, np.diff(label[order]) != 0])
     bounds = [np.minimum.reduceat(corner.min(1)[order], start), np.maximum.reduceat(corner.max(1)[order], start)]
-    pair = _number_rows(np.stack(bounds, 1))
+    pair = number_rows(np.stack(bounds, 1))
     earlier: dict[bytes, list[int]] = {}
     members = np.split(order, start[1:])
     for c in np.flatnonzero(np.bincount(pair)[pair] > 1).tolist():
@@ -293,10 +293,10 @@ def _places(corner: Int[np.ndarray, "n 3"]) -> Int[np.ndarray, " n"]:
 def _number_wound(corner: Int[np.ndarray, "n 3"]) -> Int[np.ndarray, " n"]:
     """Number faces by their corners and winding, whichever corner is first."""
     turn = (corner.argmin(1)[:, None] + np.arange(3)) % 3
-    return _number_rows(np.take_along_axis(corner, turn, 1))
+    return number_rows(np.take_along_axis(corner, turn, 1))
 
 
-def _rank(number: Int[np.ndarray, " n"]) -> Int[np.ndarray, " n"]:
+def earlier_equals(number: Int[np.ndarray, " n"]) -> Int[np.ndarray, " n"]:
     """Return how many earlier rows have the same number."""
     order = np.argsort(number, kind="stable")
     new = np.r_[True, np.diff(number[order]) != 0]
@@ -305,7 +305,7 @@ def _rank(number: Int[np.ndarray, " n"]) -> Int[np.ndarray, " n"]:
     return rank
 
 
-def _number_rows(rows: Int[np.ndarray, "n k"]) -> Int[np.ndarray, " n"]:
+def number_rows(rows: Int[np.ndarray, "n k"]) -> Int[np.ndarray, " n"]:
     """Number the distinct rows of indices."""
     number = rows[:, 0]
     for column in rows.T[1:]:

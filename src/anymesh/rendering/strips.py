@@ -31,7 +31,7 @@ from anymesh.rendering.marks import (
     ring,
 )
 from anymesh.rendering.render import lit, shade, turned
-from anymesh.rendering.viewpoints import SKETCH, box_of, orbit_camera, zoom
+from anymesh.rendering.viewpoints import SKETCH, box_of, framed, orbit_camera, zoom
 from anymesh.types import JointType, Mesh, Motion
 from anymesh.types.camera import Camera
 from anymesh.types.triangles import bounds_of, box_corners, transformed, unshared
@@ -217,7 +217,7 @@ def best_camera(posed: Posed, poses: Sequence[np.ndarray], motions: Sequence[tup
     best, most = None, -1.0
     for azimuth, elevation in ((a, e) for e in ELEVATION_WEIGHTS for a in AZIMUTH_WEIGHTS):
         far = orbit_camera(total, np.deg2rad(azimuth), np.deg2rad(elevation), SKETCH)
-        near = _framed(far, box_corners(focus))
+        near = framed(far, box_corners(focus), AIR, far.height)
         rays = near.rays()
         score = _difference(_depths(posed, poses, near, rays), step) * ELEVATION_WEIGHTS[elevation] * AZIMUTH_WEIGHTS[azimuth]
         if best is None or score > most:
@@ -241,24 +241,24 @@ def _tightened(
 
 
 def motion_axis(
-    corners: Float[np.ndarray, "n 3"], motion: Motion, amount: float, camera: Camera
+    corners: Float[np.ndarray, "n 3"],
+    motion: Motion,
+    amount: float,
+    camera: Camera,
+    legible: float = LEGIBLE,
+    radius: float = RING,
 ) -> tuple[Float[np.ndarray, "2 3"], Float[np.ndarray, "k 3"] | None]:
     """Return the arrow along the axis in the direction of the motion, and the ring if it rotates.
 
     corners: vertices of the part at rest, which determine the size; the result is at least large enough to be visible in this
     camera's picture.
+    legible: minimum size, as a share of the picture's side; radius: of the ring, as a share of the size.
     """
     depth = float(camera.project(corners.mean(0)[None])[1][0])
-    size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), LEGIBLE * 2 * depth * float(np.tan(camera.fov / 2)))
+    size = max(float(np.linalg.norm(np.ptp(corners, axis=0))), legible * 2 * depth * float(np.tan(camera.fov / 2)))
     axis, slides = (-motion.axis if amount < 0 else motion.axis), motion.kind is JointType.PRISMATIC
     ends, center = axis_line(corners, motion.origin, axis, slides, AXIS_SCALE * size)
-    return ends, None if slides else ring(center, axis, RING * size)
-
-
-def _framed(camera: Camera, points: Float[np.ndarray, "n 3"]) -> Camera:
-    """Frame some points, with a small margin around them."""
-    pixel = camera.project(points)[0]
-    return zoom(camera, np.concatenate([pixel.min(0), pixel.max(0)]), AIR, camera.height)
+    return ends, None if slides else ring(center, axis, radius * size)
 
 
 def _depths(posed: Posed, poses: Sequence[np.ndarray], camera: Camera, rays: Rays) -> list[Float[np.ndarray, " n"]]:

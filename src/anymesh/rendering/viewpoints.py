@@ -39,15 +39,14 @@ def cameras(
     """
     center, distance = mesh.bounds.mean(0), config.distance * float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
     used = mesh.vertices[np.unique(mesh.faces)]
-    framed_cameras = []
+    cameras = []
     for azimuth, elevation in config.directions if directions is None else directions:
         eye = center + distance * away(np.deg2rad(azimuth), np.deg2rad(elevation))
         camera = Camera.looking_at(eye, center, float(np.deg2rad(config.fov)), size, size)
         for _ in range(2):  # turning the camera changes the object's outline slightly
-            pixel = camera.project(used)[0]
-            camera = zoom(camera, np.concatenate([pixel.min(0), pixel.max(0)]), config.air, size)
-        framed_cameras.append(camera)
-    return framed_cameras
+            camera = framed(camera, used, config.air, size)
+        cameras.append(camera)
+    return cameras
 
 
 def away(azimuth: float, elevation: float) -> Float[np.ndarray, " 3"]:
@@ -144,6 +143,12 @@ def zoom(camera: Camera, box: Float[np.ndarray, " 4"], margin: float, size: int)
     # tangent of half the field of view: at 45 degrees it is 1
     half = np.abs(turned.project(points[:4])[0] / (size / 2) - 1).max()
     return replace(turned, fov=float(2 * np.arctan(half)))
+
+
+def framed(camera: Camera, points: Float[np.ndarray, "n 3"], margin: float, size: int) -> Camera:
+    """Return a camera at the same place that is turned and zoomed to points. margin: as in `zoom`."""
+    pixels = camera.project(points)[0]
+    return zoom(camera, np.concatenate([pixels.min(0), pixels.max(0)]), margin, size)
 
 
 def close_up(

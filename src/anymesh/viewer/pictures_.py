@@ -29,7 +29,7 @@ from anymesh.rendering.drawing import (
 )
 from anymesh.rendering.marks import axis_shapes, draw_axes, font
 from anymesh.rendering.preview import best_camera, part_colors, shown_position
-from anymesh.rendering.viewpoints import away, zoom
+from anymesh.rendering.viewpoints import away, framed
 from anymesh.runtime import Progress, silent, writing
 from anymesh.types import Asset, JointType, Mesh
 from anymesh.types.camera import Camera
@@ -206,8 +206,8 @@ def _moving(asset: Asset, size: int, materials: bool) -> tuple[float, Callable[[
 
     opened = posed(asset, {j.name: shown_position(j) for j in asset.joints})
     viewpoint = best_camera(asset, opened, [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)])
-    pixel = viewpoint.project(np.concatenate([pose(time).vertices for time in np.linspace(0, length, FITTED)]))[0]
-    camera = zoom(viewpoint, np.concatenate([pixel.min(0), pixel.max(0)]), MARGIN, size)
+    reached = np.concatenate([pose(time).vertices for time in np.linspace(0, length, FITTED)])
+    camera = framed(viewpoint, reached, MARGIN, size)
     return length, lambda time: drawn_pose(asset, pose(time), camera, color)
 
 

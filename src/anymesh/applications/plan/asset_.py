@@ -134,25 +134,14 @@ def _shown_geoms(model: Any) -> list[int]:
 
 
 def geom_triangles(mujoco: Any, model: Any, data: Any, geom: int) -> Float[np.ndarray, "n 3 3"]:
-    """Return the surface of a geom in the world frame [m]; cylinders, capsules and spheres as polyhedra."""
-    from anymesh.checking.engines.robot import Geometry, shape_triangles
+    """Return the surface of a geom in the world frame [m]; round shapes as polyhedra, and nothing for planes."""
+    from anymesh.checking.engines.mjcf_ import geom_shape
+    from anymesh.checking.engines.robot import shape_triangles
 
-    kinds, kind = mujoco.mjtGeom, int(model.geom_type[geom])
-    size = model.geom_size[geom]
-    if kind == int(kinds.mjGEOM_MESH):
-        mesh = int(model.geom_dataid[geom])
-        first, face = int(model.mesh_vertadr[mesh]), int(model.mesh_faceadr[mesh])
-        points = model.mesh_vert[first : first + int(model.mesh_vertnum[mesh])].astype(float)
-        own = points[model.mesh_face[face : face + int(model.mesh_facenum[mesh])]]
-    elif kind == int(kinds.mjGEOM_BOX):
-        own = shape_triangles(Geometry("box", np.eye(4), tuple(float(2 * v) for v in size)))
-    elif kind in (int(kinds.mjGEOM_CYLINDER), int(kinds.mjGEOM_CAPSULE)):
-        word = "cylinder" if kind == int(kinds.mjGEOM_CYLINDER) else "capsule"
-        own = shape_triangles(Geometry(word, np.eye(4), (float(size[0]), float(2 * size[1]))))
-    elif kind == int(kinds.mjGEOM_SPHERE):
-        own = shape_triangles(Geometry("sphere", np.eye(4), (float(size[0]),)))
-    else:
+    shape = geom_shape(mujoco, model, geom, np.eye(4))
+    if shape is None:
         return np.zeros((0, 3, 3))
+    own = shape_triangles(shape) if shape.triangles is None else shape.triangles
     return own @ data.geom_xmat[geom].reshape(3, 3).T + data.geom_xpos[geom]
 
 

@@ -119,32 +119,32 @@ class _Reader:
         first, count = int(self.model.body_geomadr[body]), int(self.model.body_geomnum[body])
         shown, met = [], []
         for geom in range(first, first + count) if count else ():
-            shape = self._shape(geom, np.linalg.inv(self.frames[body]))
+            T = np.eye(4)
+            T[:3, :3], T[:3, 3] = self.data.geom_xmat[geom].reshape(3, 3), self.data.geom_xpos[geom]
+            shape = geom_shape(self.mujoco, self.model, geom, np.linalg.inv(self.frames[body]) @ T)
             if shape is not None:
                 collides = self.model.geom_contype[geom] or self.model.geom_conaffinity[geom]
                 (met if collides else shown).append(shape)
         return tuple(shown or met), tuple(met)
 
-    def _shape(self, geom: int, T_link_world: np.ndarray) -> Geometry | None:
-        """Return a shape; None for planes and height fields, which have no finite surface."""
-        kinds, kind = self.mujoco.mjtGeom, int(self.model.geom_type[geom])
-        T = np.eye(4)
-        T[:3, :3], T[:3, 3] = self.data.geom_xmat[geom].reshape(3, 3), self.data.geom_xpos[geom]
-        T = T_link_world @ T
-        size = [float(v) for v in self.model.geom_size[geom]]
-        if kind == int(kinds.mjGEOM_MESH):
-            mesh = int(self.model.geom_dataid[geom])
-            start, faces = int(self.model.mesh_vertadr[mesh]), int(self.model.mesh_faceadr[mesh])
-            points = self.model.mesh_vert[start : start + int(self.model.mesh_vertnum[mesh])].astype(float)
-            triangles = points[self.model.mesh_face[faces : faces + int(self.model.mesh_facenum[mesh])]]
-            return Geometry("mesh", T, file=self.model.mesh(mesh).name, triangles=triangles @ T[:3, :3].T + T[:3, 3])
-        if kind == int(kinds.mjGEOM_BOX):
-            return Geometry("box", T, tuple(2 * v for v in size))
-        if kind in (int(kinds.mjGEOM_CYLINDER), int(kinds.mjGEOM_CAPSULE)):
-            return Geometry("cylinder" if kind == int(kinds.mjGEOM_CYLINDER) else "capsule", T, (size[0], 2 * size[1]))
-        if kind == int(kinds.mjGEOM_SPHERE):
-            return Geometry("sphere", T, (size[0],))
-        if kind == int(kinds.mjGEOM_ELLIPSOID):
-            unit = shape_triangles(Geometry("sphere", np.eye(4), (1.0,))) * size
-            return Geometry("ellipsoid", T, tuple(size), triangles=unit @ T[:3, :3].T + T[:3, 3])
-        return None
+
+def geom_shape(mujoco: Any, model: Any, geom: int, T: Float[np.ndarray, "4 4"]) -> Geometry | None:
+    """Return the shape of a geom whose pose is T; None for planes and height fields, which have no finite surface."""
+    kinds, kind = mujoco.mjtGeom, int(model.geom_type[geom])
+    size = [float(v) for v in model.geom_size[geom]]
+    if kind == int(kinds.mjGEOM_MESH):
+        mesh = int(model.geom_dataid[geom])
+        start, faces = int(model.mesh_vertadr[mesh]), int(model.mesh_faceadr[mesh])
+        points = model.mesh_vert[start : start + int(model.mesh_vertnum[mesh])].astype(float)
+        triangles = points[model.mesh_face[faces : faces + int(model.mesh_facenum[mesh])]]
+        return Geometry("mesh", T, file=model.mesh(mesh).name, triangles=triangles @ T[:3, :3].T + T[:3, 3])
+    if kind == int(kinds.mjGEOM_BOX):
+        return Geometry("box", T, tuple(2 * v for v in size))
+    if kind in (int(kinds.mjGEOM_CYLINDER), int(kinds.mjGEOM_CAPSULE)):
+        return Geometry("cylinder" if kind == int(kinds.mjGEOM_CYLINDER) else "capsule", T, (size[0], 2 * size[1]))
+    if kind == int(kinds.mjGEOM_SPHERE):
+        return Geometry("sphere", T, (size[0],))
+    if kind == int(kinds.mjGEOM_ELLIPSOID):
+        unit = shape_triangles(Geometry("sphere", np.eye(4), (1.0,))) * size
+        return Geometry("ellipsoid", T, tuple(size), triangles=unit @ T[:3, :3].T + T[:3, 3])
+    return None
