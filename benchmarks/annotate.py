@@ -23,7 +23,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-from benchmarks import EXAMPLES
+from benchmarks import EXAMPLES, parser_of
 from benchmarks.fuzz_scenes import scene, write_scene
 
 Figures = dict[str, Any]
@@ -180,7 +180,7 @@ def ledger(how: argparse.Namespace) -> Figures:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Figures of `anymesh annotate`.")
+    parser = parser_of(__doc__)
     parser.add_argument("work", type=Path, help="folder for the sets, the outputs and the figures")
     parser.add_argument("what", choices=("rate", "scaling", "kills", "ledger"))
     parser.add_argument("--objects", type=int)

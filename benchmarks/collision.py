@@ -9,7 +9,6 @@ diagonal where the surfaces do not intersect. Shapes are computed without the ca
 
 from __future__ import annotations
 
-import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -26,7 +25,7 @@ from anymesh.physics.collision import CollisionConfig, collision_shapes, joint_p
 from anymesh.physics.convex import hull_of
 from anymesh.physics.decompose import Component
 from anymesh.types import Asset, JointType, Shape
-from benchmarks import REPORTS, made_with
+from benchmarks import REPORTS, made_with, parser_of, table_head, table_row
 
 SETS = ("examples", "scene-synthesizer", "metaworld", "libero")
 DEEP = 1e-3  # of the diagonal
@@ -98,10 +97,13 @@ def measured(spec: str, ways: Sequence[str]) -> Iterator[tuple[str, int, int, in
 
 
 def main() -> None:
+    parser = parser_of(__doc__)
+    parser.add_argument("sets", nargs="*", default=SETS, metavar="SET")
+    parser.add_argument("--coacd", action="store_true")
+    options = parser.parse_args()
     rows = []
-    asked = [word for word in sys.argv[1:] if word != "--coacd"]
-    ways = [way for way in WAYS if "--coacd" in sys.argv or way != "one CoACD per link"]
-    for spec in asked or SETS:
+    ways = [way for way in WAYS if options.coacd or way != "one CoACD per link"]
+    for spec in options.sets:
         found = list(measured(spec, ways))
         for way in ways:
             mine = np.array([row[1:] for row in found if row[0] == way])
@@ -109,11 +111,11 @@ def main() -> None:
             times = np.sort(mine[:, 4])
             share = f"{free:.0f}/{moving:.0f} ({free / moving:.1%})"
             cells = (spec.split(":")[0], way, share, f"{shapes / links:.1f}", f"{np.median(times):.2f}", f"{times[-1]:.1f}")
-            rows.append("| " + " | ".join(cells) + " |")
+            rows.append(table_row(cells))
             print(rows[-1], flush=True)
-    head = "| set | shapes | joints free | shapes per link | seconds per object, median | most |\n|---|---|---|---|---|---|"
+    head = table_head(("set", "shapes", "joints free", "shapes per link", "seconds per object, median", "most"))
     footer = f"{made_with('manifold3d', 'mujoco', 'numpy')}; `python -m benchmarks.collision`."
-    text = "\n\n".join(["# Collision shapes", (__doc__ or "").split("\n\n", 2)[2].strip(), "\n".join([head, *rows]), footer])
+    text = "\n\n".join(["# Collision shapes", (__doc__ or "").split("\n\n", 2)[2].strip(), "\n".join([*head, *rows]), footer])
     (REPORTS / "collision.md").write_text(text + "\n", encoding="utf-8")
 
 

@@ -7,7 +7,6 @@ python -m benchmarks.completion --only NAME --changes fused  some objects, one w
 
 from __future__ import annotations
 
-import argparse
 import tempfile
 import time
 from collections.abc import Sequence
@@ -29,7 +28,7 @@ from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.topology import components, weld
 from anymesh.geometry.triangle_set import sample_surface, spread_directions
 from anymesh.types import Asset, JointType, Mesh
-from benchmarks import EXAMPLES, made_with
+from benchmarks import EXAMPLES, made_with, parser_of, table_head, table_row
 
 CHANGES = ("unseen-gone", "fused")
 LEAST = 0.01  # share of the grid that a cavity takes at least; less is a gap
@@ -217,13 +216,13 @@ def measure(truth: GroundTruth, change: str) -> Row:
 
 
 def table(title: str, rows: Sequence[Row]) -> str:
-    lines = [f"## {title}", "", "| object | cavity IoU | moved | parts watertight | joints with faults | new faces | seconds |"]
-    lines.append("|---|---|---|---|---|---|---|")
+    head = ("object", "cavity IoU", "moved", "parts watertight", "joints with faults", "new faces", "seconds")
+    lines = [f"## {title}", "", *table_head(head)]
     known = [r.cavity for r in rows if np.isfinite(r.cavity)]
     for r in rows:
         cell = f"{r.cavity:.3f}" if np.isfinite(r.cavity) else "-"
         tight, faults = f"{r.tight[0]} -> {r.tight[1]} of {r.parts}", f"{r.faults[0]} -> {r.faults[1]} of {r.joints}"
-        lines.append(f"| {r.name} | {cell} | {r.moved:.3%} | {tight} | {faults} | {r.new} | {r.seconds:.1f} |")
+        lines.append(table_row((r.name, cell, f"{r.moved:.3%}", tight, faults, r.new, f"{r.seconds:.1f}")))
     parts, joints = sum(r.parts for r in rows), sum(r.joints for r in rows)
     tight = " -> ".join(f"{sum(r.tight[k] for r in rows) / parts:.1%}" for k in (0, 1))
     faults = " -> ".join(str(sum(r.faults[k] for r in rows)) for k in (0, 1))
@@ -234,7 +233,7 @@ def table(title: str, rows: Sequence[Row]) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="What the built-in shape completer gives back.")
+    parser = parser_of(__doc__)
     parser.add_argument("--markdown", type=Path, help="file to write the tables to")
     parser.add_argument("--only", nargs="*", help="names of objects")
     parser.add_argument("--changes", nargs="*", default=CHANGES, help="how they are made into surfaces")

@@ -41,12 +41,13 @@ from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
 from anymesh.loading import load_mesh
 from anymesh.loading.files import FORMATS as MESH_FORMATS
 from anymesh.pipeline import articulate
-from benchmarks import REPORTS, made_with
+from benchmarks import REPORTS, made_with, table_head, table_row
 from benchmarks.fuzz_scenes import FIXTURES, fixture, scene, write_scene
 
 FORMATS = "urdf,mjcf,usd,sdf,glb"
 GIVEN = ("nodes", "labels")
 CHECKED, TWICE = 4, 10  # one case in as many is held against the output contract, and run twice
+MEMORY = 12 << 30  # [bytes] of address space for one case
 TIME_LIMIT = 60.0  # [s] that a run may spend before its stages cut their work short
 CALLS = 50  # cases after which a child is replaced
 PACKAGE = Path(anymesh.__file__).parent
@@ -252,8 +253,8 @@ def report(results: Mapping[str, Result], command: str, limit: float) -> str:
         *_causes("RuntimeWarnings", noted),
         *_causes("Broken contract", broken),
         *_causes("Not repeatable", [("other bytes", k) for k, r in results.items() if not r.get("same", True)]),
-        "", "## Slowest", "", "| case | seconds | faces | outcome |", "|---|---|---|---|",
-        *(f"| {k} | {r['seconds']:.1f} | {r.get('faces', '')} | {r['outcome']} |" for k, r in slowest),
+        "", "## Slowest", "", *table_head(("case", "seconds", "faces", "outcome")),
+        *(table_row((k, f"{r['seconds']:.1f}", r.get("faces", ""), r["outcome"])) for k, r in slowest),
         "",
     ])  # fmt: skip
 
@@ -267,8 +268,10 @@ def _outcomes(results: Mapping[str, Result]) -> list[str]:
         count[source][result["outcome"]] += 1
         count["all"][result["outcome"]] += 1
     rows = sorted(count, key=lambda name: (name == "all", name != "generated scenes", name))
-    lines = [f"| input | tried | {' | '.join(OUTCOMES)} |", "|---|---|" + "---|" * len(OUTCOMES)]
-    return lines + [f"| {n} | {count[n].total()} | {' | '.join(str(count[n][o]) for o in OUTCOMES)} |" for n in rows]
+    return [
+        *table_head(("input", "tried", *OUTCOMES)),
+        *(table_row((name, count[name].total(), *(count[name][o] for o in OUTCOMES))) for name in rows),
+    ]
 
 
 def _causes(title: str, found: Iterable[tuple[str, str]]) -> list[str]:
@@ -279,8 +282,8 @@ def _causes(title: str, found: Iterable[tuple[str, str]]) -> list[str]:
     if not by_cause:
         return []
     order = sorted(by_cause.items(), key=lambda item: (-len(item[1]), item[0]))
-    rows = [f"| {len(keys)} | {cause.replace('|', '/')} | {', '.join(sorted(keys)[:EXAMPLES])} |" for cause, keys in order]
-    return ["", f"## {title}", "", "| cases | cause | such as |", "|---|---|---|", *rows]
+    rows = [table_row((len(keys), cause.replace("|", "/"), ", ".join(sorted(keys)[:EXAMPLES]))) for cause, keys in order]
+    return ["", f"## {title}", "", *table_head(("cases", "cause", "such as")), *rows]
 
 
 def _stem(message: str) -> str:
@@ -306,21 +309,18 @@ def options() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description="Fuzzing of all stages and formats.")
     parser.add_argument("work", type=Path, help="keeps results; a run with the same folder is resumed")
     parser.add_argument("--scenes", type=int, default=0, help="how many generated scenes, twice each: parts found and given")
-    parser.add_argument("--first", type=int, default=0, help="seed of the first scene")
     parser.add_argument("--meshes", nargs="*", type=Path, default=[], help="folders with mesh files")
     parser.add_argument("--most", type=int, help="files of each folder, spread from the smallest to the largest; default: all")
     parser.add_argument("--sets", nargs="*", default=[], help="data sets as `anymesh eval` names them")
     parser.add_argument("--only", nargs="*", default=[], help="cases by name, run again")
     parser.add_argument("--time-limit", type=float, default=240.0, help="[s] of processor time for one case")
-    parser.add_argument("--memory", type=float, default=12.0, help="[GiB] of address space for one case")
     parser.add_argument("--workers", type=int, default=2)
-    parser.add_argument("--no-finish", action="store_true", help="leave out stage C")
     return parser.parse_args()
 
 
 def chosen(how: argparse.Namespace) -> Iterator[Case]:
     """Yield all cases that the options name."""
-    yield from scene_cases(how.first, how.scenes)
+    yield from scene_cases(0, how.scenes)
     for folder in how.meshes:
         yield from mesh_cases(folder, how.most)
     for spec in how.sets:
@@ -332,9 +332,8 @@ def main() -> None:
     how.work.mkdir(parents=True, exist_ok=True)
     log = how.work / "results.jsonl"
     results = read_results(log)
-    wanted = [c for c in chosen(how) if (c.key in how.only if how.only else c.key not in results)]
-    cases = [replace(c, finish=not how.no_finish) for c in wanted]
-    limits = ChildLimits(how.time_limit, int(how.memory * 1024**3), calls=CALLS)
+    cases = [c for c in chosen(how) if (c.key in how.only if how.only else c.key not in results)]
+    limits = ChildLimits(how.time_limit, MEMORY, calls=CALLS)
     try:
         with ChildPool(how.workers, limits) as pool, ThreadPoolExecutor(how.workers) as threads, log.open("a") as file:
             done = threads.map(partial(tried, pool, how.work), enumerate(cases))

@@ -10,13 +10,11 @@ origin, as open image-to-3D models do.
 
 from __future__ import annotations
 
-import argparse
 import json
 import sys
 import tempfile
 import time
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -29,35 +27,12 @@ from anymesh.evaluation.score import ObjectScore, score
 from anymesh.finishing.scene_glb import Y_UP, scene_glb
 from anymesh.types import Asset, Segmentation
 from anymesh.viewer.pictures_ import write_picture
-from benchmarks import EXAMPLES
+from benchmarks import EXAMPLES, parser_of, table_head, table_row
 
 FUSED = ("cabinet_fused", "laptop_fused", "microwave_fused", "stove_fused")  # as shipped, through --mesh
 WRAPPED = ("cabinet", "fridge", "laptop", "microwave", "storage_box", "stove", "toaster")  # through the stand-in
 ANGLE, LINE = 5.0, 0.1  # [deg], and half diagonals: a joint within both, of the right type and opening side, is right
 T_Y_UP = np.block([[Y_UP, np.zeros((3, 1))], [np.zeros((1, 3)), np.ones((1, 1))]])
-
-
-@dataclass(frozen=True)
-class Row:
-    """One object. made: how; right: joints that are right, of `true`; found: joints of the asset; seconds of the whole call."""
-
-    name: str
-    made: str
-    faces: int
-    components: int
-    right: int
-    true: int
-    found: int
-    healthy: bool
-    size: tuple[float, float]
-    seconds: float
-    stages: str
-
-    def markdown(self) -> str:
-        sizes = f"{self.size[0]:.2f} / {self.size[1]:.2f}"
-        cells = (self.name, self.made, f"{self.faces:,}", self.components, f"{self.right} of {self.true}", self.found)
-        last = (sizes, "yes" if self.healthy else "no", f"{self.seconds:.0f}", self.stages)
-        return f"| {' | '.join(map(str, (*cells, *last)))} |"
 
 
 def stand_in(prompt: str) -> tuple[bytes, EvalSample, np.ndarray]:
@@ -90,8 +65,8 @@ def right(result: ObjectScore) -> int:
     )
 
 
-def row(name: str, made: str, work: Path, subject: EvalSample, T: np.ndarray, **how: object) -> Row:
-    """One object, generated anew."""
+def row(name: str, made: str, work: Path, subject: EvalSample, T: np.ndarray, **how: object) -> str:
+    """Generate one object anew; return its row of the table."""
     out = work / f"{made}-{name}"
     begin = time.perf_counter()
     asset = generate(out=out, force=out.exists(), **how)  # ty: ignore[invalid-argument-type]
@@ -99,15 +74,13 @@ def row(name: str, made: str, work: Path, subject: EvalSample, T: np.ndarray, **
     write_picture(out, work / f"{out.name}.png", size=400)
     record = json.loads((out / "generation.json").read_text())["mesh"]
     result = scored(asset, subject, T)
-    true = float(subject.mesh.extents.max())
-    return Row(
-        name, made, record["faces"], record["components"], right(result), result.true, len(asset.joints),
-        check_asset(out).ok, (float(asset.mesh.extents.max()), true), seconds,
-        ", ".join(f"{stage} {s:.0f}" for stage, s in asset.timing.items()),
-    )  # fmt: skip
+    sizes = f"{asset.mesh.extents.max():.2f} / {subject.mesh.extents.max():.2f}"
+    stages = ", ".join(f"{stage} {s:.0f}" for stage, s in asset.timing.items())
+    joints = (f"{right(result)} of {result.true}", len(asset.joints), sizes, "yes" if check_asset(out).ok else "no")
+    return table_row((name, made, f"{record['faces']:,}", record["components"], *joints, f"{seconds:.0f}", stages))
 
 
-def rows(work: Path, only: list[str]) -> Iterator[Row]:
+def rows(work: Path, only: list[str]) -> Iterator[str]:
     """Every object on both roads."""
     truths: dict[str, GroundTruth] = {t.name: t for t in example_truths(EXAMPLES)}
     for name in [n for n in FUSED if not only or n in only]:
@@ -117,12 +90,12 @@ def rows(work: Path, only: list[str]) -> Iterator[Row]:
     for name in [n for n in WRAPPED if not only or n in only]:
         prompt = f"a retro {name.replace('_', ' ')}"
         _, subject, T = stand_in(prompt)
-        command = f"command:'{sys.executable}' '{Path(__file__).resolve()}' --stand-in {{prompt}} --write {{out}}"
+        command = f"command:'{sys.executable}' -m benchmarks.generate --stand-in {{prompt}} --write {{out}}"
         yield row(name, "program", work, subject, T, prompt=prompt, generator=command)
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("--work", type=Path)
     parser.add_argument("--markdown", type=Path)
     parser.add_argument("--only", nargs="*", default=[])
@@ -134,9 +107,9 @@ def main() -> None:
         return
     work = options.work or Path(tempfile.mkdtemp())
     head = "object, mesh from, faces, components, joints right, joints found, longest side / true [m], check, s, of these"
-    lines = [f"| {' | '.join(head.split(', '))} |", "|---" * (head.count(", ") + 1) + "|"]
+    lines = table_head(head.split(", "))
     for found in rows(work, options.only):
-        lines.append(found.markdown())
+        lines.append(found)
         print(lines[-1], flush=True)
     if options.markdown is not None:
         options.markdown.write_text("\n".join(lines) + "\n", encoding="utf-8")

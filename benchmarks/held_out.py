@@ -11,7 +11,6 @@ file does not mark. WORK: a folder for objects and results; objects that are the
 
 from __future__ import annotations
 
-import argparse
 import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -21,7 +20,7 @@ from anymesh.evaluation.evaluating import evaluate
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.report import markdown
 from anymesh.evaluation.summary import Summary, group_table, summarize
-from benchmarks import REPORTS
+from benchmarks import REPORTS, parser_of, table_head, table_row
 from training.error_sources import causes_table, proposed_parts
 from training.kinds import registry as kinds
 
@@ -87,11 +86,11 @@ def figures(records: Mapping[str, Sequence[Record]]) -> dict[str, Figures]:
 
 def means_over_kinds(groups: Mapping[str, Sequence[tuple[str, Sequence[Record]]]]) -> list[str]:
     """Return lines of a table: the mean over kinds of each figure, by protocol. groups: the records of each kind."""
-    lines = [f"| mean over kinds | {' | '.join(FIGURES)} |", f"|---|{'---|' * len(FIGURES)}"]
+    lines = table_head(("mean over kinds", *FIGURES))
     for protocol, kinds_of in groups.items():
         summaries = [summarize(some) for _, some in kinds_of]
         known = [[value for s in summaries if (value := of(s)) is not None] for of in FIGURES.values()]
-        lines.append(f"| {protocol} | {' | '.join(f'{sum(some) / len(some):.2f}' for some in known)} |")
+        lines.append(table_row((protocol, *(f"{sum(some) / len(some):.2f}" for some in known))))
     return lines
 
 
@@ -207,7 +206,7 @@ def count_still(work: Path) -> int:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description="Parts and joints on kinds that nothing was trained on.")
+    parser = parser_of(__doc__)
     parser.add_argument("work", type=Path, metavar="WORK")
     parser.add_argument("--check", action="store_true", help="a sample, compared with the baseline")
     parser.add_argument("--still", action="store_true", help="real models of which nothing moves")

@@ -10,7 +10,6 @@ Each mutant runs in a copy of the source, against the tests that run the changed
 
 from __future__ import annotations
 
-import argparse
 import ast
 import hashlib
 import importlib
@@ -34,7 +33,7 @@ from cosmic_ray.mutating import mutate_code
 from cosmic_ray.plugins import get_operator
 from coverage import CoverageData
 
-from benchmarks import REPORTS, ROOT
+from benchmarks import REPORTS, ROOT, parser_of, table_head, table_row
 
 PACKAGES = ("geometry", "segmentation", "physics", "articulation")
 SWAPS = {  # one replacement or two per operator: the inverse, and the neighbour
@@ -256,13 +255,7 @@ def run(work: Path, count: int, seed: int, again: bool) -> None:
             place.write_text(original, encoding="utf-8")
         ended, (before, after) = os.times(), mutant.change()
         seconds = ended.children_user + ended.children_system - begun.children_user - begun.children_system
-        row = {
-            "key": mutant.key,
-            "package": mutant.package,
-            "file": mutant.file,
-            "line": mutant.line,
-            "operator": mutant.operator,
-        }
+        row = {"key": mutant.key, **asdict(mutant)}
         row |= {"before": before, "after": after, "outcome": outcome, "tests": len(tests), "seconds": round(seconds, 1)}
         with results.open("a") as out:
             out.write(json.dumps(row) + "\n")
@@ -283,13 +276,13 @@ def report(work: Path, seed: int, out: Path) -> None:
     for row in rows:
         row["place"] = str(Path(row["file"]).relative_to("src/anymesh"))
         row["reason"] = reasons.get(f"{row['place']}: {row['after']}")
-    lines = ["| package | mutants | noticed | by a time limit | equivalent | rate |", "|---|---|---|---|---|---|"]
+    lines = table_head(("package", "mutants", "noticed", "by a time limit", "equivalent", "rate"))
     packages = dict.fromkeys(row["package"] for row in rows)
     for name, own in [*((p, [r for r in rows if r["package"] == p]) for p in packages), ("all", rows)]:
         count = Counter("equivalent" if r["outcome"] == "survived" and r["reason"] else r["outcome"] for r in own)
         noticed = count["killed"] + count["timeout"]
         rate = noticed / max(len(own) - count["equivalent"], 1)
-        lines.append(f"| `{name}` | {len(own)} | {noticed} | {count['timeout']} | {count['equivalent']} | {rate:.2f} |")
+        lines.append(table_row((f"`{name}`", len(own), noticed, count["timeout"], count["equivalent"], f"{rate:.2f}")))
     lines += ["", "Survivors:", ""]
     for row in sorted((r for r in rows if r["outcome"] == "survived"), key=lambda r: (r["place"], r["line"])):
         reason = f" Equivalent: {row['reason']}." if row["reason"] else "" if row["tests"] else " No test runs this line."
@@ -307,7 +300,7 @@ def report(work: Path, seed: int, out: Path) -> None:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("work", type=Path)
     parser.add_argument("--map", action="store_true")
     parser.add_argument("--count", type=int, default=60)

@@ -3,11 +3,16 @@
 python -m benchmarks.oracle                     parts given and end to end, with motions verified and without
 python -m benchmarks.oracle --noise             also how a wrong answer with probability p shows
 python -m benchmarks.oracle --markdown FILE --plot FILE.svg
+python -m benchmarks.oracle --cost [--like openai:gpt-4o] [--change fused] [NAME ...]
+
+--cost: what a vision-language model is asked for the shipped examples: calls, tokens, dollars, seconds. No model is called:
+ground truth says the answers through the road of a model (pictures, schema, JSON, checks, cache). Tokens are estimates by the
+provider's formula for pictures and 4 letters a token for words; seconds are this program's own. --change fused takes each
+object as one surface of about 50,000 faces, as generators make them.
 """
 
 from __future__ import annotations
 
-import argparse
 import tempfile
 import time
 from collections.abc import Sequence
@@ -17,15 +22,17 @@ from pathlib import Path
 import numpy as np
 
 from anymesh.config import Config
+from anymesh.evaluation.changes import CHANGES, changed
 from anymesh.evaluation.datasets.urdf_ import CLASSES, synthesize
 from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepared
-from anymesh.evaluation.oracle import Noisy, oracle
+from anymesh.evaluation.oracle import Noisy, SimulatedVlm, oracle
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.report import markdown
 from anymesh.evaluation.score import JointScore, ObjectScore, score
 from anymesh.evaluation.summary import group_table
-from anymesh.pipeline.solving import solve
-from benchmarks import EXAMPLES
+from anymesh.export.asset_json import usage
+from anymesh.pipeline.solving import Solver, solve
+from benchmarks import EXAMPLES, parser_of, table_head, table_row
 
 HEAD = """# The oracle
 
@@ -34,6 +41,16 @@ is answered from the ground truth, with the same marks, points, arrows and motio
 is that of the geometry.
 Position: the diagonal is 2; mIoU is over the movable parts, where a part that is not found counts as 0.
 """
+COST_HEAD = """# Cost of a model
+
+`python -m benchmarks.oracle --cost --change {change} --markdown FILE`. Answers are the oracle's, so no question is repeated.
+Tokens are estimated as `{like}` counts them, dollars by the table in `prompted/models/budget.py`; seconds are those of this
+program, without the model: of the first run (wall and processor), and of a second one, which takes every answer from the cache,
+without calls or cost.
+"""
+COST_COLUMNS = (
+    "object", "faces", "parts", "calls", "pictures", "tokens in", "tokens out", "USD", "s", "processor s", "s cached",
+)  # fmt: skip
 VERIFY = ("motion", "free", "off")
 WRONG = (0.0, 0.1, 0.2, 0.35, 0.5)
 COLORS = {"motion": "#0a6", "free": "#26c", "off": "#c33"}
@@ -79,8 +96,8 @@ def noise(truths: Sequence[GroundTruth]) -> tuple[str, dict[str, list[float]]]:
             shares[verify].append(float(np.mean([right(j) for j in joints])))
             print(f"wrong {p:.2f}, verify {verify}: {shares[verify][-1]:.3f} right", flush=True)
     lines = ["## Examples, parts given, each answer wrong with probability p: share of joints right", ""]
-    lines += ["| p | " + " | ".join(f"--verify {v}" for v in VERIFY) + " |", "|---|" + "---|" * len(VERIFY)]
-    lines += [f"| {p} | " + " | ".join(f"{shares[v][k]:.3f}" for v in VERIFY) + " |" for k, p in enumerate(WRONG)]
+    lines += table_head(["p", *(f"--verify {v}" for v in VERIFY)])
+    lines += [table_row([p, *(f"{shares[v][k]:.3f}" for v in VERIFY)]) for k, p in enumerate(WRONG)]
     return "\n".join([*lines, ""]), shares
 
 
@@ -108,13 +125,41 @@ def plot(shares: dict[str, list[float]]) -> str:
     return "\n".join(lines) + "\n"
 
 
-def main() -> None:
-    parser = argparse.ArgumentParser(description="What the geometry half of the visual method loses.")
-    parser.add_argument("--noise", action="store_true", help="also with wrong answers")
-    parser.add_argument("--markdown", type=Path, help="file to write the tables to")
-    parser.add_argument("--plot", type=Path, help="file to write the plot of --noise to")
-    options = parser.parse_args()
-    examples = example_truths(EXAMPLES)
+def cost_row(truth: GroundTruth, change: str, like: str, cache: Path) -> str:
+    """Return calls, tokens, dollars and seconds of one object, cold and from the cache. like: the model that is imitated."""
+    sample = changed(change, prepared(truth))
+    seconds, busy, exchanges, parts = [], [], [], 0
+    for _ in range(2):
+        begin, start = time.perf_counter(), time.process_time()
+        solver = Solver(sample.mesh, answerer_factory=lambda fallback: SimulatedVlm(oracle(sample), fallback, like, cache))
+        recognized = solver.recognize()
+        segmented = solver.parts("auto", recognized.recognition)
+        jointed = solver.joints(segmented.segmentation, recognized.recognition)
+        seconds.append(time.perf_counter() - begin)
+        busy.append(time.process_time() - start)
+        exchanges.append((*recognized.exchanges, *segmented.exchanges, *jointed.exchanges))
+        parts = len(segmented.segmentation.parts) - 1
+    cold, again = (usage(e) for e in exchanges)
+    if again["cached_calls"] != again["calls"] or again["calls"] != cold["calls"]:
+        raise SystemExit(f"{truth.name}: the second run asked anew: {cold}, {again}")
+    shown = sum(len(e.pictures) for e in exchanges[0])
+    counts = (len(sample.mesh.faces), parts, cold["calls"], shown, cold["input_tokens"], cold["output_tokens"])
+    times = (f"{t:.1f}" for t in (seconds[0], busy[0], seconds[1]))
+    return table_row((truth.name, *counts, f"{cold['cost_usd']:.3f}", *times))
+
+
+def cost(truths: Sequence[GroundTruth], change: str, like: str) -> list[str]:
+    """Return the page about what a model costs for these objects."""
+    lines = [COST_HEAD.format(like=like, change=change), *table_head(COST_COLUMNS)]
+    with tempfile.TemporaryDirectory() as folder:
+        for truth in truths:
+            lines.append(cost_row(truth, change, like, Path(folder)))
+            print(lines[-1], flush=True)
+    return [*lines, ""]
+
+
+def loss(examples: Sequence[GroundTruth], with_noise: bool, plot_file: Path | None) -> list[str]:
+    """Return the page about what is lost, without errors and with."""
     with tempfile.TemporaryDirectory() as folder:
         sets = {"Examples": examples, "scene-synthesizer": [synthesize(c, Path(folder)) for c in CLASSES]}
         done = [
@@ -123,13 +168,30 @@ def main() -> None:
             for t, some in sets.items()
             for v in (VERIFY if given else VERIFY[:1])
         ]
-    if options.noise:
+    if with_noise:
         section, shares = noise(examples)
         done.append(section)
-        if options.plot:
-            options.plot.write_text(plot(shares), encoding="utf-8")
+        if plot_file:
+            plot_file.write_text(plot(shares), encoding="utf-8")
+    return [HEAD, *done]
+
+
+def main() -> None:
+    parser = parser_of(__doc__)
+    parser.add_argument("names", nargs="*", help="with --cost: examples; all when none is named")
+    parser.add_argument("--noise", action="store_true", help="also with wrong answers")
+    parser.add_argument("--cost", action="store_true", help="what a model is asked, instead of what is lost")
+    parser.add_argument("--like", default="openai:gpt-4o", help="with --cost: whose tokens and prices")
+    parser.add_argument(
+        "--change", default="none", choices=list(CHANGES), help="with --cost: of each mesh, as in `anymesh eval`"
+    )
+    parser.add_argument("--markdown", type=Path, help="file to write the tables to")
+    parser.add_argument("--plot", type=Path, help="file to write the plot of --noise to")
+    options = parser.parse_args()
+    truths = [t for t in example_truths(EXAMPLES) if not options.names or t.name in options.names]
+    page = cost(truths, options.change, options.like) if options.cost else loss(truths, options.noise, options.plot)
     if options.markdown:
-        options.markdown.write_text("\n".join([HEAD, *done]), encoding="utf-8")
+        options.markdown.write_text("\n".join(page), encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -14,7 +14,6 @@ is at least half of it.
 
 from __future__ import annotations
 
-import argparse
 import json
 import shutil
 import sys
@@ -40,7 +39,7 @@ from anymesh.evaluation.oracle import oracle
 from anymesh.export import write_asset
 from anymesh.pipeline import articulate
 from anymesh.pipeline.solving import solve
-from benchmarks import EXAMPLES, RECORDINGS
+from benchmarks import EXAMPLES, RECORDINGS, parser_of, table_head, table_row
 
 TWINS = ("ours", "corrected", "truth", "paper")
 MIN_SHARE = 0.5  # of the task's value, that a twin must allow
@@ -301,11 +300,11 @@ def picture(row: Row, real: ArticulatedObject, T: np.ndarray, task: Task, arm: A
 
 
 def table(rows: list[Row], robot: str) -> str:
-    lines = ["| task | robot | twin | value | planning [s] | trajectory [s] | successes | failures |", "|---" * 8 + "|"]
+    lines = table_head("task, robot, twin, value, planning [s], trajectory [s], successes, failures".split(", "))
     for r in rows:
-        times = "- | -" if r.plan is None else f"{r.seconds:.1f} | {r.plan.trajectory.duration:.1f}"
+        times = ("-", "-") if r.plan is None else (f"{r.seconds:.1f}", f"{r.plan.trajectory.duration:.1f}")
         causes = ", ".join(f"{n} {cause}" for cause, n in r.failures.most_common()) or "none"
-        lines.append(f"| {r.task} | {robot} | {r.twin} | {said(r)} | {times} | **{r.done}/{r.trials}** | {causes} |")
+        lines.append(table_row((r.task, robot, r.twin, said(r), *times, f"**{r.done}/{r.trials}**", causes)))
     return "\n".join(lines)
 
 
@@ -315,7 +314,7 @@ def said(row: Row) -> str:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("work", type=Path)
     parser.add_argument("--robot", default="panda")
     parser.add_argument("--trials", type=int, default=50)

@@ -7,7 +7,6 @@ python -m benchmarks.reports WORK --place sweethome3d=FILE.deb     a set that li
 
 from __future__ import annotations
 
-import argparse
 import re
 import shlex
 import shutil
@@ -18,7 +17,7 @@ from anymesh.cli import run
 from anymesh.evaluation.record import Record, record_of
 from anymesh.evaluation.report import markdown
 from anymesh.evaluation.summary import group_table
-from benchmarks import REPORTS
+from benchmarks import REPORTS, parser_of
 
 SETS = ("examples", "scene-synthesizer", "sweethome3d", "metaworld", "libero")
 HARSH = "none,turned,spun,lying,noise.0005,half-faces,unseen-gone,joined,fused,fused-coarse"
@@ -97,7 +96,7 @@ def make(names: Sequence[str], work: Path, places: dict[str, str]) -> int:
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(description="Makes the committed reports anew.")
+    parser = parser_of(__doc__)
     parser.add_argument("work", type=Path, metavar="WORK")
     parser.add_argument("names", nargs="*", metavar="NAME", help=f"of {', '.join(RUNS)}")
     parser.add_argument("--place", action="append", default=[], metavar="SET=PLACE", help="where a set lies")

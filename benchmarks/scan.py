@@ -9,7 +9,6 @@ A folder an object: its recording, scan.glb, the assets, and the results; what i
 
 from __future__ import annotations
 
-import argparse
 import json
 import shutil
 import time
@@ -32,7 +31,7 @@ from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.triangle_set import sample_surface
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.types import Asset, JointType, Mesh
-from benchmarks import EXAMPLES, RECORDINGS
+from benchmarks import EXAMPLES, RECORDINGS, parser_of, table_head, table_row
 
 NAMES = ("cabinet", "microwave", "fridge", "laptop", "drill", "storage_box", "stove")
 POINTS = 50_000  # on each surface
@@ -128,7 +127,7 @@ def scored(truth: GroundTruth, mesh: Mesh, asset: Asset, T: np.ndarray) -> dict[
 
 def scan_table(rows: list[dict[str, Any]]) -> str:
     """Markdown: the accuracy of each scan."""
-    lines = ["| object | voxel mm | accuracy % (95 %) | completeness % (95 %) | scan s (CPU s) |", "|---|---|---|---|---|"]
+    lines = table_head(("object", "voxel mm", "accuracy % (95 %)", "completeness % (95 %)", "scan s (CPU s)"))
     lines += [
         f"| {r['name']} | {1000 * r['voxel']:.1f} | {100 * r['accuracy']:.3f} ({100 * r['accuracy95']:.3f}) "
         f"| {100 * r['complete']:.3f} ({100 * r['complete95']:.3f}) | {r['seconds']:.0f} ({r['cpu']:.0f}) |"
@@ -139,17 +138,16 @@ def scan_table(rows: list[dict[str, Any]]) -> str:
 
 def joint_table(rows: list[dict[str, Any]]) -> str:
     """Markdown: the joints of each asset, then the sums."""
-    lines = ["| object | joints found | extra | angle | s |", "|---|---|---|---|---|"]
+    lines = table_head(("object", "joints found", "extra", "angle", "s"))
     for r in rows:
         found = [j for j in r["joints"] if j["found"]]
         angles = ", ".join(
             f"{j['part']} {j['angle']:.1f}{'' if j['type'] == j['found'] else ' as ' + j['found']}" for j in found
         )
         missed = ", ".join(j["part"] for j in r["joints"] if not j["found"])
-        lines.append(
-            f"| {r['name']} | {len(found)} of {len(r['joints'])} | {r['predicted'] - r['matched']} | {angles or '-'}"
-            f"{'; missed ' + missed if missed else ''} | {r['articulate']:.0f} |"
-        )
+        what = (angles or "-") + (f"; missed {missed}" if missed else "")
+        counts = (f"{len(found)} of {len(r['joints'])}", r["predicted"] - r["matched"])
+        lines.append(table_row((r["name"], *counts, what, f"{r['articulate']:.0f}")))
     joints = [j for r in rows for j in r["joints"]]
     good = sum(
         bool(j["found"]) and j["angle"] <= 5 and same_motion(JointType(j["type"]), JointType(j["found"])) for j in joints
@@ -169,7 +167,7 @@ def kept(place: Path, make: Callable[[], dict[str, Any]]) -> dict[str, Any]:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = parser_of(__doc__)
     parser.add_argument("out", type=Path)
     parser.add_argument("names", nargs="*", default=list(NAMES))
     parser.add_argument("--views", type=int, default=60)

@@ -2,23 +2,21 @@
 
 python -m benchmarks.speed [NAME[:SIZE,...] ...]      writes benchmarks/reports/speed.md
 
-Names: pot (by faces), boards, chandelier, shelf and pile (by connected components). The slope is that of
+Names: pot (by faces), boards, chandelier and shelf (by connected components). The slope is that of
 a line fitted to log(processor time) over log(size), sizes below a tenth of the largest left out: 1 is linear.
 """
 
 from __future__ import annotations
 
-import datetime
+import argparse
 import json
 import os
-import platform
 import subprocess
 import sys
 import tempfile
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass
-from importlib.metadata import version
 from pathlib import Path
 
 import numpy as np
@@ -26,7 +24,7 @@ import trimesh
 from trimesh.creation import box, cylinder, icosphere, revolve
 from trimesh.util import concatenate
 
-from benchmarks import REPORTS
+from benchmarks import REPORTS, made_with, parser_of, table_head, table_row
 
 STAGES = ("load", "segment", "joints", "export")
 Z_TO_Y = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])  # GLB files are Y up
@@ -77,17 +75,6 @@ def boards(components: int) -> trimesh.Trimesh:
     return concatenate(made)
 
 
-def pile(components: int) -> trimesh.Trimesh:
-    """Make a pile of long sticks in random directions, most of which cross others."""
-    rng = np.random.default_rng(SEED)
-    made = []
-    for _ in range(components):
-        pose = trimesh.transformations.random_rotation_matrix(rng.random(3))
-        pose[:3, 3] = rng.uniform(-0.3, 0.3, 3)
-        made.append(box((0.01, 0.01, 1.0)).apply_transform(pose))
-    return concatenate(made)
-
-
 def chandelier(components: int) -> trimesh.Trimesh:
     """Make a lamp: a stem, thin tubes out from it and strings of beads that hang below them."""
     made = [cylinder(0.02, 0.8, sections=24).apply_translation((0, 0, 0.4))]
@@ -126,13 +113,8 @@ def _box(size: tuple[float, ...], middle: tuple[float, ...]) -> trimesh.Trimesh:
     return box(size).apply_translation(middle)
 
 
-FACES: dict[str, Callable[[int], trimesh.Trimesh]] = {"pot": pot}
-COMPONENTS: dict[str, Callable[[int], trimesh.Trimesh]] = {
-    "boards": boards, "chandelier": chandelier, "shelf": shelf, "pile": pile,
-}  # fmt: skip
-
-
-SIZES = {"pot": (1_000, 10_000, 61_000, 250_000, 1_000_000)} | dict.fromkeys(COMPONENTS, (1, 10, 100, 500, 2_000, 5_000))
+OBJECTS: dict[str, Callable[[int], trimesh.Trimesh]] = {f.__name__: f for f in (pot, boards, chandelier, shelf)}
+SIZES = dict.fromkeys(OBJECTS, (1, 10, 100, 500, 2_000, 5_000)) | {"pot": (1_000, 10_000, 61_000, 250_000, 1_000_000)}
 
 
 @dataclass(frozen=True)
@@ -151,9 +133,8 @@ class Run:
     @property
     def row(self) -> str:
         """One row of the table."""
-        stages = " | ".join(f"{s:.1f}" for s in self.stages)
-        seconds = f"{self.wall:.1f} | {self.cpu:.1f} | {self.peak:.2f}"
-        return f"| {self.name} | {self.size} | {self.faces} | {self.joints} | {seconds} | {stages} |"
+        seconds = (f"{self.wall:.1f}", f"{self.cpu:.1f}", f"{self.peak:.2f}", *(f"{s:.1f}" for s in self.stages))
+        return table_row((self.name, self.size, self.faces, self.joints, *seconds))
 
 
 def timed(name: str, size: int, byte_code: Path) -> Run:
@@ -164,7 +145,7 @@ def timed(name: str, size: int, byte_code: Path) -> Run:
     """
     with tempfile.TemporaryDirectory() as folder:
         path, out = Path(folder) / f"{name}.glb", Path(folder) / "out"
-        mesh = (FACES | COMPONENTS)[name](size).apply_transform(Z_TO_Y)
+        mesh = OBJECTS[name](size).apply_transform(Z_TO_Y)
         mesh.export(path)
         command = [sys.executable, "-m", "anymesh.cli", "articulate", str(path), "-o", str(out), "-q"]
         kept = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
@@ -189,21 +170,23 @@ def slope(runs: list[Run]) -> float:
     return float(np.polyfit(np.log([r.size for r in tail]), np.log([r.cpu for r in tail]), 1)[0])
 
 
-def requested(arguments: list[str]) -> Iterator[tuple[str, tuple[int, ...]]]:
-    """Yield names with sizes: all by default."""
-    for argument in arguments or SIZES:
-        name, _, sizes = argument.partition(":")
-        if name not in SIZES:
-            raise SystemExit(f"found {name!r}; valid are {', '.join(SIZES)}")
-        yield name, tuple(int(s) for s in sizes.split(",")) if sizes else SIZES[name]
+def requested(word: str) -> tuple[str, tuple[int, ...]]:
+    """Return the name and the sizes in NAME or NAME:SIZE,..."""
+    name, _, sizes = word.partition(":")
+    if name not in SIZES:
+        raise argparse.ArgumentTypeError(f"found {name!r}; valid are {', '.join(SIZES)}")
+    return name, tuple(int(s) for s in sizes.split(",")) if sizes else SIZES[name]
 
 
 def main() -> None:
     """Time all that is asked for; the table is written after each object."""
+    parser = parser_of(__doc__)
+    parser.add_argument("objects", nargs="*", type=requested, default=list(SIZES.items()), metavar="NAME[:SIZE,...]")
+    options = parser.parse_args()
     lines: list[str] = []
     with tempfile.TemporaryDirectory() as byte_code:
         timed("pot", WARM_UP, Path(byte_code))
-        for name, sizes in requested(sys.argv[1:]):
+        for name, sizes in options.objects:
             runs = []
             for size in sorted(sizes):
                 runs.append(timed(name, size, Path(byte_code)))
@@ -219,18 +202,14 @@ def write(lines: list[str]) -> None:
     head = [
         "# Speed",
         "",
-        f"`python -m benchmarks.speed {' '.join(sys.argv[1:])}`, {datetime.date.today()}, "
-        f"version {version('articulate-anymesh')}, Python {platform.python_version()}, {os.cpu_count()} cores. Synthetic "
-        "objects; size: requested number of faces (pot), connected components (the others). Slope: "
+        f"`python -m benchmarks.speed {' '.join(sys.argv[1:])}`, {made_with('articulate-anymesh')}, {os.cpu_count()} cores. "
+        "Synthetic objects; size: requested number of faces (pot), connected components (the others). Slope: "
         "exponent of the growth of the processor time with the size, over the largest tenfold range. cpu: processor time of "
         "the process and its children. Load average of the machine at the end: "
         f"{os.getloadavg()[1]:.1f}; above the number of cores, other jobs ran too, and both times are longer than on an idle "
         "machine.",
         "",
-        "| object | size | faces | joints | wall [s] | cpu [s] | peak [GiB] | "
-        + " | ".join(f"{stage} [s]" for stage in STAGES)
-        + " |",
-        "|---|---|---|---|---|---|---|---|---|---|---|",
+        *table_head(["object", "size", "faces", "joints", "wall [s]", "cpu [s]", "peak [GiB]", *(f"{s} [s]" for s in STAGES)]),
     ]
     (REPORTS / "speed.md").write_text("\n".join([*head, *lines, ""]), encoding="utf-8")
 

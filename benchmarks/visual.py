@@ -3,7 +3,6 @@
 python -m benchmarks.visual ask FOLDER --place infinigen=DIR --wait --jobs 4    asks, in FOLDER/NNN/PROTOCOL/, to the end
 python -m benchmarks.visual keep FOLDER                                         answers to benchmarks/recordings/, no pictures
 python -m benchmarks.visual table --place infinigen=DIR                         reports/visual.md, from the recordings alone
-python -m benchmarks.visual pictures FOLDER --only 001                          recorded questions with their pictures
 
 Objects have numbers in the folders of questions, as their names would show what they are (`recordings/objects.json`), and what
 is known of the truth lies beside, in FOLDER.results/. The parts are given only once the object was answered without them.
@@ -12,11 +11,10 @@ Without --wait, `ask` goes as far as it can, ends with exit code 9 while questio
 
 from __future__ import annotations
 
-import argparse
 import json
 import shutil
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from multiprocessing import get_context
@@ -31,10 +29,10 @@ from anymesh.pipeline.answering import choose_answerer
 from anymesh.pipeline.solving import solve
 from anymesh.prompted.answerers.file_answerer import open_questions
 from anymesh.prompted.answerers.question_files import ANSWER, OWNER, QUESTION, find_questions
-from anymesh.types.questions import Answer, Question, VisualAnswerer
-from benchmarks import RECORDINGS, REPORTS
+from anymesh.types.questions import VisualAnswerer
+from benchmarks import RECORDINGS, REPORTS, parser_of, table_head, table_row
 from benchmarks.visual_choices import FILE as CHOICES
-from benchmarks.visual_choices import Wrapper, choices_of, replayed, write_choices
+from benchmarks.visual_choices import choices_of, replayed, write_choices
 
 PROTOCOLS = (EvalProtocol.END_TO_END, EvalProtocol.PARTS)
 FORMS = {"as it is": "none", "fused": "fused"}
@@ -118,14 +116,8 @@ def results_of(folder: Path) -> Path:
     return folder.with_name(f"{folder.name}.results")
 
 
-def ask(
-    item: Item, protocol: EvalProtocol, folder: Path, wait: bool, after: EvalProtocol | None = None,
-    answers: Mapping[str, str] | None = None,
-) -> str:  # fmt: skip
-    """Ask until an answer is missing; return a line about the state.
-
-    wait: for answers; after: the protocol that comes first; answers: recorded ones by the key of their question.
-    """
+def ask(item: Item, protocol: EvalProtocol, folder: Path, wait: bool, after: EvalProtocol | None = None) -> str:
+    """Ask until an answer is missing, or wait for answers; return a line about the state. after: the protocol before it."""
     place, results = folder / item.number / protocol, results_of(folder) / item.number / protocol
     title = f"{item.number} {protocol}"
     if (results / RECORD).exists():
@@ -138,9 +130,8 @@ def ask(
     results.mkdir(parents=True, exist_ok=True)
     setting = EvalConfig(protocol, (item.change,))
 
-    def answerer_factory(_):
-        files = choose_answerer({"answerer": f"files:{place}", "wait": wait}, about=item.number).factory
-        return files if answers is None else lambda fallback: Recorded(files(fallback), place, answers)
+    def answerer_factory(_: object) -> Callable[[VisualAnswerer], VisualAnswerer]:
+        return choose_answerer({"answerer": f"files:{place}", "wait": wait}, about=item.number).factory
 
     try:
         (record,) = evaluate_sample(setting, open_dataset(item.spec), item.object, results, solve, answerer_factory)
@@ -168,11 +159,6 @@ def keep(folder: Path) -> None:
         write_choices(place / CHOICES, choices_of(answered))
         shutil.copyfile(asked / OWNER, place / OWNER)
         print(f"kept {place.relative_to(RECORDINGS)}: {record_of(done.read_text(encoding='utf-8')).score.name}")
-
-
-def recorded(found: Sequence[Item], protocols: Sequence[EvalProtocol]) -> list[tuple[Item, EvalProtocol]]:
-    """What there is a recording of."""
-    return [(i, p) for i in found for p in protocols if (RECORDINGS / i.number / p).is_dir()]
 
 
 def row_of(item: Item, protocol: EvalProtocol) -> Row:
@@ -207,8 +193,7 @@ def page(rows: Sequence[Row]) -> str:
 
 
 def _table(first: str, groups: Sequence[tuple[str, Sequence[Row]]]) -> list[str]:
-    head = [f"| {' | '.join((first, *COLUMNS))} |", f"|{'---|' * (len(COLUMNS) + 1)}"]
-    return [*head, *(f"| {' | '.join((name, *_figures(rows)))} |" for name, rows in groups if rows), ""]
+    return [*table_head([first, *COLUMNS]), *(table_row([name, *_figures(rows)]) for name, rows in groups if rows), ""]
 
 
 def _figures(rows: Sequence[Row]) -> list[str]:
@@ -236,34 +221,6 @@ def _share(part: float, whole: int) -> str:
     return f"{part / whole:.3f}" if whole else ""
 
 
-def pictures(item: Item, protocol: EvalProtocol, folder: Path) -> str:
-    """Asks what was recorded again, so that the pictures are drawn; stops at a question without a recorded answer."""
-    place = folder / item.number / protocol
-    answers = {q.key: str(q.answer()) for q in find_questions(RECORDINGS / item.number / protocol)}
-    line = ask(item, protocol, folder, False, answers=answers)
-    asked = find_questions(place)
-    return f"{line}; {sum(q.key in answers for q in asked)} of {len(asked)} questions as recorded"
-
-
-class Recorded(Wrapper):
-    """A file answerer whose questions get their recorded answers. answers: texts by key."""
-
-    def __init__(self, files: VisualAnswerer, place: Path, answers: Mapping[str, str]) -> None:
-        super().__init__(files)
-        self._place, self._answers = place, answers
-
-    def ask(self, question: Question[Answer]) -> Answer:
-        """Return the answer in the question's folder or the recorded one. Raise OpenQuestionError if there is neither."""
-        try:
-            return self.inner.ask(question)
-        except OpenQuestionError as error:
-            (folder,) = (q for q in find_questions(self._place) if q.path in error.folders)
-            if folder.answer() is not None or folder.key not in self._answers:
-                raise
-            folder.write_answer(self._answers[folder.key])
-            return self.inner.ask(question)
-
-
 def _each(work, tasks: Sequence[tuple], jobs: int) -> Iterator:
     """Yield the results in the order of the tasks."""
     if jobs == 1:
@@ -274,8 +231,8 @@ def _each(work, tasks: Sequence[tuple], jobs: int) -> Iterator:
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=("ask", "keep", "table", "pictures"))
+    parser = parser_of(__doc__)
+    parser.add_argument("what", choices=("ask", "keep", "table"))
     parser.add_argument("folder", nargs="?", type=Path, help="of questions; not for table")
     parser.add_argument("--place", action="append", default=[], metavar="SET=PLACE", help="where a data set lies; may repeat")
     parser.add_argument("--only", default="", metavar="NUMBERS", help="of objects, with commas between")
@@ -291,10 +248,8 @@ def main() -> None:
     if options.what == "keep":
         keep(options.folder)
     elif options.what == "table":
-        table(recorded(found, protocols), options.jobs, options.markdown)
-    elif options.what == "pictures":
-        for line in _each(pictures, [(i, p, options.folder) for i, p in recorded(found, protocols)], options.jobs):
-            print(line, flush=True)
+        recorded = [(i, p) for i in found for p in protocols if (RECORDINGS / i.number / p).is_dir()]
+        table(recorded, options.jobs, options.markdown)
     else:
         after = {EvalProtocol.PARTS: EvalProtocol.END_TO_END} if len(protocols) > 1 else {}
         tasks = [(i, p, options.folder, options.wait, after.get(p)) for p in protocols for i in found]

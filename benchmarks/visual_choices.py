@@ -137,11 +137,12 @@ def _rounded(values: np.ndarray) -> list[float]:
     return [round(float(v), DIGITS) for v in values]
 
 
-class Wrapper:
-    """Base of an answerer around another one, whose name, warnings and exchanges are its own."""
+class WithChoices:
+    """An answerer from a recording; a question about motions that was asked otherwise then is answered by the choices."""
 
-    def __init__(self, inner: VisualAnswerer) -> None:
-        self.inner = inner
+    def __init__(self, recorded: VisualAnswerer, choices: Sequence[Choice]) -> None:
+        self.inner, self._choices = recorded, choices
+        self.again = 0  # questions that were answered by the choices
 
     @property
     def name(self) -> str:
@@ -154,15 +155,6 @@ class Wrapper:
     @property
     def exchanges(self) -> tuple[Exchange, ...]:
         return self.inner.exchanges
-
-
-class WithChoices(Wrapper):
-    """An answerer from a recording; a question about motions that was asked otherwise then is answered by the choices."""
-
-    def __init__(self, recorded: VisualAnswerer, choices: Sequence[Choice]) -> None:
-        super().__init__(recorded)
-        self._choices = choices
-        self.again = 0  # questions that were answered by the choices
 
     def ask(self, question: Question[Answer]) -> Answer:
         """Answer as recorded. Raises ModelError for what was not."""

@@ -116,7 +116,9 @@ def same_rays() -> bool:
     return RayScene(corners, faces).surface_hits(np.array([0.3, 0.3, 3.0]), down).depth.tolist() == [2]
 
 
-@pytest.mark.parametrize("number", ["022", *(pytest.param(number, marks=pytest.mark.slow) for number in ("048", "060", "065"))])
+@pytest.mark.parametrize(
+    "number", ["018", *(pytest.param(number, marks=pytest.mark.slow) for number in ("022", "048", "060", "065"))]
+)
 def test_a_recording_of_an_example_replays_without_a_model(number: str) -> None:
     (item,) = visual.items({}, [number])
     row = visual.row_of(item, visual.EvalProtocol.END_TO_END)
