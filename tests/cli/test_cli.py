@@ -137,5 +137,5 @@ def test_an_unsure_joint_says_what_would_help(mesh, capfd, monkeypatch) -> None:
     (line,) = [line for line in out.splitlines() if "files:FOLDER" in line]
     assert "unsure" in line
     monkeypatch.setattr(results, "LOW_CONFIDENCE", 0.0)
-    code, out, _ = called(capfd, "articulate", mesh, "-o", "sure", "--formats", "urdf", *PARTS, "--json")
+    code, out, _ = called(capfd, "articulate", mesh, "-o", "out", "--force", "--formats", "urdf", *PARTS, "--json")
     assert (code, json.loads(out)["hint"], json.loads(out)["answerer"]) == (0, "", "geometry")
