@@ -25,9 +25,10 @@ from jaxtyping import Bool
 from anymesh.articulation.estimate import MAX_COPIES
 from anymesh.articulation.motion_classifier import highest
 from anymesh.articulation.motion_features import SWEPT_FEATURES
-from anymesh.articulation.rank_motions import BLOCKED_SCORE, share_of_best
+from anymesh.articulation.rank_motions import share_of_best
 from anymesh.articulation.repeated_parts import ScoredMotions, mean_over_copies
 from anymesh.config import ArticulationConfig
+from anymesh.scoring.by_hand import BLOCKED_SCORE
 from training.boosting import Model, Sample, Scores, fit, held_out, leave_kinds_out, leave_sources_out, manifest_of, write
 from training.calibration import Scored, calibration_table, fit_confidence, log_odds
 from training.collect_rows import called

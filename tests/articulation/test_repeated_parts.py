@@ -13,8 +13,9 @@ from scenes import Piece, Scene, built, case, door, drawer, joints_of, prism
 from anymesh.articulation import estimate
 from anymesh.articulation.motion_classifier import PartMotionScores
 from anymesh.articulation.motion_question import MotionQuestion
-from anymesh.articulation.repeated_parts import UNMATCHED_LOSS, ScoredMotions, in_one_manner, mean_over_copies
+from anymesh.articulation.repeated_parts import ScoredMotions, in_one_manner, mean_over_copies
 from anymesh.config import Config
+from anymesh.scoring.by_hand import UNMATCHED_SCORE
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType
 
@@ -195,4 +196,4 @@ def test_copies_that_move_alike_are_scored_alike() -> None:
 def test_a_copy_that_cannot_move_in_a_manner_counts_as_worse_than_the_worst_motion() -> None:
     own = scored((X, False, 0.5, 1, 1, 2.0), (Y, True, -9, 1, 0, -1.0))
     other = scored((Z, True, -9, 1, 0, 5.0))
-    assert mean_over_copies(own, [other]).tolist() == [(2 - 1 - UNMATCHED_LOSS) / 2, (-1 - 1 - UNMATCHED_LOSS) / 2]
+    assert mean_over_copies(own, [other]).tolist() == [(2 - 1 + UNMATCHED_SCORE) / 2, (-1 - 1 + UNMATCHED_SCORE) / 2]

@@ -12,13 +12,13 @@ from assets import box, mesh_of
 from test_panels import FRONT, bar, front_boxes, panels, solid
 
 from anymesh.config import Config, SegmentationConfig
+from anymesh.scoring.by_hand import NAME_SCORE
 from anymesh.segmentation import segment
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import MIN_PART_PROBABILITY
 from anymesh.segmentation.part_candidates import (
-    NAME_SCORE,
     NameClass,
     PartCandidates,
     merged_groups,
@@ -109,7 +109,7 @@ def test_names_say_whether_a_candidate_moves(name: str, kind: NameClass) -> None
 
 
 def test_the_names_of_movable_parts_raise_scores_and_those_of_fixed_ones_lower_them() -> None:
-    assert NAME_SCORE[NameClass.NONE] == 0
+    assert NameClass.NONE not in NAME_SCORE
     named = np.array([-3 + NAME_SCORE[NameClass.MOVABLE], 3 + NAME_SCORE[NameClass.FIXED]])
     probability = segment.shipped_classifier().probability(named)
     assert probability[0] > MIN_PART_PROBABILITY > probability[1]

@@ -10,6 +10,7 @@ from assets import box, mesh_of
 
 from anymesh.articulation import motion_classifier
 from anymesh.config import SegmentationConfig
+from anymesh.scoring.by_hand import CUT_SCORE
 from anymesh.scoring.classifier import Classifier
 from anymesh.segmentation import part_classifier
 from anymesh.segmentation.contacts import find_contacts
@@ -90,12 +91,12 @@ def test_a_part_that_is_cut_out_of_a_surface_scores_more(monkeypatch: pytest.Mon
     whole = object_shape(mesh)
     tree = PartCandidates(whole, find_contacts(whole, SegmentationConfig()), np.eye(4, dtype=bool)[1:], ("",) * 4)
     score, _ = part_classifier.score_parts(tree, np.zeros((3, 12)), features)
-    assert score == pytest.approx([0.25, 0.25 + part_classifier.CUT_SCORE, 0.25])
+    assert score == pytest.approx([0.25, 0.25 + CUT_SCORE, 0.25])
 
 
 def test_a_score_is_the_mean_of_the_trees_and_the_networks() -> None:
     found = part_classifier.combined(np.array([0.0, 2.0]), np.array([4.0, 3.0]), np.array([False, True]))
-    assert found == pytest.approx([2.0, 2.5 + part_classifier.CUT_SCORE])
+    assert found == pytest.approx([2.0, 2.5 + CUT_SCORE])
 
 
 NAMES = (

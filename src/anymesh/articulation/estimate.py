@@ -70,7 +70,7 @@ def motion_questions(
             [part_context(whole, label, shapes, parent, i, config.articulation) for i in numbers]
         )
         scored = [
-            _part_scores(a, parts[i].label, _most_swept(config.articulation, deadline))
+            score_motions(a, parts[i].label, _most_swept(config.articulation, deadline))
             for i, a in zip(numbers, contexts, strict=True)
         ]
         for i, context, motions in zip(numbers, contexts, scored, strict=True):
@@ -99,7 +99,7 @@ def question_of_all_motions(context: PartContext, label: str) -> MotionQuestion:
     return PartMotionScores(context, label, sweep_candidates(context, propose(context))).question()
 
 
-def _part_scores(context: PartContext, label: str, most: int) -> PartMotionScores:
+def score_motions(context: PartContext, label: str, most: int) -> PartMotionScores:
     """Score the `most` motions of a part that are likeliest before any is swept."""
     motions = unswept(context, propose(context))
     rest = unswept_features(context, motions)

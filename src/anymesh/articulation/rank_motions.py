@@ -11,18 +11,13 @@ from anymesh.articulation.motion_classifier import shipped_classifier
 from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts, SlideDirection
 from anymesh.config import FACING_COSINE, LEVEL_COSINE, SAME_AXIS_COSINE
 from anymesh.motion.part_context import PartContext
+from anymesh.scoring import by_hand
 from anymesh.types import JointType
 from anymesh.vocabulary import typical_motion
 
 NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint without a plausible motion
 SAME_LINE_RATIO = 0.1  # of the part's size: maximum distance between lines that a user sees as one
-BLOCKED_SCORE = -4.0  # [log-odds] penalty of a motion that the sweep finds blocked
 SIDES = "on no side", "on one side", "on two sides", "on three sides", "on all sides"  # by how many of four guide a slide
-LABEL_PRIOR = {  # [log-odds] added by a label to a hinge, to a rotation about the axis of a round outline, to a slide
-    JointType.REVOLUTE: (1.5, -2.5, -2.0),
-    JointType.PRISMATIC: (-2.0, -2.5, 2.0),
-    JointType.CONTINUOUS: (-1.5, 2.5, -2.0),
-}
 MIN_LARGE_RATIO = 0.15  # of the object's diagonal: a smaller part that slides in is a button, one that spins is a knob
 MIN_DRAWER_TRAVEL_RATIO = 0.1  # of its size: a slide with less travel is not labelled as a drawer
 # of its height: a part with a level hinge that rises higher than this above its parent is a lid modelled open
@@ -57,13 +52,13 @@ def _order_of_endless(c: Candidate, *, same: bool) -> tuple[bool, bool]:
 
 def _scores_by_geometry(question: MotionQuestion) -> Float[np.ndarray, " k"]:
     """Return the log-odds of each candidate, with a penalty for blocked motions."""
-    return question.scores + np.array([0.0 if c.is_free else BLOCKED_SCORE for c in question.candidates])
+    return question.scores + np.array([0.0 if c.is_free else by_hand.BLOCKED_SCORE for c in question.candidates])
 
 
 def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
     """Return the log-odds of each candidate, with a penalty for blocked motions and a prior from the label."""
     scores = _scores_by_geometry(question)
-    prior = LABEL_PRIOR.get(typical) if (typical := typical_motion(question.part.label)) else None
+    prior = by_hand.LABEL_PRIOR.get(typical) if (typical := typical_motion(question.part.label)) else None
     if prior is None:
         return scores
     kinds = [2 if c.motion.kind is JointType.PRISMATIC else int(c.role == "round") for c in question.candidates]

@@ -15,12 +15,12 @@ from anymesh.config import SAME_AXIS_COSINE
 from anymesh.geometry.boxes import same_box
 from anymesh.geometry.triangle_set import TriangleSet, body_obb
 from anymesh.motion.part_context import PartContext, best_direction
+from anymesh.scoring import by_hand
 
 # maximum component of the offset along the opening direction, over its length, between parts in a row
 MAX_ROW_OFFSET_RATIO = 0.25
 SAME_BALANCE = 0.2  # maximum difference of the feature "balance" of axes in a similar position: through the center, or at a rim
 MIN_SAME_SIDE_PRODUCT = -0.05  # minimum product of two directions or offsets to the same side; 0 is on no side
-UNMATCHED_LOSS = 3.0  # [log-odds] a copy that cannot move in a manner counts as this much below the worst motion of the part
 
 
 def same_size(shapes: Sequence[TriangleSet], parent: Sequence[int]) -> list[list[int]]:
@@ -92,7 +92,7 @@ class ScoredMotions:
 
 def mean_over_copies(own: ScoredMotions, copies: Sequence[ScoredMotions]) -> Float[np.ndarray, " n"]:
     """Return, for each motion of a part, the mean of its score and of the best scores of the copies in the same manner."""
-    least = own.score.min() - UNMATCHED_LOSS
+    least = own.score.min() + by_hand.UNMATCHED_SCORE
     total = own.score.astype(float)
     for copy in copies:
         theirs = np.where(in_one_manner(own, copy), copy.score[None], -np.inf).max(1)

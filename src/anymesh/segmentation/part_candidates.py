@@ -11,7 +11,7 @@ import heapq
 import itertools
 from collections.abc import Iterable
 from dataclasses import dataclass
-from enum import IntEnum
+from enum import StrEnum
 from functools import cached_property
 
 import numpy as np
@@ -221,17 +221,13 @@ def _bounds(patches: Float[np.ndarray, "P 2 3"], members: Bool[np.ndarray, " P"]
     return np.array([mine[:, 0].min(0), mine[:, 1].max(0)])
 
 
-class NameClass(IntEnum):
+class NameClass(StrEnum):
     """Classes of the names of candidates."""
 
-    NONE = 0  # no name, or an unknown one
-    MOVABLE = 1
-    FIXED = 2
-    HANDLE = 3  # moves on its own or with the part that it is attached to
-
-
-# [log-odds] added to the score for the class of a name
-NAME_SCORE = {NameClass.NONE: 0.0, NameClass.MOVABLE: 5.0, NameClass.FIXED: -6.0, NameClass.HANDLE: 0.3}
+    NONE = ""  # no name, or an unknown one
+    MOVABLE = "movable"
+    FIXED = "fixed"
+    HANDLE = "handle"  # moves on its own or with the part that it is attached to
 
 
 def name_class(name: str) -> NameClass:

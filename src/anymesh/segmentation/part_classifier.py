@@ -8,15 +8,13 @@ from functools import cache
 import numpy as np
 from jaxtyping import Bool, Float, Float32, Int
 
+from anymesh.scoring import by_hand
 from anymesh.scoring.classifier import Classifier, Note
 from anymesh.segmentation.part_candidates import Overlap, PartCandidates
 
 IN_ROW_OFFSET = 0.04  # of half the object's diagonal: maximum offset of the centers of copies in one row
 SIZE_SCALE, MAX_SIZE = 4.0, 2.0  # the logarithm of a ratio of areas is divided by the first, up to the second
 Reasons = Callable[[Sequence[int]], list[str]]
-# [log-odds] added for a part that is cut out of a surface: the score grows with the IoU, and the border of a cut is not exact.
-# Chosen on kinds left out of training: a higher F1 on fused surfaces, and the same on other objects.
-CUT_SCORE = 0.5
 CUT = "parted by creases"  # the feature that is 1 for such a part
 NOTES: Mapping[str, Note] = {  # what a feature means to a user, from a least to a greatest value
     "separate": (1.0, 1.0, "hardly touches the rest"),
@@ -95,7 +93,7 @@ def combined(
 
     cut: candidates that are cut out of a surface.
     """
-    return (trees + networks) / 2 + CUT_SCORE * cut
+    return (trees + networks) / 2 + by_hand.CUT_SCORE * cut
 
 
 @cache

@@ -16,10 +16,11 @@ from jaxtyping import Float, Int
 from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.runtime import SEGMENT, Deadline, Progress, silent, usable_cores
+from anymesh.scoring import by_hand
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_assignment import assign_parts, conflicts, join_floating
-from anymesh.segmentation.part_candidates import NAME_SCORE, PartCandidates, name_class, part_candidates, shared_name
+from anymesh.segmentation.part_candidates import PartCandidates, name_class, part_candidates, shared_name
 from anymesh.segmentation.part_classifier import score_parts, shipped_classifier
 from anymesh.segmentation.part_features import FeatureInputs, candidate_context, part_features
 from anymesh.types import Mesh, Segmentation
@@ -48,7 +49,7 @@ def segment_parts(
     examined, place, features = examine_candidates(mesh, candidates, config, progress, deadline)
     score, reasons = score_parts(examined, place, features)
     words = [shared_name(examined, k) for k in range(len(score))]
-    score = score + np.array([NAME_SCORE[name_class(word)] for word in words])
+    score = score + np.array([by_hand.NAME_SCORE.get(name_class(word), 0.0) for word in words])
     classifier = shipped_classifier()
     known = [word.label if (word := recognize(w)) else "" for w in words]
 
