@@ -18,7 +18,7 @@ from typing import Any
 from unittest.mock import patch
 
 from anymesh.articulation import estimate
-from anymesh.articulation.motion_question import MotionQuestion
+from anymesh.articulation.candidate_motions import CandidateMotions
 from anymesh.articulation.rank_motions import motion_scores
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.ground_truth import EvalSample, prepared
@@ -54,7 +54,7 @@ def key(value: Any) -> bytes:
         case PartContext():
             surfaces = value.part, value.parent, value.rest, value.without_part
             return b"".join(s.corners.tobytes() for s in surfaces) + value.opening_direction.tobytes()
-        case MotionQuestion():
+        case CandidateMotions():
             return motion_scores(value).tobytes()
         case Segmentation():
             return value.face_part.tobytes() + repr([part.name for part in value.parts]).encode()

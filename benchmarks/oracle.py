@@ -132,7 +132,7 @@ def cost_row(truth: GroundTruth, change: str, like: str, cache: Path) -> str:
     for _ in range(2):
         begin, start = time.perf_counter(), time.process_time()
         solver = Solver(sample.mesh, answerer_factory=lambda fallback: SimulatedVlm(oracle(sample), fallback, like, cache))
-        recognized = solver.recognize()
+        recognized = solver.answers.recognize()
         segmented = solver.parts("auto", recognized.recognition)
         jointed = solver.joints(segmented.segmentation, recognized.recognition)
         seconds.append(time.perf_counter() - begin)

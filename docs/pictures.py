@@ -13,8 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from anymesh.articulation.estimate import motion_questions
-from anymesh.articulation.motion_question import Candidate
+from anymesh.articulation.candidate_motions import Candidate
+from anymesh.articulation.estimate import part_motions
 from anymesh.articulation.rank_motions import motion_scores
 from anymesh.config import Config
 from anymesh.evaluation.ground_truth import example_truths, prepared
@@ -77,15 +77,17 @@ def draw_method(folder: Path, name: str, part: int) -> None:
     solver = Solver(place_mesh(load_mesh(path)).mesh, config)
     mesh = solver.geometry.mesh  # straight
     studio = VisualPrompts(mesh, config)
-    contacts = find_contacts(solver.whole, config.segmentation)
-    tree = part_candidates(mesh, solver.whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
+    contacts = find_contacts(solver.geometry.whole, config.segmentation)
+    tree = part_candidates(
+        mesh, solver.geometry.whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates
+    )
     tree, place, rows = examine_candidates(mesh, tree, config)
     score, _ = score_parts(tree, place, rows)
     chosen = assign_parts(tree.overlap, shipped_classifier().probability(score))
     found = solver.parts().segmentation
-    _, _, context, question = sorted(motion_questions(solver.whole, found, config), key=lambda m: m[0])[part - 1]
-    scores = motion_scores(question)
-    ranked = [(float(scores[k]), question.candidates[k]) for k in np.argsort(-scores, kind="stable")]
+    _, _, context, motions = sorted(part_motions(solver.geometry.whole, found, config), key=lambda m: m[0])[part - 1]
+    scores = motion_scores(motions)
+    ranked = [(float(scores[k]), motions.candidates[k]) for k in np.argsort(-scores, kind="stable")]
     drawn = {
         "patches": patches(studio, mesh, tree),
         "candidates": candidates(studio, tree, score, chosen),
@@ -103,7 +105,7 @@ def draw_questions(folder: Path, name: str, every: bool) -> None:
     truth = next(t for t in example_truths(EXAMPLES) if t.name == name)
     mesh = place_mesh(load_mesh(truth.mesh)).mesh
     solver = Solver(mesh, answerer_factory=lambda fallback: SimulatedVlm(oracle(prepared(truth)), fallback))
-    recognized = solver.recognize()
+    recognized = solver.answers.recognize()
     segmented = solver.parts("auto", recognized.recognition)
     jointed = solver.joints(segmented.segmentation, recognized.recognition)
     questions = []

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from geometry.rigid import shape_of
 
-from anymesh.articulation.motion_question import Candidate, PartFacts, Role
+from anymesh.articulation.candidate_motions import Candidate, PartFacts, Role
 from anymesh.config import ArticulationConfig
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion, Sweep

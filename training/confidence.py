@@ -16,8 +16,8 @@ from pathlib import Path
 
 import numpy as np
 
+from anymesh.articulation.candidate_motions import Candidate
 from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.motion_question import Candidate
 from anymesh.config import Config
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.ground_truth import EvalSample, prepared

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from anymesh.articulation.estimate import estimate_joints, motion_questions
+from anymesh.articulation.estimate import estimate_joints, part_motions
 from anymesh.config import Config
 from anymesh.evaluation.drawing import contact_sheet, draw_joint
 from anymesh.evaluation.ground_truth import EvalSample
@@ -58,8 +58,8 @@ def picture(failure: Failure, sample: EvalSample) -> tuple[UInt8[np.ndarray, "H 
     segmentation = sample.segmentation()
     whole = object_shape(sample.mesh, config.seed, config.patches, sample.labels)
     motions = [
-        (i, over, context, replace(question, scores=failure.scores) if i == rows.number else question)
-        for i, over, context, question in motion_questions(whole, segmentation, config)
+        (i, over, context, replace(motions, scores=failure.scores) if i == rows.number else motions)
+        for i, over, context, motions in part_motions(whole, segmentation, config)
     ]
     joints = estimate_joints(segmentation, motions)
     result = next(j for j in score(sample, segmentation, joints).joints if j.part == rows.part)

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Bool, Float, Float32, Int
 
-from anymesh.articulation.estimate import PartMotions, motion_questions
+from anymesh.articulation.estimate import PartMotions, part_motions
 from anymesh.articulation.motion_features import motion_features
 from anymesh.articulation.rank_motions import same_joints
 from anymesh.articulation.repeated_parts import in_a_row, same_size
@@ -72,15 +72,15 @@ def rows_of(sample: EvalSample, source: str, form: str = "") -> list[MotionRows]
     whole = object_shape(sample.mesh, config.seed, config.patches, sample.labels)
     joints = {j.child: sample.joint(j) for j in truth.joints if j.type is not JointType.FIXED}
     found: list[MotionRows] = []
-    questions = list(motion_questions(whole, sample.segmentation(), config))
-    copies = _copies(whole, sample, questions)
-    for i, _, context, question in questions:
+    every = list(part_motions(whole, sample.segmentation(), config))
+    copies = _copies(whole, sample, every)
+    for i, _, context, offered in every:
         name = truth.parts[i].name
         if name not in joints:
             continue
-        rows = motion_features(context, question.candidates)
+        rows = motion_features(context, offered.candidates)
         joint, center = joints[name], sample.mesh.triangles[sample.labels == i].reshape(-1, 3).mean(0)
-        motions = [c.motion for c in question.candidates]
+        motions = [c.motion for c in offered.candidates]
         names = tuple(rows[0])
         found.append(MotionRows(
             source, kind_of(truth.name, truth.category), truth.name, form, name, i,
@@ -88,19 +88,19 @@ def rows_of(sample: EvalSample, source: str, form: str = "") -> list[MotionRows]
             np.array([[row[n] for n in names] for row in rows], np.float32),
             np.array([m.axis for m in motions]),
             np.array([how_right(joint, m, center, sample.unit) for m in motions]),
-            np.array([opens_right(joint, c.motion.axis * c.opening_sign) for c in question.candidates]),
-            np.array([same_joints(question.part, question.candidates, k) for k in range(len(motions))]),
-            np.array([c.is_free for c in question.candidates]),
+            np.array([opens_right(joint, c.motion.axis * c.opening_sign) for c in offered.candidates]),
+            np.array([same_joints(offered.part, offered.candidates, k) for k in range(len(motions))]),
+            np.array([c.is_free for c in offered.candidates]),
         ))  # fmt: skip
     return found
 
 
-def _copies(whole: ObjectShape, sample: EvalSample, questions: Sequence[PartMotions]) -> dict[int, tuple[int, ...]]:
+def _copies(whole: ObjectShape, sample: EvalSample, every: Sequence[PartMotions]) -> dict[int, tuple[int, ...]]:
     """Return the parts that stage B compares each part with: of the same size and parent, in a row with it."""
     label = sample.labels[whole.source]
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(sample.truth.parts))]
-    parent = {i: over for i, over, _, _ in questions}
-    context = {i: a for i, _, a, _ in questions}
+    parent = {i: over for i, over, _, _ in every}
+    context = {i: a for i, _, a, _ in every}
     groups = same_size(shapes, [-1, *(parent[i] for i in sorted(parent))])
     return {i: tuple(j for j in group if j != i and in_a_row(context[i], context[j])) for group in groups for i in group}
 

@@ -18,8 +18,8 @@ from multiprocessing import get_context
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.articulation.estimate import motion_questions
-from anymesh.articulation.motion_question import Candidate, PartFacts
+from anymesh.articulation.candidate_motions import Candidate, PartFacts
+from anymesh.articulation.estimate import part_motions
 from anymesh.articulation.rank_motions import rank_motions, same_joints
 from anymesh.config import SAME_AXIS_COSINE, Config
 from anymesh.evaluation.datasets.named import open_dataset
@@ -51,17 +51,17 @@ def seen_with(spec: str, seeds: Sequence[int], name: str) -> list[list[Seen]]:
     found: dict[str, list[Seen]] = {}
     for seed in seeds:
         whole = object_shape(sample.mesh, seed, config.patches, sample.labels)
-        for i, _, context, question in motion_questions(whole, given, config):
+        for i, _, context, motions in part_motions(whole, given, config):
             part = truth.parts[i].name
             if part not in joints:
                 continue
-            best = question.candidates[rank_motions(question).ranking[0]]
+            best = motions.candidates[rank_motions(motions).ranking[0]]
             center = sample.mesh.triangles[sample.labels == i].reshape(-1, 3).mean(0)
             right = how_right(joints[part], best.motion, center, sample.unit) > 0
             right &= opens_right(joints[part], best.motion.axis * best.opening_sign) != 0
             handle = context.handle and context.handle.across
             found.setdefault(part, []).append(
-                Seen(handle, context.opening_direction, context.outline.axis, best, question.part, right)
+                Seen(handle, context.opening_direction, context.outline.axis, best, motions.part, right)
             )
     return list(found.values())
 

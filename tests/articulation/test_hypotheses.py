@@ -13,10 +13,10 @@ from made import EDGE, PULL, ROUND, X, Y, Z, candidate, context_of, turn
 from scenes import prism, wheel
 from test_motion_features import context_in
 
+from anymesh.articulation.candidate_motions import CandidateMotions, PartFacts
 from anymesh.articulation.estimate import choose_motion, estimate_joint, joint_of
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import barrels, contact_axes, distinct, propose, two_pivot_line
-from anymesh.articulation.motion_question import MotionQuestion, PartFacts
 from anymesh.articulation.part_contexts import parents
 from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE, label_of
 from anymesh.articulation.repeated_parts import in_a_row, same_size
@@ -257,10 +257,10 @@ def test_a_part_without_a_free_motion_has_its_likeliest_one() -> None:
     candidates = (EDGE, replace(PULL, motion=replace(PULL.motion, axis=-Y)))
     blocked = tuple(replace(c, opening=0.0, closing=0.0) for c in candidates)
     facts = PartFacts.of(context, "part")
-    found = estimate_joint(context, "b", "base", MotionQuestion(facts, blocked, np.array([0.0, 1.0])))
+    found = estimate_joint(context, "b", "base", CandidateMotions(facts, blocked, np.array([0.0, 1.0])))
     assert (found.type, found.confidence) == (JointType.PRISMATIC, NO_MOTION_CONFIDENCE)
     assert found.reason == "blocked whichever way it is moved; most likely: slide"
-    moving = estimate_joint(context, "b", "base", MotionQuestion(facts, candidates, np.array([3.0, 0.0])))
+    moving = estimate_joint(context, "b", "base", CandidateMotions(facts, candidates, np.array([3.0, 0.0])))
     assert moving.type is JointType.REVOLUTE
 
 
@@ -272,7 +272,7 @@ def test_of_the_lines_at_one_rim_the_one_that_clears_the_neighbours_is_chosen() 
         replace(EDGE, motion=replace(turn(Z, (0, y, 0)), source=source), opening_sign=-1)
         for y, source in ((-0.002, "back edge"), (-0.022, "front edge"))
     )
-    question = MotionQuestion(PartFacts.of(context, "part"), (back, front), np.array([3.0, 0]))
+    question = CandidateMotions(PartFacts.of(context, "part"), (back, front), np.array([3.0, 0]))
     assert choose_motion(context, question)[1] is front
     assert "front edge" in estimate_joint(context, "a", "base", question).reason  # of the joint that is written
     alone = replace(context, other_parts=())

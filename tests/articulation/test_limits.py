@@ -8,6 +8,7 @@ import pytest
 from assets import box
 from scenes import Piece, Scene, built, door, drawer
 
+from anymesh.articulation.candidate_motions import Candidate
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import (
     answered_range,
@@ -18,7 +19,6 @@ from anymesh.articulation.limits import (
     limits,
     opening_as_answered,
 )
-from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.part_contexts import part_context
 from anymesh.config import ArticulationConfig
 from anymesh.motion.part_context import PartContext

@@ -68,8 +68,8 @@ def test_the_likeliest_motions_are_chosen_before_any_is_swept(scene: Scene) -> N
     assert likeliest(rest, len(motions)).tolist() == list(range(len(motions)))
     assert set(likeliest(rest, 3)) < set(few)
     some = [motions[k] for k in few]
-    full, chosen = (PartMotionScores(context, "part", swept(context, those)).question() for those in (motions, some))
-    best, first = (question.candidates[rank_motions(question).ranking[0]].motion for question in (full, chosen))
+    full, chosen = (PartMotionScores(context, "part", swept(context, those)).averaged() for those in (motions, some))
+    best, first = (motions.candidates[rank_motions(motions).ranking[0]].motion for motions in (full, chosen))
     assert best is first
 
 

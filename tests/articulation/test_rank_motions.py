@@ -7,9 +7,9 @@ import pytest
 from assets import box, mesh_of
 from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, X, Y, Z
 
-from anymesh.articulation.estimate import choose_motion, motion_questions
+from anymesh.articulation.candidate_motions import Candidate, CandidateMotions, MotionChoice, PartFacts, SlideDirection
+from anymesh.articulation.estimate import choose_motion, part_motions
 from anymesh.articulation.motion_classifier import shipped_classifier
-from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts, SlideDirection
 from anymesh.articulation.rank_motions import (
     label_of,
     motion_scores,
@@ -24,8 +24,8 @@ from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion, Part, Segmentation, Sweep
 
 
-def asked(part: PartFacts, candidates: list[Candidate], scores: list[float]) -> MotionAnswer:
-    answer = rank_motions(MotionQuestion(part, tuple(candidates), np.array(scores)))
+def asked(part: PartFacts, candidates: list[Candidate], scores: list[float]) -> MotionChoice:
+    answer = rank_motions(CandidateMotions(part, tuple(candidates), np.array(scores)))
     assert sorted(answer.ranking) == list(range(len(candidates)))
     return answer
 
@@ -41,8 +41,8 @@ def same_as_first(*candidates: Candidate) -> np.ndarray:
     return same_joints(PLATE, candidates, 0)
 
 
-def question(*candidates: Candidate) -> MotionQuestion:
-    return MotionQuestion(PLATE, candidates, np.zeros(len(candidates)))
+def question(*candidates: Candidate) -> CandidateMotions:
+    return CandidateMotions(PLATE, candidates, np.zeros(len(candidates)))
 
 
 def test_motions_are_the_same_joint_about_one_line_to_one_side() -> None:
@@ -111,7 +111,7 @@ def test_a_known_label_decides_where_the_scores_are_close(label: str, kind: Join
 @pytest.mark.parametrize(("confidence", "reason"), [(1.1, "so"), (-0.1, "so"), (0.5, ""), (float("nan"), "so")])
 def test_an_answer_is_checked(confidence: float, reason: str) -> None:
     with pytest.raises(ValueError, match=r"confidence in 0\.\.1 and a reason"):
-        MotionAnswer((0,), JointType.FIXED, confidence, reason)
+        MotionChoice((0,), JointType.FIXED, confidence, reason)
 
 
 @pytest.mark.parametrize(
@@ -219,7 +219,7 @@ def label(solids: list, moving: list[int]) -> str:
     mesh, number = mesh_of(solids)
     segmentation = Segmentation(np.isin(number, moving).astype(np.int64), (Part("base", "base"), Part("it", "part")))
     whole = object_shape(mesh, 0, labels=segmentation.face_part)
-    _, _, context, question = next(iter(motion_questions(whole, segmentation, Config())))
+    _, _, context, question = next(iter(part_motions(whole, segmentation, Config())))
     return label_of(context, choose_motion(context, question)[1])
 
 

@@ -11,8 +11,8 @@ from assets import box
 from scenes import Piece, Scene, built, case, door, drawer, joints_of, prism
 
 from anymesh.articulation import estimate
+from anymesh.articulation.candidate_motions import CandidateMotions
 from anymesh.articulation.motion_classifier import PartMotionScores
-from anymesh.articulation.motion_question import MotionQuestion
 from anymesh.articulation.repeated_parts import ScoredMotions, in_one_manner, mean_over_copies
 from anymesh.config import Config
 from anymesh.scoring.by_hand import UNMATCHED_SCORE
@@ -71,17 +71,17 @@ def test_copies_that_agree_change_nothing(monkeypatch: pytest.MonkeyPatch) -> No
 def test_the_copies_of_a_part_are_the_others_of_its_row(monkeypatch: pytest.MonkeyPatch) -> None:
     """The panel at the back of the case has the size of the two in front, but is not beside them."""
     copies_of: dict[str, list[str]] = {}
-    question = PartMotionScores.question
+    question = PartMotionScores.averaged
 
-    def recorded(motions: PartMotionScores, copies: Sequence[PartMotionScores] = ()) -> MotionQuestion:
+    def recorded(motions: PartMotionScores, copies: Sequence[PartMotionScores] = ()) -> CandidateMotions:
         copies_of[motions.facts.label] = [copy.facts.label for copy in copies]
         return question(motions, copies)
 
-    monkeypatch.setattr(PartMotionScores, "question", recorded)
+    monkeypatch.setattr(PartMotionScores, "averaged", recorded)
     mesh, segmentation = built({**pair("both"), "back": [box((0.002, 0.402, 0.002), (0.299, 0.422, 0.798))]})
     segmentation = replace(segmentation, parts=tuple(replace(part, label=part.name) for part in segmentation.parts))
     whole = object_shape(mesh, 0, labels=segmentation.face_part)
-    assert len(list(estimate.motion_questions(whole, segmentation, Config()))) == 3
+    assert len(list(estimate.part_motions(whole, segmentation, Config()))) == 3
     assert copies_of == {"left": ["right"], "right": ["left"], "back": []}
 
 
@@ -107,7 +107,7 @@ def test_a_mark_on_a_round_pin_speaks_for_a_turn() -> None:
         """Return the log-odds of the best rotation minus those of the best slide."""
         mesh, segmentation = built({"base": WALL, "pin": pieces})
         whole = object_shape(mesh, 0, labels=segmentation.face_part)
-        _, _, _, question = next(iter(estimate.motion_questions(whole, segmentation, Config())))
+        _, _, _, question = next(iter(estimate.part_motions(whole, segmentation, Config())))
         turns = np.array([c.motion.kind is JointType.REVOLUTE for c in question.candidates])
         return float(question.scores[turns].max() - question.scores[~turns].max())
 
@@ -139,7 +139,7 @@ def test_a_hinge_that_opens_to_no_side_is_compared_with_no_other() -> None:
     mesh, segmentation = built(pair("both"))
     config = Config()
     whole = object_shape(mesh, config.seed, config.patches, segmentation.face_part)
-    _, _, context, question = next(iter(estimate.motion_questions(whole, segmentation, config)))
+    _, _, context, question = next(iter(estimate.part_motions(whole, segmentation, config)))
     assert context.other_parts
     rims = [replace(c, outward=0.0) for c in question.candidates if c.role == "edge"]
     assert estimate._clear_of_others(context, rims[0], tuple(rims)) is rims[0]

@@ -10,9 +10,9 @@ from assets import box
 from made import EDGE, PULL, X, Y, Z, candidate, context_of, slide, turn
 from scenes import case
 
+from anymesh.articulation.candidate_motions import Candidate
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import answered_range, limits, opening_as_answered, pressed
-from anymesh.articulation.motion_question import Candidate
 from anymesh.articulation.rank_motions import label_of
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion

@@ -44,13 +44,15 @@ def test_only_where_pictures_are_answered_seams_closed_in_places_divide_the_surf
 def test_an_answered_size_sets_the_scale_unless_the_file_has_a_unit(
     size: float, metric: bool, scale: float, doubted: bool
 ) -> None:
-    found = Solver(MESH, answerer_factory=lambda _: Sees(size)).recognize(sized=True, metric=metric)
+    found = Solver(MESH, answerer_factory=lambda _: Sees(size)).answers.recognize(sized=True, metric=metric)
     assert found.scale == pytest.approx(scale)
     assert bool(found.warnings) is doubted
     if doubted:
         assert "give --scale" in found.warnings[0]
         assert ("unit was kept" in found.warnings[0]) is metric
-    assert Solver(MESH, answerer_factory=lambda _: Sees(size)).recognize(metric=metric).scale == 1.0  # the user gave the scale
+    assert (
+        Solver(MESH, answerer_factory=lambda _: Sees(size)).answers.recognize(metric=metric).scale == 1.0
+    )  # the user gave the scale
 
 
 def test_files_say_whether_they_have_a_unit(tmp_path) -> None:

@@ -29,7 +29,7 @@ def perfect(truth: GroundTruth) -> Said:
     """What a perfect model says to each question about an object."""
     placed = place_mesh(load_mesh(truth.mesh))
     solver = Solver(placed.mesh, FEW(), lambda instead: SimulatedVlm(oracle(prepared(truth)), instead))
-    recognized = solver.recognize()
+    recognized = solver.answers.recognize()
     segmented = solver.parts("auto", recognized.recognition)
     jointed = solver.joints(segmented.segmentation, recognized.recognition, grounded=True)
     exchanges = (*recognized.exchanges, *segmented.exchanges, *jointed.exchanges)

@@ -10,12 +10,12 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Int
 
+from anymesh.articulation.candidate_motions import BOX_RIM_ROLES, Candidate, CandidateMotions, MotionChoice
 from anymesh.articulation.evidence import sweep_candidates, swept, unswept
 from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import away_from_closed, limits
 from anymesh.articulation.motion_classifier import PartMotionScores, likeliest
 from anymesh.articulation.motion_features import swept_features, unswept_features
-from anymesh.articulation.motion_question import BOX_RIM_ROLES, Candidate, MotionAnswer, MotionQuestion
 from anymesh.articulation.part_contexts import context_by_gaps, parents, part_context
 from anymesh.articulation.rank_motions import rank_motions, reason
 from anymesh.articulation.repeated_parts import in_a_row, same_size, share_opening_directions
@@ -42,20 +42,20 @@ class PartMotions(NamedTuple):
     part: int
     parent: int
     context: PartContext
-    question: MotionQuestion
+    motions: CandidateMotions
 
 
 def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions]) -> tuple[Joint, ...]:
     """Return one joint for every part but the root, in the order of the parts.
 
-    motions: as from `motion_questions`.
+    motions: as from `part_motions`.
     """
     parts = segmentation.parts
-    joints = {m.part: estimate_joint(m.context, parts[m.part].name, parts[m.parent].name, m.question) for m in motions}
+    joints = {m.part: estimate_joint(m.context, parts[m.part].name, parts[m.parent].name, m.motions) for m in motions}
     return tuple(joints[i] for i in sorted(joints))
 
 
-def motion_questions(
+def part_motions(
     whole: ObjectShape, segmentation: Segmentation, config: Config, deadline: Deadline | None = None
 ) -> Iterator[PartMotions]:
     """Yield the motions of each part but the root, copies together.
@@ -75,28 +75,28 @@ def motion_questions(
         ]
         for i, context, motions in zip(numbers, contexts, scored, strict=True):
             row = (m for m, a in zip(scored, contexts, strict=True) if a is not context and in_a_row(context, a))
-            yield PartMotions(i, parent[i], context, motions.question(tuple(itertools.islice(row, MAX_COPIES))))
+            yield PartMotions(i, parent[i], context, motions.averaged(tuple(itertools.islice(row, MAX_COPIES))))
 
 
 def with_labels_of(segmentation: Segmentation, motions: Iterable[PartMotions]) -> list[PartMotions]:
     """Return the motions of parts with the same faces, with the labels of this segmentation."""
 
     def named(m: PartMotions) -> PartMotions:
-        part = replace(m.question.part, label=segmentation.parts[m.part].label)
-        return m._replace(question=replace(m.question, part=part))
+        part = replace(m.motions.part, label=segmentation.parts[m.part].label)
+        return m._replace(motions=replace(m.motions, part=part))
 
     return [named(m) for m in motions]
 
 
-def choose_motion(context: PartContext, question: MotionQuestion) -> tuple[MotionAnswer, Candidate]:
-    """Return the answer on how a part moves, and the chosen candidate."""
-    answer = rank_motions(question)
-    return answer, _clear_of_others(context, question.candidates[answer.ranking[0]], question.candidates)
+def choose_motion(context: PartContext, motions: CandidateMotions) -> tuple[MotionChoice, Candidate]:
+    """Return the choice on how a part moves, and the chosen candidate."""
+    choice = rank_motions(motions)
+    return choice, _clear_of_others(context, motions.candidates[choice.ranking[0]], motions.candidates)
 
 
-def question_of_all_motions(context: PartContext, label: str) -> MotionQuestion:
+def all_motions(context: PartContext, label: str) -> CandidateMotions:
     """Propose, sweep and score all motions of a part by itself."""
-    return PartMotionScores(context, label, sweep_candidates(context, propose(context))).question()
+    return PartMotionScores(context, label, sweep_candidates(context, propose(context))).averaged()
 
 
 def score_motions(context: PartContext, label: str, most: int) -> PartMotionScores:
@@ -141,15 +141,15 @@ def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:
     return bool(a.motion.distance(b.motion.origin[None])[0] < MAX_RIM_THICKNESSES * thickness)
 
 
-def estimate_joint(context: PartContext, name: str, parent: str, question: MotionQuestion) -> Joint:
+def estimate_joint(context: PartContext, name: str, parent: str, motions: CandidateMotions) -> Joint:
     """Estimate the joint of one part."""
-    answer, best = choose_motion(context, question)
+    choice, best = choose_motion(context, motions)
     opened = away_from_closed(context, best)
-    if answer.type is JointType.FIXED:  # the part is known to move
-        kind, why = best.motion.kind, f"{answer.reason}; most likely: {best.motion.source}"
+    if choice.type is JointType.FIXED:  # the part is known to move
+        kind, why = best.motion.kind, f"{choice.reason}; most likely: {best.motion.source}"
     else:
-        kind, why = answer.type, reason(opened)
-    return joint_of(context, name, parent, opened, kind, answer.confidence, why)
+        kind, why = choice.type, reason(opened)
+    return joint_of(context, name, parent, opened, kind, choice.confidence, why)
 
 
 def joint_of(
@@ -199,10 +199,10 @@ def stays_free(
     part, if known.
     """
     alone, gained = context_by_gaps(whole, without, part, config), context_by_gaps(whole, joined, part, config)
-    question = question_of_all_motions(alone, "part")
+    motions = all_motions(alone, "part")
     best: dict[int, Candidate] = {}  # the better one of the two directions along each axis
-    for k in rank_motions(question).ranking:
-        best.setdefault(id(question.candidates[k].motion), question.candidates[k])
+    for k in rank_motions(motions).ranking:
+        best.setdefault(id(motions.candidates[k].motion), motions.candidates[k])
     kinds = (JointType.REVOLUTE, JointType.PRISMATIC)
     if moves is not None:
         kinds = (JointType.PRISMATIC if moves is JointType.PRISMATIC else JointType.REVOLUTE,)

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.articulation.motion_question import Candidate, ProposedMotion, Role
+from anymesh.articulation.candidate_motions import Candidate, ProposedMotion, Role
 from anymesh.config import ACROSS_COSINE
 from anymesh.geometry.circles import MIN_CIRCLE_ROUNDNESS
 from anymesh.geometry.sweep import free_amounts, sweep_all

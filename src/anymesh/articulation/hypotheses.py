@@ -12,8 +12,8 @@ from collections.abc import Iterable
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.articulation.candidate_motions import ProposedMotion
 from anymesh.articulation.evidence import contact_points
-from anymesh.articulation.motion_question import ProposedMotion
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import fit_revolution, outline_about
 from anymesh.motion.part_context import PartContext

@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.articulation.motion_question import (
+from anymesh.articulation.candidate_motions import (
     BOX_RIM_ROLES,
     MIN_FREE_ANGLE_RAD,
     MIN_FREE_TRAVEL_RATIO,

@@ -11,8 +11,8 @@ from functools import cache
 import numpy as np
 from jaxtyping import Float, Int
 
+from anymesh.articulation.candidate_motions import Candidate, CandidateMotions, PartFacts
 from anymesh.articulation.motion_features import Features, motion_features
-from anymesh.articulation.motion_question import Candidate, MotionQuestion, PartFacts
 from anymesh.articulation.repeated_parts import ScoredMotions, mean_over_copies
 from anymesh.motion.part_context import PartContext
 from anymesh.scoring.classifier import Classifier
@@ -30,13 +30,13 @@ class PartMotionScores:
         axes = np.array([c.motion.axis for c in candidates]).reshape(-1, 3)
         self.alone = ScoredMotions.of(classifier.names, self.table, axes, classifier.score(self.table))
 
-    def question(self, copies: Sequence[PartMotionScores] = ()) -> MotionQuestion:
-        """Return the question with the scores of all motions.
+    def averaged(self, copies: Sequence[PartMotionScores] = ()) -> CandidateMotions:
+        """Return the motions with their scores, averaged over copies.
 
         copies: parts of the same size in a row with this one.
         """
         scores = mean_over_copies(self.alone, [copy.alone for copy in copies])
-        return MotionQuestion(self.facts, self.candidates, scores)
+        return CandidateMotions(self.facts, self.candidates, scores)
 
 
 def likeliest(features: Sequence[Features], most: int) -> Int[np.ndarray, " m"]:

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Bool, Float
 
+from anymesh.articulation.candidate_motions import Candidate, CandidateMotions, MotionChoice, PartFacts, SlideDirection
 from anymesh.articulation.motion_classifier import shipped_classifier
-from anymesh.articulation.motion_question import Candidate, MotionAnswer, MotionQuestion, PartFacts, SlideDirection
 from anymesh.config import FACING_COSINE, LEVEL_COSINE, SAME_AXIS_COSINE
 from anymesh.motion.part_context import PartContext
 from anymesh.scoring import by_hand
@@ -24,24 +24,24 @@ MIN_DRAWER_TRAVEL_RATIO = 0.1  # of its size: a slide with less travel is not la
 MIN_OPEN_LID_RISE_RATIO = 0.5
 
 
-def rank_motions(question: MotionQuestion) -> MotionAnswer:
+def rank_motions(motions: CandidateMotions) -> MotionChoice:
     """Rank the candidates by score.
 
     An endless rotation is about the axis of the round outline, if that is the same joint to a user; it has no opening side, so
     its axis keeps the sign that it is proposed with. The confidence comes from the probability of the candidates that a user
     sees as the best one; a label does not count, since it may be made from the motion.
     """
-    scores = motion_scores(question)
+    scores = motion_scores(motions)
     order = [int(i) for i in np.argsort(-scores, kind="stable")]
-    same = same_joints(question.part, question.candidates, order[0])
-    if question.candidates[order[0]].is_endless:
-        order.sort(key=lambda k: _order_of_endless(question.candidates[k], same=bool(same[k])))
-    ranking, best = tuple(order), question.candidates[order[0]]
+    same = same_joints(motions.part, motions.candidates, order[0])
+    if motions.candidates[order[0]].is_endless:
+        order.sort(key=lambda k: _order_of_endless(motions.candidates[k], same=bool(same[k])))
+    ranking, best = tuple(order), motions.candidates[order[0]]
     if not best.is_free:
-        return MotionAnswer(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "blocked whichever way it is moved")
-    share = np.clip(share_of_best(_scores_by_geometry(question), same), 1e-6, 1 - 1e-6)
+        return MotionChoice(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "blocked whichever way it is moved")
+    share = np.clip(share_of_best(_scores_by_geometry(motions), same), 1e-6, 1 - 1e-6)
     confidence = shipped_classifier().confidence(float(np.log(share / (1 - share))))
-    return MotionAnswer(ranking, joint_type(best), confidence, reason(best))
+    return MotionChoice(ranking, joint_type(best), confidence, reason(best))
 
 
 def _order_of_endless(c: Candidate, *, same: bool) -> tuple[bool, bool]:
@@ -50,18 +50,18 @@ def _order_of_endless(c: Candidate, *, same: bool) -> tuple[bool, bool]:
     return not continuous, continuous and c.opening_sign < 0
 
 
-def _scores_by_geometry(question: MotionQuestion) -> Float[np.ndarray, " k"]:
+def _scores_by_geometry(motions: CandidateMotions) -> Float[np.ndarray, " k"]:
     """Return the log-odds of each candidate, with a penalty for blocked motions."""
-    return question.scores + np.array([0.0 if c.is_free else by_hand.BLOCKED_SCORE for c in question.candidates])
+    return motions.scores + np.array([0.0 if c.is_free else by_hand.BLOCKED_SCORE for c in motions.candidates])
 
 
-def motion_scores(question: MotionQuestion) -> Float[np.ndarray, " k"]:
+def motion_scores(motions: CandidateMotions) -> Float[np.ndarray, " k"]:
     """Return the log-odds of each candidate, with a penalty for blocked motions and a prior from the label."""
-    scores = _scores_by_geometry(question)
-    prior = by_hand.LABEL_PRIOR.get(typical) if (typical := typical_motion(question.part.label)) else None
+    scores = _scores_by_geometry(motions)
+    prior = by_hand.LABEL_PRIOR.get(typical) if (typical := typical_motion(motions.part.label)) else None
     if prior is None:
         return scores
-    kinds = [2 if c.motion.kind is JointType.PRISMATIC else int(c.role == "round") for c in question.candidates]
+    kinds = [2 if c.motion.kind is JointType.PRISMATIC else int(c.role == "round") for c in motions.candidates]
     return scores + np.array(prior)[kinds]
 
 

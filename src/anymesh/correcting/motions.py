@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.articulation.estimate import joint_of, question_of_all_motions
+from anymesh.articulation.estimate import all_motions, joint_of
 from anymesh.articulation.part_contexts import part_context
 from anymesh.articulation.rank_motions import joint_type, motion_scores, reason
 from anymesh.config import Config
@@ -78,13 +78,13 @@ def ranked_motions(
     shapes = [whole.of(np.flatnonzero(label == k)) for k in range(len(names))]
     number = part_number(asset, part)
     context = part_context(whole, label, shapes, [hangs.get(n, -1) for n in names], number, settings.articulation)
-    question = question_of_all_motions(context, asset.segmentation.parts[number].label)
-    scores = motion_scores(question)
-    free = [k for k in np.argsort(-scores, kind="stable") if question.candidates[k].is_free]
+    scored = all_motions(context, asset.segmentation.parts[number].label)
+    scores = motion_scores(scored)
+    free = [k for k in np.argsort(-scores, kind="stable") if scored.candidates[k].is_free]
     total = float(np.exp(scores[free] - scores.max()).sum()) if free else 1.0
     motions: list[ChooseMotion] = []
     for k in free:
-        c = question.candidates[k]
+        c = scored.candidates[k]
         joint = joint_of(context, part, names[hangs[part]], c, joint_type(c), 1.0, reason(c))
         motion = _choice(turned_back(joint, ready.T_straight), float(np.exp(scores[k] - scores.max()) / total))
         if not any(_alike(other, motion, asset.mesh.diagonal) for other in motions):

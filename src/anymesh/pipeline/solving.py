@@ -11,7 +11,7 @@ from typing import Protocol
 import numpy as np
 from jaxtyping import Bool
 
-from anymesh.articulation.estimate import PartMotions, choose_motion, estimate_joints, motion_questions, with_labels_of
+from anymesh.articulation.estimate import PartMotions, choose_motion, estimate_joints, part_motions, with_labels_of
 from anymesh.articulation.rank_motions import label_of
 from anymesh.config import Config
 from anymesh.entry_points import PROMPTED_STAGES, resolve
@@ -70,7 +70,8 @@ class GeometryStages:
         self, segmentation: Segmentation, recognition: Recognition | None, progress: Progress = silent, grounded: bool = False
     ) -> JointResult:
         """Run Stage B."""
-        return joint_result(self.joints(segmentation, progress), self.name, self.deadline.warnings())
+        joints = estimate_joints(segmentation, self._motions(segmentation, progress))
+        return joint_result(joints, self.name, self.deadline.warnings())
 
     def parts(self, progress: Progress = silent) -> Segmentation:
         """Return the parts found by geometry, computed once.
@@ -101,16 +102,16 @@ class GeometryStages:
     def _labels(self, segmentation: Segmentation) -> list[str]:
         """Return a label of each part but the base from its motion by geometry; "" for a part that cannot move."""
         labels = {}
-        for i, _, context, question in self._motions(segmentation):
-            answer, best = choose_motion(context, question)
-            labels[i] = "" if answer.type is JointType.FIXED else label_of(context, best)
+        for i, _, context, motions in self._motions(segmentation):
+            choice, best = choose_motion(context, motions)
+            labels[i] = "" if choice.type is JointType.FIXED else label_of(context, best)
         return [labels[i] for i in sorted(labels)]
 
     def _motions(self, segmentation: Segmentation, progress: Progress = silent) -> list[PartMotions]:
         """Sweep the motions of all parts; the last result is cached."""
         faces = segmentation.face_part.tobytes()
         if self._swept is None or self._swept[0] != faces:
-            motions = motion_questions(self.shape_for(segmentation), segmentation, self.config, self.deadline)
+            motions = part_motions(self.shape_for(segmentation), segmentation, self.config, self.deadline)
             self._swept = faces, list(_with_progress(motions, segmentation, progress))
             return self._swept[1]
         return list(_with_progress(with_labels_of(segmentation, self._swept[1]), segmentation, progress))
@@ -121,10 +122,6 @@ class GeometryStages:
         if (label == label[whole.source][np.unique(whole.patch, return_index=True)[1]][whole.mesh_patch]).all():
             return whole
         return self._divided.simplified(self.config.patches, label)
-
-    def joints(self, segmentation: Segmentation, progress: Progress = silent) -> tuple[Joint, ...]:
-        """Return the joints of parts by geometry."""
-        return estimate_joints(segmentation, self._motions(segmentation, progress))
 
 
 def _with_progress(swept: Iterable[PartMotions], segmentation: Segmentation, progress: Progress) -> Iterator[PartMotions]:
@@ -188,15 +185,6 @@ class Solver:
             self.geometry if answerer_factory is None else resolve(PROMPTED_STAGES)(self.geometry, answerer_factory)
         )
 
-    @property
-    def whole(self) -> ObjectShape:
-        """Return the object as both stages use it: straight if geometry answers, and then in the frame of `geometry.mesh`."""
-        return self.geometry.whole
-
-    def recognize(self, *, sized: bool = False, metric: bool = False) -> RecognitionResult:
-        """Recognize the object, see `StageAnswerer`."""
-        return self.answers.recognize(sized=sized, metric=metric)
-
     def parts(
         self, parts: str = "auto", recognition: Recognition | None = None, progress: Progress = silent
     ) -> SegmentationResult:
@@ -233,7 +221,7 @@ def solve(
     solver = Solver(mesh, config, answerer_factory)
     if given is not None:
         return given, solver.joints(given).joints
-    recognition = solver.recognize().recognition
+    recognition = solver.answers.recognize().recognition
     segmentation = solver.parts("auto", recognition).segmentation
     jointed = solver.joints(segmentation, recognition, grounded=True)
     return jointed.segmentation or segmentation, jointed.joints

@@ -87,11 +87,11 @@ def recognize(run: Run, loaded: Keyed[LoadResult], parts: str, *, sized: bool) -
     if parts != "auto":
         solver.parts(parts)  # report invalid parts before any model call
     if not solver.answers.recognizes:
-        return solver, Keyed(solver.recognize(), loaded.key)
+        return solver, Keyed(solver.answers.recognize(), loaded.key)
     metric = loaded.result.metric
     settings = {**who.settings("verify", "proposer"), "sized": sized, "metric": metric}
     key = stage_key(RECOGNITION, previous=loaded.key, config=settings)
-    recognized = run.answered(RECOGNITION, key, "recognize", lambda: solver.recognize(sized=sized, metric=metric))
+    recognized = run.answered(RECOGNITION, key, "recognize", lambda: solver.answers.recognize(sized=sized, metric=metric))
     final = recognized.sized(loaded.result)
     return (solver if final is loaded.result else run.solver(final.mesh)), Keyed(recognized, key)
 

@@ -50,7 +50,7 @@ class PromptedStages:
 
     def _reference(self, segmentation: Segmentation) -> Reference:
         """Return the reference made of geometry's answers, the fallback of a model."""
-        joints = self._geometry.joints(segmentation)
+        joints = self._geometry.estimate_joints(segmentation, None).joints
         return reference_of(self.mesh, segmentation, joints, self.config.category or "object")
 
     @cached_property

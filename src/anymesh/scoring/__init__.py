@@ -1,1 +1,1 @@
-"""Learned scores of candidates, used by both stages."""
+"""Scores of candidates, used by both stages: learned ones, and those set by hand."""

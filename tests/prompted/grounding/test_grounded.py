@@ -32,7 +32,7 @@ def found_in(
     truth = TRUTHS[name]
     placed = place_mesh(load_mesh(truth.mesh))
     solver = Solver(placed.mesh, Config(grounding=grounding, views=VIEWS, proposer=proposer), lambda _: oracle(prepared(truth)))
-    return truth, placed.mesh, solver.parts("auto", solver.recognize().recognition)
+    return truth, placed.mesh, solver.parts("auto", solver.answers.recognize().recognition)
 
 
 def ious(truth: GroundTruth, mesh: Mesh, found: Segmentation) -> dict[str, float]:
@@ -53,7 +53,7 @@ def test_parts_inside_come_from_geometry_without_an_answer() -> None:
     truth = TRUTHS["microwave"]
     placed = place_mesh(load_mesh(truth.mesh))
     solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: oracle(prepared(truth)))
-    asked = [label for label in solver.recognize().recognition.labels if label.label != "wheel"]
+    asked = [label for label in solver.answers.recognize().recognition.labels if label.label != "wheel"]
     found = solver.parts("auto", Recognition("microwave", None, tuple(asked)))
     assert "wheel" in ious(truth, placed.mesh, found.segmentation) or len(found.segmentation.parts) == len(truth.parts)
     assert "no view shows it" in next(p.reason for p in found.segmentation.parts if p.label == "wheel")
@@ -114,7 +114,7 @@ def test_marks_take_one_question_whose_captions_name_sides_by_the_recognized_fro
             return replace(found, front=90.0)
 
     solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: Watched())
-    recognition = solver.recognize().recognition
+    recognition = solver.answers.recognize().recognition
     found = solver.parts("auto", recognition)
     assert [q.kind for q in asked] == ["recognize", "marks"]  # which views show a label is asked about masks alone
     assert any(p.caption == "picture 1: turned by 0 degrees, 15 degrees up" for p in asked[0].pictures)

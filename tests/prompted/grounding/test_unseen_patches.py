@@ -22,7 +22,7 @@ def pieces(*more) -> tuple[ObjectShape, np.ndarray]:
     The panel is part 1, and patches behind it are unseen.
     """
     mesh, piece = mesh_of([*WALLS, FRONT, *more])
-    whole = Solver(mesh).whole
+    whole = Solver(mesh).geometry.whole
     of = np.zeros(int(whole.mesh_patch.max()) + 1, int)
     of[whole.mesh_patch] = piece
     return whole, np.where(of < 5, 0, np.where(of == 5, 1, -1))

@@ -10,7 +10,7 @@ import numpy as np
 from assets import box
 from scenes import Scene, built, case, door, drawer, lid, slider, wheel
 
-from anymesh.articulation.motion_question import MotionQuestion
+from anymesh.articulation.candidate_motions import CandidateMotions
 from anymesh.config import Config, PromptConfig, ViewsConfig
 from anymesh.geometry.patches import ObjectShape
 from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer
@@ -110,7 +110,7 @@ def cases_once(
     return list(once(lambda: make_cases(whole, segmentation, recognition, config), *key))
 
 
-def scored_once(case: PartCase) -> MotionQuestion:
+def scored_once(case: PartCase) -> CandidateMotions:
     """Return `scored_motions`, computed once for the same answered motion: it does not depend on the answered kind."""
     asked = case.asked and (case.asked.kind, case.asked.source, case.asked.axis.tobytes(), case.asked.origin.tobytes())
     return once(lambda: scored_motions(case), case.context, case.label, asked)

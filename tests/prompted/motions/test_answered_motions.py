@@ -12,7 +12,7 @@ from known import KNOWN, QUICK, ready, the_case
 from made import EDGE, PULL, X, Y, Z, slide, turn
 from scenes import door, prism
 
-from anymesh.articulation.estimate import motion_questions, stays_free
+from anymesh.articulation.estimate import part_motions, stays_free
 from anymesh.config import Config, PromptConfig
 from anymesh.prompted.motions.cases import PartCase, labels_by_name, make_cases, relabelled, unlabelled
 from anymesh.prompted.motions.joints import _joint, as_answered, normal_outwards
@@ -232,11 +232,11 @@ def test_shares_of_the_offers_sum_to_one_and_the_answer_is_among_them() -> None:
 def test_after_the_deadline_the_likeliest_motions_are_swept_alone() -> None:
     _, whole, segmentation = ready(door("left"))
     late = Deadline(1e-9)
-    ((_, _, _, question),) = motion_questions(whole, segmentation, Config(), late)
-    assert len(question.candidates) == 2 * Config().articulation.late_swept
-    ((_, _, _, full),) = motion_questions(whole, segmentation, Config())
+    ((_, _, _, motions),) = part_motions(whole, segmentation, Config(), late)
+    assert len(motions.candidates) == 2 * Config().articulation.late_swept
+    ((_, _, _, full),) = part_motions(whole, segmentation, Config())
     assert len(full.candidates) == 2 * Config().articulation.most_swept
-    assert {c.motion.source for c in question.candidates} <= {c.motion.source for c in full.candidates}
+    assert {c.motion.source for c in motions.candidates} <= {c.motion.source for c in full.candidates}
 
 
 @pytest.mark.parametrize(

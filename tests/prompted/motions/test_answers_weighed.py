@@ -12,7 +12,7 @@ from known import QUICK, the_case
 from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, Z, candidate, turn
 from scenes import door
 
-from anymesh.articulation.motion_question import Candidate
+from anymesh.articulation.candidate_motions import Candidate
 from anymesh.prompted.motions.cases import PartCase, contradictions
 from anymesh.prompted.motions.offers import MotionOffers, _crowding, _pages, fits, moves_as
 from anymesh.prompted.motions.verify import MotionQuestioner, choose_motions

@@ -13,8 +13,8 @@ from made import Y, context_of
 from scenes import prism
 from trimesh.creation import annulus
 
+from anymesh.articulation.candidate_motions import PartFacts
 from anymesh.articulation.motion_features import part_values
-from anymesh.articulation.motion_question import PartFacts
 from anymesh.prompted.motions.joints import PromptedJoints, Questions, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, PointTable

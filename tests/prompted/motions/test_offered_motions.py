@@ -12,9 +12,9 @@ from known import the_case
 from made import EDGE, PLATE, PULL, X, Z, context_of, slide, turn
 from scenes import door
 
+from anymesh.articulation.candidate_motions import Candidate, CandidateMotions
 from anymesh.articulation.estimate import choose_motion
 from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.motion_question import Candidate, MotionQuestion
 from anymesh.prompted.motions import offers
 from anymesh.prompted.motions.cases import PartCase
 from anymesh.prompted.motions.offers import MotionOffers, MovedPoints, make_offers, scored_motions
@@ -43,8 +43,8 @@ def offered(
     monkeypatch: pytest.MonkeyPatch, motions: list[Candidate], scores: list[float], kind=ALONG, moves=None, most: int = 7
 ) -> MotionOffers:
     """Return the offers of candidates with these scores; `part` has no typical motion, so that nothing is added."""
-    question = MotionQuestion(PLATE, tuple(motions), np.array(scores, float))
-    monkeypatch.setattr(offers, "scored_motions", lambda _: question)
+    scored = CandidateMotions(PLATE, tuple(motions), np.array(scores, float))
+    monkeypatch.setattr(offers, "scored_motions", lambda _: scored)
     told = RecognizedLabel("part", moves, None, None) if moves else None
     return make_offers(replace(door_case(), answer=KindAnswer(kind), recognized=told), most, 0)
 
@@ -156,8 +156,8 @@ def test_lines_at_one_rim_are_within_one_and_a_half_thicknesses(off: float, fron
     leaf, other = [box((0, -0.022, 0), (0.6, -0.002, 0.8))], [box((-0.6, -0.022, 0), (-0.001, -0.002, 0.8))]
     context = context_of(leaf, [box((-0.6, 0, 0), (0.6, 0.4, 0.8))], other)
     lines = tuple(replace(EDGE, motion=turn(Z, (0, y, 0)), opening_sign=-1) for y in (-0.002, -0.002 - off))
-    question = MotionQuestion(PLATE, lines, np.array([3.0, 0]))
-    chosen = choose_motion(context, question)[1]
+    scored = CandidateMotions(PLATE, lines, np.array([3.0, 0]))
+    chosen = choose_motion(context, scored)[1]
     assert chosen is lines[int(front)]
 
 

@@ -9,7 +9,7 @@ from assets import box
 from known import KNOWN, scored_once, the_case
 from scenes import Scene, door, prism
 
-from anymesh.articulation.motion_question import Candidate
+from anymesh.articulation.candidate_motions import Candidate
 from anymesh.prompted.motions.cases import PartCase
 from anymesh.prompted.motions.lines import CENTRAL
 from anymesh.prompted.motions.offers import (

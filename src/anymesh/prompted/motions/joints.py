@@ -10,11 +10,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from anymesh.articulation.candidate_motions import SlideDirection
 from anymesh.articulation.estimate import joint_of
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import answered_range, away_from_closed, opening_as_answered
 from anymesh.articulation.motion_classifier import PartMotionScores
-from anymesh.articulation.motion_question import SlideDirection
 from anymesh.config import FACING_COSINE, Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.prompted.motions.cases import (

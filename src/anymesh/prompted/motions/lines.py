@@ -12,8 +12,8 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial import KDTree
 
+from anymesh.articulation.candidate_motions import ProposedMotion, Role
 from anymesh.articulation.hypotheses import hinge_about
-from anymesh.articulation.motion_question import ProposedMotion, Role
 from anymesh.config import ALONG_COSINE, GroundingConfig, PromptConfig
 from anymesh.geometry.circles import MIN_CIRCLE_ROUNDNESS, outline_about
 from anymesh.geometry.patches import ObjectShape

@@ -11,18 +11,18 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.hypotheses import distinct, propose
-from anymesh.articulation.limits import STROKE_RATIO, answered_range, pressed
-from anymesh.articulation.motion_classifier import PartMotionScores
-from anymesh.articulation.motion_question import (
+from anymesh.articulation.candidate_motions import (
     BOX_RIM_ROLES,
     Candidate,
-    MotionQuestion,
+    CandidateMotions,
     PartFacts,
     ProposedMotion,
     SlideDirection,
 )
+from anymesh.articulation.evidence import sweep_candidates
+from anymesh.articulation.hypotheses import distinct, propose
+from anymesh.articulation.limits import STROKE_RATIO, answered_range, pressed
+from anymesh.articulation.motion_classifier import PartMotionScores
 from anymesh.articulation.rank_motions import motion_scores
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.cases import PartCase
@@ -86,8 +86,8 @@ def make_offers(case: PartCase, max_motions: int, seed: int) -> MotionOffers:
 
     max_motions: number of motions in a picture; seed: of their order in it.
     """
-    question = scored_motions(case)
-    facts, candidates, plain = question.part, list(question.candidates), motion_scores(question).tolist()
+    scored = scored_motions(case)
+    facts, candidates, plain = scored.part, list(scored.candidates), motion_scores(scored).tolist()
     values = [v + _agrees(c, case) - PICKED_POINT_PENALTY * (c.role == "asked") for v, c in zip(plain, candidates, strict=True)]
     order = sorted(range(len(candidates)), key=lambda k: (not candidates[k].is_free, -values[k], k))
     kept, amounts, answered, kin = _unlike(case, candidates, [k for k in order if _shown(candidates[k])])
@@ -107,7 +107,7 @@ def make_offers(case: PartCase, max_motions: int, seed: int) -> MotionOffers:
     )  # fmt: skip
 
 
-def scored_motions(case: PartCase) -> MotionQuestion:
+def scored_motions(case: PartCase) -> CandidateMotions:
     """Propose, sweep and score the motions of a part, in both opening directions if both are possible.
 
     The answered motion comes first, even if it repeats another.
@@ -117,13 +117,13 @@ def scored_motions(case: PartCase) -> MotionQuestion:
     circles: list[ProposedMotion] = [("circle", motion) for motion in case.circles]
     proposed = distinct([*proposed, *circles, *pivots(context, case.shown.normal)], context.tolerance_length)
     first: list[ProposedMotion] = [("asked", case.asked)] if case.asked is not None else []
-    question = PartMotionScores(context, case.label, sweep_candidates(context, first + proposed)).question()
-    scores, chosen = motion_scores(question), []
+    scored = PartMotionScores(context, case.label, sweep_candidates(context, first + proposed)).averaged()
+    scores, chosen = motion_scores(scored), []
     for k in range(0, len(scores), 2):
-        best, other = sorted((k, k + 1), key=lambda i: (not question.candidates[i].is_free, -scores[i]))
-        c = question.candidates[other]
+        best, other = sorted((k, k + 1), key=lambda i: (not scored.candidates[i].is_free, -scores[i]))
+        c = scored.candidates[other]
         chosen += [best] if c.is_endless or c.role == "asked" or not c.is_free else [best, other]
-    return MotionQuestion(question.part, tuple(question.candidates[k] for k in chosen), question.scores[chosen])
+    return CandidateMotions(scored.part, tuple(scored.candidates[k] for k in chosen), scored.scores[chosen])
 
 
 def fits(c: Candidate, kind: JointAppearance) -> bool:

@@ -1,7 +1,4 @@
-"""Motion questions with their facts and candidates, and their answers.
-
-Answers are validated when constructed.
-"""
+"""Candidate motions of a part with their evidence from the sweep, and the motion that is chosen among them."""
 
 from __future__ import annotations
 
@@ -123,8 +120,8 @@ class Candidate:
 
 
 @dataclass(frozen=True, eq=False)
-class MotionQuestion:
-    """Question how a part moves: by one of the candidates, or not at all.
+class CandidateMotions:
+    """The motions among which the joint of a part is chosen.
 
     scores: (k,) log-odds that each candidate is right.
     """
@@ -135,8 +132,8 @@ class MotionQuestion:
 
 
 @dataclass(frozen=True)
-class MotionAnswer:
-    """Answer to a motion question.
+class MotionChoice:
+    """How a part moves.
 
     ranking: candidate indices, best first; type: the joint's; confidence: 0..1; reason: in words.
     """
@@ -148,4 +145,4 @@ class MotionAnswer:
 
     def __post_init__(self) -> None:
         if not 0 <= self.confidence <= 1 or not self.reason:
-            raise ValueError(f"an answer needs a confidence in 0..1 and a reason, found {self.confidence}, {self.reason!r}")
+            raise ValueError(f"a choice needs a confidence in 0..1 and a reason, found {self.confidence}, {self.reason!r}")
