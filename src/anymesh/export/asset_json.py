@@ -12,7 +12,7 @@ import numpy as np
 import anymesh
 from anymesh.export.formats import Format, main_file
 from anymesh.export.model import ExportLink, Model
-from anymesh.types import Exchange, Joint, Mesh
+from anymesh.types import Exchange, Joint, Mesh, Source
 
 SCHEMA_VERSION = "1.2"
 TIMING_FILE = "timing.json"  # separate, so that everything else is the same in every run
@@ -21,18 +21,11 @@ TIMING_FILE = "timing.json"  # separate, so that everything else is the same in 
 def asset_record(model: Model, formats: Sequence[Format]) -> dict[str, Any]:
     """Return the content of asset.json as plain values."""
     asset = model.asset
-    source = asset.source
     return {
         "schema_version": SCHEMA_VERSION,
         "generator": {"name": "articulate-anymesh", "version": anymesh.__version__},
         "name": asset.name,
-        "source": {
-            "path": source.path,
-            "sha256": source.sha256,
-            "T_asset_source": source.T_asset_source.tolist(),
-            "up": source.up,
-            "notes": list(source.notes),
-        },
+        "source": source_record(asset.source),
         "base": str(model.base),
         "drives": str(model.driven),
         "files": {str(kind): main_file(kind, asset.name) for kind in formats},
@@ -44,6 +37,17 @@ def asset_record(model: Model, formats: Sequence[Format]) -> dict[str, Any]:
         "finish": list(asset.notes),
         "warnings": list(asset.warnings),
         "timing": TIMING_FILE,
+    }
+
+
+def source_record(source: Source) -> dict[str, Any]:
+    """Return where a mesh came from as plain values."""
+    return {
+        "path": source.path,
+        "sha256": source.sha256,
+        "T_asset_source": source.T_asset_source.tolist(),
+        "up": source.up,
+        "notes": list(source.notes),
     }
 
 

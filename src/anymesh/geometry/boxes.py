@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.types import Joint, Mesh
-from anymesh.types.triangles import bounds_of, boxes_meet, cross
+from anymesh.types.triangles import about_z, bounds_of, boxes_meet, cross
 
 MAX_SIDE_DIFFERENCE_RATIO = 0.03  # maximum difference of the sides of copies, over the diagonal
 MIN_COPY_COSINE = 0.99  # minimum cosine between the axes of copies
@@ -178,10 +178,7 @@ def straightening(normals: Float[np.ndarray, "F 3"], areas: Float[np.ndarray, " 
     upright = areas * np.hypot(normals[:, 0], normals[:, 1]) ** 4  # a level face has no direction, and a sloping one hardly any
     mean = np.sum(upright * np.exp(4j * np.arctan2(normals[:, 1], normals[:, 0]))) / max(float(upright.sum()), 1e-300)
     yaw = -float(np.angle(mean)) / 4
-    T = np.eye(4)
-    if abs(mean) >= MIN_ALIGNED_SHARE and abs(yaw) >= MIN_YAW_RAD:
-        T[:2, :2] = [[np.cos(yaw), -np.sin(yaw)], [np.sin(yaw), np.cos(yaw)]]
-    return T
+    return about_z(yaw) if abs(mean) >= MIN_ALIGNED_SHARE and abs(yaw) >= MIN_YAW_RAD else np.eye(4)
 
 
 def straight_mesh(mesh: Mesh) -> tuple[Mesh, Float[np.ndarray, "4 4"]]:

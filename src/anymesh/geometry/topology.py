@@ -113,6 +113,20 @@ def label_connected(count: int, pairs: Int[np.ndarray, "m 2"]) -> Int[np.ndarray
     return rank[raw]
 
 
+def strongest(
+    row: Int[np.ndarray, " n"], column: Int[np.ndarray, " n"], weight: np.ndarray | None, count: int
+) -> tuple[Int[np.ndarray, " r"], Int[np.ndarray, " r"]]:
+    """Return the distinct rows, ascending, and for each the column with the greatest total weight, the lowest of equal ones.
+
+    weight: of each pair, None for 1; count: number of columns.
+    """
+    key, pair = np.unique(row.astype(np.int64) * count + column, return_inverse=True)
+    total = np.bincount(pair.reshape(-1), weight)
+    order = np.lexsort((key % count, -total, key // count))
+    best = key[order[np.r_[True, np.diff(key[order] // count) != 0]]]
+    return best // count, best % count
+
+
 def weld(vertices: Float[np.ndarray, "V 3"]) -> Int[np.ndarray, " V"]:
     """Return an index per position: vertices closer than one part in 2**24 of the largest extent share it.
 

@@ -14,6 +14,7 @@ from typing import Any, Generic, TypeVar
 import numpy as np
 
 import anymesh
+from anymesh.export.asset_json import source_record
 from anymesh.names import legal_name
 from anymesh.pipeline.results import (
     CompletionResult,
@@ -46,16 +47,9 @@ class Stage(Generic[Result]):
 
 
 def _pack_load(result: LoadResult) -> tuple[Record, dict[str, np.ndarray]]:
-    source = result.source
     record, arrays = _pack_mesh(result.mesh)
     record |= {
-        "source": {
-            "path": source.path,
-            "sha256": source.sha256,
-            "T_asset_source": source.T_asset_source.tolist(),
-            "up": source.up,
-            "notes": list(source.notes),
-        },
+        "source": source_record(result.source),
         "warnings": list(result.warnings),
         "metric": result.metric,
     }
@@ -136,11 +130,8 @@ def _pack_recognition(result: RecognitionResult) -> tuple[Record, dict[str, np.n
 
 def _unpack_recognition(record: Record, arrays: Arrays) -> RecognitionResult:
     def label(label_record: Record) -> RecognizedLabel:
-        limits = (
-            None if label_record["limits"] is None else (float(label_record["limits"][0]), float(label_record["limits"][1]))
-        )
         moves = None if label_record["moves"] is None else JointType(label_record["moves"])
-        return RecognizedLabel(label_record["label"], moves, label_record["parent"], limits)
+        return RecognizedLabel(label_record["label"], moves, label_record["parent"], _limits(label_record))
 
     r = record["recognition"]
     recognition = None
@@ -151,6 +142,10 @@ def _unpack_recognition(record: Record, arrays: Arrays) -> RecognitionResult:
     return RecognitionResult(
         recognition, record["answerer"], record["scale"], record["note"], tuple(record["warnings"]), exchanges
     )
+
+
+def _limits(record: Record) -> tuple[float, float] | None:
+    return None if record["limits"] is None else (float(record["limits"][0]), float(record["limits"][1]))
 
 
 def _pack_segmentation(result: SegmentationResult) -> tuple[Record, dict[str, np.ndarray]]:
@@ -176,8 +171,7 @@ def _pack_joint(joint: Joint) -> Record:
 
 
 def _unpack_joint(record: Record) -> Joint:
-    limits = None if record["limits"] is None else (float(record["limits"][0]), float(record["limits"][1]))
-    values: dict[str, Any] = {**record, "type": JointType(record["type"]), "limits": limits}
+    values: dict[str, Any] = {**record, "type": JointType(record["type"]), "limits": _limits(record)}
     values["origin"], values["axis"] = np.array(record["origin"], float), np.array(record["axis"], float)
     return Joint(**values)
 

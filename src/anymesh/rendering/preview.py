@@ -131,6 +131,12 @@ def best_camera(asset: Asset, opened: Mesh, scenes: Sequence[RayScene]) -> Camer
     return orbit_camera(bounds, np.deg2rad(best), np.deg2rad(ELEVATION), SIZE)
 
 
+def opened_view(asset: Asset) -> tuple[Mesh, Camera]:
+    """Return the mesh with its joints opened as in the preview, and the view that `best_camera` chooses."""
+    opened = posed(asset, {j.name: shown_position(j) for j in asset.joints})
+    return opened, best_camera(asset, opened, [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)])
+
+
 def extent(joint: Joint) -> str:
     """Format the range of a joint in degrees or centimetres."""
     if joint.limits is None:

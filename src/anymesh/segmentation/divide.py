@@ -11,7 +11,7 @@ from anymesh.geometry.creases import convex_regions, divide_at_seams
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.patches import DividedSurface, ObjectShape
 from anymesh.geometry.surface import MeshSurface, mesh_surface
-from anymesh.geometry.topology import label_connected
+from anymesh.geometry.topology import label_connected, strongest
 from anymesh.geometry.triangle_set import spread_points
 from anymesh.segmentation.handles import region_sizes
 from anymesh.segmentation.panels import split_panels
@@ -128,12 +128,8 @@ def _absorb_crumbs(
         use = small[source] & (source != target)
         if not use.any():
             break
-        count = len(small)
-        key, where = np.unique(source[use].astype(np.int64) * count + target[use], return_inverse=True)
-        total = np.bincount(where.reshape(-1), weight[use])
-        order = np.lexsort((key % count, -total, key // count))
-        first = order[np.r_[True, np.diff(key[order] // count) != 0]]
-        region = label_connected(count, np.c_[key[first] // count, key[first] % count])[region]
+        joined = strongest(source[use], target[use], weight[use], len(small))
+        region = label_connected(len(small), np.stack(joined, 1))[region]
     return region
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
@@ -45,6 +46,14 @@ class Exchange:
     cost: float | None  # [USD], None if the price is unknown
     cached: bool  # taken from the cache or a recording, without cost
     seconds: float
+
+    @property
+    def indented_answer(self) -> str:
+        """Return the answer for display: indented if it is JSON."""
+        try:
+            return json.dumps(json.loads(self.answer), indent=2, ensure_ascii=False)
+        except (ValueError, RecursionError):
+            return self.answer or "(empty)"
 
     @property
     def given_up(self) -> bool:

@@ -47,6 +47,13 @@ def transformed(points: Float[np.ndarray, "*n 3"], T: Float[np.ndarray, "4 4"]) 
     return points @ T[:3, :3].T + T[:3, 3]
 
 
+def about_z(angle: float) -> Float[np.ndarray, "4 4"]:
+    """Return the rotation by `angle` [rad] about z."""
+    T = np.eye(4)
+    T[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    return T
+
+
 def quartered(triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, "G 3 3"]:
     """Return each triangle as four of half its size."""
     a, b, c = triangles.transpose(1, 0, 2)

@@ -28,7 +28,7 @@ from anymesh.rendering.drawing import (
     smoothed,
 )
 from anymesh.rendering.marks import axis_shapes, draw_axes, font
-from anymesh.rendering.preview import best_camera, part_colors, shown_position
+from anymesh.rendering.preview import best_camera, opened_view, part_colors, shown_position
 from anymesh.rendering.viewpoints import away, framed
 from anymesh.runtime import Progress, silent, writing
 from anymesh.types import Asset, JointType, Mesh
@@ -94,9 +94,7 @@ def film(asset: Asset, how: Turntable) -> Iterator[UInt8[np.ndarray, "H W 3"]]:
     moving = tracks(asset.joints, ExportConfig())
     length = LOOPS * float(max((t.times[-1] for t in moving), default=4.0))
     count = max(2, round(length * how.rate))
-    opened = posed(asset, {j.name: shown_position(j) for j in asset.joints})
-    begin = best_camera(asset, opened, [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)])
-    toward = -begin.T_world_camera[:3, 2]
+    toward = -opened_view(asset)[1].T_world_camera[:3, 2]
     front = float(np.arctan2(toward[0], -toward[1]))
     points = np.concatenate([asset.mesh.vertices, *_reach(asset)])
     asset = replace(asset, mesh=smoothed(asset.mesh))
@@ -204,10 +202,8 @@ def _moving(asset: Asset, size: int, materials: bool) -> tuple[float, Callable[[
     def pose(time: float) -> Mesh:
         return posed(asset, {t.joint.name: float(np.interp(time, t.times, t.amounts)) for t in moving})
 
-    opened = posed(asset, {j.name: shown_position(j) for j in asset.joints})
-    viewpoint = best_camera(asset, opened, [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)])
     reached = np.concatenate([pose(time).vertices for time in np.linspace(0, length, FITTED)])
-    camera = framed(viewpoint, reached, MARGIN, size)
+    camera = framed(opened_view(asset)[1], reached, MARGIN, size)
     return length, lambda time: drawn_pose(asset, pose(time), camera, color)
 
 

@@ -111,15 +111,8 @@ def _question(number: int, exchange: Exchange, entry: ReportEntry) -> str:
     return (
         f"<article><h4>{number}. {html_text(exchange.kind)} <small>{html_text(exchange.model)}</small> "
         f'<span class="{mood}">{html_text(exchange.verdict)}</span></h4><pre>{html_text(exchange.text)}</pre>{pictures}'
-        f"<pre>{html_text(_pretty(exchange.answer))}</pre></article>"
+        f"<pre>{html_text(exchange.indented_answer)}</pre></article>"
     )
-
-
-def _pretty(answer: str) -> str:
-    try:
-        return json.dumps(json.loads(answer), indent=2, ensure_ascii=False)
-    except (ValueError, RecursionError):
-        return answer or "(empty)"
 
 
 def _slider(number: int, joint: Joint, color: str) -> str:

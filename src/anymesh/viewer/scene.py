@@ -10,12 +10,11 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.geometry.kinematics import joint_transform, posed
-from anymesh.geometry.raycast_ import RayScene
+from anymesh.geometry.kinematics import joint_transform
 from anymesh.geometry.simplify_ import simplify
 from anymesh.physics.inertia import Inertia
 from anymesh.rendering.marks import axis_line, ring
-from anymesh.rendering.preview import BASE, PALETTE, best_camera, shown_position
+from anymesh.rendering.preview import BASE, PALETTE, opened_view
 from anymesh.types import Asset, Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 from anymesh.types.triangles import unshared
 
@@ -262,8 +261,7 @@ def _joint_data(asset: Asset, joint: Joint, number: dict[str, int], corners: np.
 
 def _first_view(asset: Asset) -> dict[str, Any]:
     """Return the view of the preview: its direction, and the box of the asset at rest and opened."""
-    opened = posed(asset, {joint.name: shown_position(joint) for joint in asset.joints})
-    camera = best_camera(asset, opened, [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)])
+    opened, camera = opened_view(asset)
     return {
         "toward": _list(-camera.T_world_camera[:3, 2]),  # from the object to the eye
         "low": _list(np.minimum(asset.mesh.bounds[0], opened.bounds[0])),

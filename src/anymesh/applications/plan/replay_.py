@@ -16,6 +16,7 @@ from anymesh.applications.plan.robot_ import RobotArm, finger_bodies, positions_
 from anymesh.applications.plan.scene_ import OBJECT, ROBOT, bodies_of, compose
 from anymesh.errors import OptionError
 from anymesh.mujoco_ import is_unstable, load_mujoco
+from anymesh.types.triangles import about_z
 
 FIRM = 0.9  # share of the requested motion at which a task counts as done
 HIT = 20.0  # [N] between the arm and anything else that counts as a collision
@@ -199,9 +200,7 @@ class _Watch:
 
 def moved(physics: Physics) -> Float[np.ndarray, "4 4"]:
     """Return the pose of the true object in the planned frame."""
-    c, s = np.cos(physics.yaw), np.sin(physics.yaw)
-    T = np.eye(4)
-    T[:2, :2] = [[c, -s], [s, c]]
+    T = about_z(physics.yaw)
     T[:3, 3] = physics.shift
     return T
 

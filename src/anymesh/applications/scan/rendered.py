@@ -22,6 +22,7 @@ from anymesh.rendering.render import base_colors, lit
 from anymesh.rendering.viewpoints import away
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
+from anymesh.types.triangles import about_z
 
 NOISE = 0.0015  # [1/m] standard deviation of depth over its square
 DEPTH_UNIT = 0.001  # [m] per unit of a 16-bit depth picture
@@ -179,9 +180,7 @@ def _with_floor(mesh: Mesh) -> tuple[Mesh, int]:
 
 
 def _anywhere(rng: np.random.Generator) -> Float[np.ndarray, "4 4"]:
-    turn = rng.uniform(0, 2 * np.pi)
-    T = np.eye(4)
-    T[:2, :2] = [[np.cos(turn), -np.sin(turn)], [np.sin(turn), np.cos(turn)]]
+    T = about_z(rng.uniform(0, 2 * np.pi))
     T[:3, 3] = rng.uniform(-1, 1, 3)
     return T
 

@@ -11,7 +11,7 @@ from scipy import ndimage
 from anymesh.applications.scan.agreement import Glimpse
 from anymesh.applications.scan.frames import Frames
 from anymesh.errors import InputError, OptionError
-from anymesh.types.triangles import face_cross
+from anymesh.types.triangles import about_z, face_cross
 
 TRIES = 600  # planes through three points tried as floor
 LEVEL_KNOWN, LEVEL_GUESSED = 20.0, 50.0  # [deg] largest tilt of a floor against the layout's up, or the cameras' mean up
@@ -209,15 +209,9 @@ def _square(points: np.ndarray) -> Float[np.ndarray, "4 4"]:
         area = _area(points, angle)
         if area < least * (1 - 1e-6):
             best, least = angle, area
-    return _turn(best)
-
-
-def _turn(angle: float) -> Float[np.ndarray, "4 4"]:
-    T = np.eye(4)
-    T[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
-    return T
+    return about_z(best)
 
 
 def _area(points: np.ndarray, angle: float) -> float:
-    flat = points[:, :2] @ _turn(angle)[:2, :2].T
+    flat = points[:, :2] @ about_z(angle)[:2, :2].T
     return float(np.prod(np.quantile(flat, QUANTILES[1], axis=0) - np.quantile(flat, QUANTILES[0], axis=0)))

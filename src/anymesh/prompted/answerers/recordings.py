@@ -215,7 +215,7 @@ def _article(number: int, exchange: Exchange) -> str:
     return (
         f'<article id="q{number}"><h2>{number}. {escape(exchange.kind)} <small>{escape(" · ".join(facts))}</small></h2>\n'
         f"<pre>{escape(exchange.text)}</pre>\n{''.join(_figure(picture) for picture in exchange.pictures)}\n"
-        f'<pre>{escape(_pretty(exchange.answer))}</pre>\n<p class="{mood}">{escape(exchange.verdict)}</p></article>'
+        f'<pre>{escape(exchange.indented_answer)}</pre>\n<p class="{mood}">{escape(exchange.verdict)}</p></article>'
     )
 
 
@@ -225,10 +225,3 @@ def _figure(picture: Picture) -> str:
     image = f'<img src="{_picture_file(picture)}" width="{width}" height="{height}" loading="lazy" alt="{caption}">'
     image = f'<a href="{_picture_file(picture)}" target="_blank" rel="noopener" title="full size">{image}</a>'
     return f"<figure>{image}<figcaption>{caption}</figcaption></figure>"
-
-
-def _pretty(answer: str) -> str:
-    try:
-        return json.dumps(json.loads(answer), indent=2, ensure_ascii=False)
-    except (ValueError, RecursionError):
-        return answer or "(empty)"

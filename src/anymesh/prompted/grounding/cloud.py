@@ -12,7 +12,7 @@ from scipy.spatial import KDTree
 from anymesh.config import GroundingConfig
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.superpoints import superpoints
-from anymesh.geometry.topology import label_connected
+from anymesh.geometry.topology import label_connected, strongest
 from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
 from anymesh.rendering.render import View, face_colors
 from anymesh.types import Mesh
@@ -161,10 +161,7 @@ def _absorb_small(label: np.ndarray, weight: np.ndarray, edges: np.ndarray, min_
         use = small[source] & (source != target)
         if not use.any():
             return label
-        key, border = np.unique(source[use] * count + target[use], return_counts=True)
-        order = np.lexsort((key % count, -border, key // count))
-        best = order[np.r_[True, np.diff(key[order] // count) != 0]]
-        label = label_connected(count, np.stack([key[best] // count, key[best] % count], 1))[label]
+        label = label_connected(count, np.stack(strongest(source[use], target[use], None, count), 1))[label]
 
 
 def seen_points(cloud: Cloud, views: Sequence[View]) -> Bool[np.ndarray, " n"]:

@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float, Int
 from anymesh.config import GroundingConfig, ViewsConfig
 from anymesh.geometry.creases import divide_at_seams
 from anymesh.geometry.patches import ObjectShape
-from anymesh.geometry.topology import components, label_connected
+from anymesh.geometry.topology import components, label_connected, strongest
 from anymesh.prompted.grounding.cloud import Cloud
 from anymesh.rendering.render import View
 from anymesh.segmentation.handles import MIN_WHOLE_OBJECT_SHARE
@@ -71,12 +71,9 @@ def face_regions(whole: ObjectShape, cloud: Cloud) -> Int[np.ndarray, " F"]:
 
 def _by_majority(label: np.ndarray, faces: np.ndarray, count: int) -> Int[np.ndarray, " F"]:
     """Return the most frequent label of every face's points; a face without points (zero area) takes label 0."""
-    most = int(label.max()) + 1
-    key, times = np.unique(faces * most + label, return_counts=True)
-    order = np.lexsort((key % most, -times, key // most))
-    best = order[np.r_[True, np.diff(key[order] // most) != 0]]
     face_label = np.zeros(count, np.int64)
-    face_label[key[best] // most] = key[best] % most
+    face, most = strongest(faces, label, None, int(label.max()) + 1)
+    face_label[face] = most
     return face_label
 
 
