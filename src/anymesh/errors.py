@@ -63,10 +63,7 @@ class ModelError(AnymeshError):
 
 
 class BudgetError(ModelError):
-    """The next call would exceed --max-calls or --max-cost.
-
-    Earlier answers are kept; a rerun continues from there.
-    """
+    """The next call would exceed --max-calls or --max-cost. Earlier answers are kept; a rerun continues from there."""
 
     exit_code = 7
 

@@ -58,10 +58,7 @@ def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions]) 
 def part_motions(
     whole: ObjectShape, segmentation: Segmentation, config: Config, deadline: Deadline | None = None
 ) -> Iterator[PartMotions]:
-    """Yield the motions of each part but the root, copies together.
-
-    Only the likeliest motions are swept and offered.
-    """
+    """Yield the motions of each part but the root, copies together. Only the likeliest motions are swept and offered."""
     label, parts = segmentation.face_part[whole.source], segmentation.parts
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(parts))]
     parent = parents(shapes, whole.diagonal)

@@ -21,10 +21,7 @@ def distance_to_mesh(
 
 
 class TriangleTree:
-    """A bounding box tree over triangles, built once for many queries.
-
-    Raise ValueError for no triangles.
-    """
+    """A bounding box tree over triangles, built once for many queries. Raise ValueError for no triangles."""
 
     def __init__(self, triangles: Float[np.ndarray, "F 3 3"]) -> None:
         import igl

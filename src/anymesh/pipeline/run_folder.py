@@ -75,10 +75,7 @@ class Saved:
 
     @classmethod
     def at(cls, target: Path) -> Saved:
-        """Open an existing output.
-
-        Raise OutputError if there is none.
-        """
+        """Open an existing output. Raise OutputError if there is none."""
         target = Path(target).resolve()
         if written_files(target) is None:
             raise OutputError(f"{target} is not an output of anymesh; `anymesh articulate MESH -o {target}` makes one")
@@ -89,10 +86,7 @@ class Saved:
         return [self.target]
 
     def need(self, stage: Stage[Result]) -> Result:
-        """Return the result of a stage.
-
-        Raise OutputError if this output has none.
-        """
+        """Return the result of a stage. Raise OutputError if this output has none."""
         saved = self._find(stage)
         if saved is None:
             raise self._missing(stage)
@@ -106,10 +100,7 @@ class Saved:
         return next((saved for place in self._places(stage) if (saved := read_stage(place, stage, None)) is not None), None)
 
     def key(self, stage: Stage[Any]) -> str:
-        """Return the key of the saved result of a stage.
-
-        Raise OutputError if this output has none.
-        """
+        """Return the key of the saved result of a stage. Raise OutputError if this output has none."""
         key = self._key(stage)
         if key is None:
             raise self._missing(stage)
@@ -295,10 +286,7 @@ class RunFolder(Saved):
         write_json(self.folder / TIMING, {**self.timing(), stage: round(seconds, 4)})
 
     def take_over(self, folder: Path) -> None:
-        """Take over the stages of another output, up to its joints and their corrections.
-
-        Raise OutputError if it has none.
-        """
+        """Take over the stages of another output, up to its joints and their corrections. Raise OutputError if it has none."""
         written = written_files(folder)
         if written is None:
             raise OutputError(f"{folder} is not an output of anymesh; `anymesh articulate MESH -o {folder}` makes one")

@@ -77,10 +77,7 @@ def parts_from_file(mesh: Mesh, path: Path) -> Segmentation:
 
 
 def _read(path: Path) -> tuple[np.ndarray, Any]:
-    """Return the labels in a file, unchecked, and the names if it has any.
-
-    Raise OptionError if the file cannot be read.
-    """
+    """Return the labels in a file, unchecked, and the names if it has any. Raise OptionError if the file cannot be read."""
     try:
         data = path.read_bytes() if path.is_file() else None
     except OSError as error:

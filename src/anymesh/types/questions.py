@@ -30,10 +30,7 @@ class Question(Protocol[Answer_co]):
         ...
 
     def parse(self, answer: Mapping[str, Any]) -> Answer_co:
-        """Return the answer from an object that satisfies the schema.
-
-        Raise BadAnswerError if it does not fit the question.
-        """
+        """Return the answer from an object that satisfies the schema. Raise BadAnswerError if it does not fit the question."""
         ...
 
 

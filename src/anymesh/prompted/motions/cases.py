@@ -169,10 +169,7 @@ def labels_by_name(segmentation: Segmentation, labels: Sequence[str]) -> Segment
 
 
 def relabelled(segmentation: Segmentation, answered: Mapping[int, str], labels: Sequence[str]) -> Segmentation:
-    """Give parts, by number, the answered label if their own was not recognized.
-
-    Return the same object if no label changes.
-    """
+    """Give parts, by number, the answered label if their own was not recognized. Return the same object if no label changes."""
     if not any(segmentation.parts[k].label not in labels for k in answered):
         return segmentation
     parts = [

@@ -106,10 +106,7 @@ def one_each(numbers: list[int], wanted: int, what: str) -> None:
 
 
 def reply_object(text: str, schema: Mapping[str, Any]) -> dict[str, Any]:
-    """Read an answer as one JSON object that satisfies its schema.
-
-    Raise BadAnswerError otherwise.
-    """
+    """Read an answer as one JSON object that satisfies its schema. Raise BadAnswerError otherwise."""
     if not text.strip():
         raise BadAnswerError("it was empty, or a refusal")
     try:

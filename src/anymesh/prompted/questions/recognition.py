@@ -97,10 +97,7 @@ class Recognize:
 
 
 def check_labels(labels: Sequence[str]) -> tuple[str, ...]:
-    """Return the labels, if each is a plain English noun and none occurs twice.
-
-    Raise BadAnswerError otherwise.
-    """
+    """Return the labels, if each is a plain English noun and none occurs twice. Raise BadAnswerError otherwise."""
     for label in labels:
         if not WORD.fullmatch(label) or label == BASE:
             raise BadAnswerError(f"a label is a short English noun in lower case and not {BASE!r}, found {label[:40]!r}")
@@ -126,10 +123,7 @@ def _check_tree(parent: Mapping[str, str]) -> None:
 
 
 def parse_labels(labels: Sequence[str]) -> tuple[str, ...]:
-    """Return the labels given by a user.
-
-    Raise OptionError if they are not valid.
-    """
+    """Return the labels given by a user. Raise OptionError if they are not valid."""
     try:
         return check_labels([_folded(label) for label in labels])
     except BadAnswerError as error:

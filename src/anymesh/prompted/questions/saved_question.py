@@ -42,10 +42,7 @@ RENAMED = {("anymesh.types.motion:MotionKind", "TURN"): "REVOLUTE", ("anymesh.ty
 
 
 def pack_question(question: Question[Any]) -> bytes:
-    """Write a question without its pictures.
-
-    Raise TypeError for a field that cannot be written.
-    """
+    """Write a question without its pictures. Raise TypeError for a field that cannot be written."""
     arrays: dict[str, np.ndarray] = {}
     values = {f.name: _pack(getattr(question, f.name), arrays) for f in _fields(question) if f.name != "pictures"}
     record = {"class": _name(type(question)), "fields": values}
@@ -56,10 +53,7 @@ def pack_question(question: Question[Any]) -> bytes:
 
 
 def unpack_question(content: bytes, pictures: tuple[Picture, ...]) -> Question[Any]:
-    """Read a question with its pictures.
-
-    Raise InputError for bytes that are no question, or from another version.
-    """
+    """Read a question with its pictures. Raise InputError for bytes that are no question, or from another version."""
     try:
         with np.load(io.BytesIO(content), allow_pickle=False) as archive:
             arrays = dict(archive)
@@ -133,10 +127,7 @@ def _unpack(value: Any, arrays: Mapping[str, np.ndarray]) -> Any:
 
 
 def answer_object(question: Question[Any], answer: Any) -> dict[str, Any]:
-    """Return the object whose parse is this answer.
-
-    Raise TypeError for an unknown kind of question.
-    """
+    """Return the object whose parse is this answer. Raise TypeError for an unknown kind of question."""
     match question:
         case Recognize():
             return _recognition(question, answer)
