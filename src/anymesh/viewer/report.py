@@ -10,7 +10,7 @@ from typing import Any
 from anymesh.errors import InputError
 from anymesh.runtime import Progress, silent, writing
 from anymesh.types import Asset
-from anymesh.viewer.report_asset import FACES, ReportEntry, asset_entry, find_assets, folder_entry, within
+from anymesh.viewer.report_asset import FACES, asset_entry, find_assets, folder_entry, within
 from anymesh.viewer.report_html import html_report
 
 MEGABYTES = 100.0  # maximum size of a page that browsers open quickly
@@ -53,7 +53,7 @@ def write_report(
         title = whole.name if place == folder else place.relative_to(folder).as_posix()
         progress("report", title, k, len(folders))
         entries.append(folder_entry(place, title, faces=faces))
-    entries = within(sorted(entries, key=_order), megabytes)
+    entries = within(sorted(entries, key=lambda entry: (entry.least, entry.title)), megabytes)
     data = html_report(whole.name, entries).encode()
     with writing(out):
         temporary = out.with_name(f".{out.name}.part")  # so that the page is written atomically
@@ -66,10 +66,6 @@ def write_report(
         notes=tuple(f"{e.title}: {note}" for e in entries for note in e.notes),
         size=len(data),
     )
-
-
-def _order(entry: ReportEntry) -> tuple[float, str]:
-    return (entry.least, entry.title)
 
 
 class NotebookReport:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 import time
 from collections import deque
@@ -105,8 +104,7 @@ def cost_of(model_name: str, input_tokens: int, output_tokens: int) -> float | N
 
 def max_input_tokens(model_name: str, request: Request) -> int:
     """Return an upper bound of the request's input tokens, at two bytes of text per token; English has about four."""
-    texts = [request.system, request.text, json.dumps(request.schema), *(p.caption for p in request.pictures)]
-    words = sum(len(text.encode()) for text in texts)
+    words = sum(len(text.encode()) for text in request.texts)
     provider, _, model = model_name.replace("openai-responses:", "openai:", 1).partition(":")
     # 1000 tokens for what the service adds: the wrapping of the tool, and the schema in words.
     return 1000 + words // 2 + sum(max_picture_tokens(provider, model, *picture.size) for picture in request.pictures)

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import asyncio
 import importlib
-import json
 import logging
 import os
 import time
@@ -221,7 +220,6 @@ def _redacted(words: str, request: Request, secrets: Iterable[str]) -> str:
     for secret in secrets:
         line = line.replace(secret, "[removed]")
     line = SECRET.sub("[removed]", line)[:MAX_QUOTE]
-    sent = [request.system, request.text, json.dumps(request.schema), *(p.caption for p in request.pictures)]
-    sent = [" ".join(text.split()) for text in sent]
+    sent = [" ".join(text.split()) for text in request.texts]
     quotes = any(line[k : k + RUN] in text for k in range(max(0, len(line) - RUN + 1)) for text in sent)
     return "" if quotes else line

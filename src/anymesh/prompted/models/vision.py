@@ -24,6 +24,11 @@ class Request:
     schema: Mapping[str, Any]
     max_tokens: int = 8000  # of the answer, including reasoning tokens
 
+    @property
+    def texts(self) -> list[str]:
+        """Everything that is sent, except pictures."""
+        return [self.system, self.text, json.dumps(self.schema), *(p.caption for p in self.pictures)]
+
 
 @dataclass(frozen=True)
 class Reply:
