@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import json
 import struct
+from pathlib import Path
 
 import numpy as np
 import pytest
 from assets import CUBE, CUBE_FACES
+from PIL import Image
 
 from anymesh.errors import InputError
-from anymesh.loading import load_mesh
+from anymesh.loading import LoadedMesh, load_mesh
 
 LOW, HIGH = np.array([1.0, 2, 3]), np.array([2.0, 4, 6])
 POINTS = LOW + CUBE * (HIGH - LOW)
@@ -184,3 +186,42 @@ def assert_refused(path, *told: str) -> str:
     for words in told:
         assert words in message, message
     return message
+
+
+FILES = all_files()
+TEXTURED = ["image.glb", "picture.obj", "picture.ply", "picture.dae"]
+
+
+def naming(uri: str) -> dict[str, bytes]:
+    """Return files that refer to another file, each in its own way; picture.obj through other.mtl."""
+    g = plain_gltf()
+    g.doc["images"] = [{"uri": uri}]
+    g.doc["textures"] = [{"source": 0}]
+    g.doc["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+    g.doc["meshes"][0]["primitives"][0]["material"] = 0
+    picture = dae(look='<texture texture="p" texcoord="c"/>').replace(b"checker.png", uri.encode())
+    return {
+        "buffer.gltf": plain_gltf().gltf(uri),
+        "image.glb": g.glb(),
+        "library.obj": obj().replace(b"box.mtl", uri.encode()),
+        "picture.obj": obj().replace(b"box.mtl", b"other.mtl"),
+        "picture.ply": FILES["ascii.ply"].replace(b"made by hand", b"TextureFile " + uri.encode()),
+        "picture.dae": picture,
+    }
+
+
+def write_png(path: Path) -> Path:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    Image.new("RGB", (2, 2), "red").save(path)
+    return path
+
+
+def put_naming(folder: Path, name: str, uri: str) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    (folder / "other.mtl").write_bytes(f"newmtl red\nKd 1 0 0\nmap_Kd {uri}\nmap_Ke {uri}\n".encode())
+    return put(folder, name, naming(uri)[name])
+
+
+def textures(loaded: LoadedMesh) -> int:
+    assert len(loaded.mesh.faces) == 12
+    return sum("base_color" in material.textures for material in loaded.mesh.materials)

@@ -1,13 +1,22 @@
 """Test that any file content gives a mesh or an InputError of one line, and that references stay within the folder."""
 
+from __future__ import annotations
+
+import json
+import random
 import resource
 import struct
+import warnings
+import zlib
 
+import numpy as np
 import pytest
 from mesh_files import FACES, POINTS, Gltf, all_files, assert_refused, dae, plain_gltf, ply_header, put, rows, stl_binary
 
 from anymesh.errors import InputError
+from anymesh.isolation import ChildLimits, ChildPool
 from anymesh.loading import load_mesh
+from benchmarks import fuzz_readers
 
 FILES = all_files()
 HUGE = 2_000_000_000
@@ -167,3 +176,144 @@ def test_what_cannot_be_read_is_named(tmp_path) -> None:
 def test_names_with_spaces_and_texture_indices_out_of_range(tmp_path) -> None:
     assert_refused(put(tmp_path, "my file.obj", HEAD.replace("3/1", "3/7").encode()), "texture coordinate 7", "1 to 1")
     assert len(load_mesh(put(tmp_path, "my file.obj", HEAD.encode())).mesh.faces) == 1
+
+
+def test_mutated_files_end_in_a_mesh_or_an_input_error_and_open_nothing_outside() -> None:
+    fuzzer = fuzz_readers.Fuzzer(seed=7)
+    fuzzer.run(100)
+    assert fuzzer.failures == []
+    assert fuzzer.counts["mesh"] > 10
+    assert fuzzer.counts["refused"] > 10
+
+
+def test_the_watch_sees_what_leaves_the_folder(tmp_path) -> None:
+    (tmp_path / "inside").mkdir()
+    (tmp_path / "secret").write_text("x")
+    watch = fuzz_readers.Watch()
+    watch.folder = str(tmp_path / "inside")
+    (tmp_path / "secret").read_text()
+    watch.folder = None
+    assert watch.outside == [str((tmp_path / "secret").resolve())]
+
+
+def png_bomb(side: int) -> bytes:
+    """Return a few kilobytes that are a picture of side x side pixels."""
+
+    def chunk(kind: bytes, data: bytes) -> bytes:
+        return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+
+    packed = zlib.compressobj(9)
+    rows = b"".join(packed.compress(bytes(1 + 3 * side)) for _ in range(side)) + packed.flush()
+    header = struct.pack(">IIBBBBB", side, side, 8, 2, 0, 0, 0)
+    return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", rows) + chunk(b"IEND", b"")
+
+
+def textured(png: bytes) -> bytes:
+    g = plain_gltf()
+    view = g.view(png)
+    g.doc["images"] = [{"bufferView": view, "mimeType": "image/png"}]
+    g.doc["textures"] = [{"source": 0}]
+    g.doc["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}]
+    g.doc["meshes"][0]["primitives"][0]["material"] = 0
+    return g.glb()
+
+
+def billion_laughs() -> bytes:
+    entities = "".join(f'<!ENTITY e{k + 1} "{f"&e{k};" * 10}">' for k in range(9))
+    head = f'<!DOCTYPE COLLADA [<!ENTITY e0 "lol">{entities}]>\n<COLLADA'
+    return dae().replace(b"<COLLADA", head.encode(), 1).replace(b'name="red"', b'name="&e9;"')
+
+
+def disguised_laughs(encoding: str) -> bytes:
+    """Return entities in an encoding whose bytes are not ASCII, which pass the check of the first bytes."""
+    text = billion_laughs().decode().replace("utf-8", encoding)
+    if encoding == "utf-16":
+        return text.replace("?>", f"?><!--{b'<COLLADA'.decode('utf-16-le')}-->", 1).encode("utf-16")
+    head, rest = text.split("\n", 1)
+    return head.encode() + b"<!--<COLLADA-->" + rest.encode(encoding)
+
+
+def deep_nodes(depth: int) -> bytes:
+    opened = b"<node>" * depth + b'<node id="n">'
+    return dae().replace(b'<node id="n">', opened).replace(b"</visual_scene>", b"</node>" * depth + b"</visual_scene>")
+
+
+def many_instances(count: int) -> bytes:
+    g = plain_gltf()
+    for _ in range(count):
+        g.node(mesh=0)
+    return g.glb()
+
+
+BOMBS = {
+    "picture.glb": lambda: textured(png_bomb(8000)),
+    "laughs.dae": billion_laughs,
+    "deep.dae": lambda: deep_nodes(5000),
+    "circle.dae": lambda: dae().replace(b'<node id="n">', b'<node id="n"><instance_node url="#n"/>'),
+    "instances.glb": lambda: many_instances(5000),
+    "utf16.dae": lambda: disguised_laughs("utf-16"),
+    "ebcdic.dae": lambda: disguised_laughs("cp037"),
+    "counts.ply": lambda: all_files()["little.ply"].replace(b"face 12", b"face 99999999999"),
+}
+
+
+@pytest.fixture(scope="module")
+def child():
+    with ChildPool(1, ChildLimits(seconds=20.0, memory=3 << 30)) as pool:
+        yield pool
+
+
+@pytest.mark.parametrize("name", BOMBS)
+def test_bombs_take_little_memory_and_time(child, tmp_path, name) -> None:
+    path = put(tmp_path, name, BOMBS[name]())
+    (result,) = child.run("benchmarks.fuzz_readers", "try_inputs", {"inputs": [(name, path.read_bytes())]})
+    assert result["outcome"] in ("mesh", "refused"), result
+    assert result["outside"] == []
+    assert result["outcome"] == "refused" or name in ("picture.glb", "instances.glb")
+
+
+def spoiled(data: bytes, rng: random.Random) -> bytes:
+    """Return data with a few bytes changed, removed, duplicated, or with the end missing."""
+    data = bytearray(data)
+    for _ in range(rng.randint(1, 4)):
+        at = rng.randrange(max(len(data), 1))
+        match rng.randrange(6):
+            case 0 | 1:
+                data[at : at + 1] = [rng.randrange(256)]
+            case 2:
+                data[at : at + 1] = [rng.choice(b'0123456789-.e /\n"{}[]<>nul')]
+            case 3:
+                del data[at : at + rng.randint(1, 9)]
+            case 4:
+                data[at:at] = data[at : at + rng.randint(1, 40)]
+            case _:
+                data = data[: max(at, 1)]
+    return bytes(data)
+
+
+def misspelt(data: bytes, rng: random.Random) -> bytes:
+    """Return data with a few letters and digits replaced by others, so that the syntax of text stays valid."""
+    data = bytearray(data)
+    places = [k for k, c in enumerate(data) if chr(c).isalnum()]
+    for at in rng.sample(places, rng.randint(1, 3)):
+        data[at] = rng.choice(b"0123456789" if chr(data[at]).isdigit() else b"abcdefinstxyz")
+    return bytes(data)
+
+
+@pytest.mark.parametrize("name", [*FILES, "scene.gltf"])
+def test_spoiled_files_give_a_mesh_or_an_input_error(tmp_path, name) -> None:
+    data = FILES.get(name) or json.dumps(json.loads(FILES["box.gltf"]) | {"materials": [{}], "images": [{}]}).encode()
+    rng = random.Random(name)
+    good = 0
+    for k in range(200):
+        path = put(tmp_path, name, (misspelt if k % 2 else spoiled)(data, rng))
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            try:
+                mesh = load_mesh(path).mesh
+            except InputError:
+                continue
+        good += 1
+        assert np.isfinite(mesh.triangles).all()
+        assert mesh.diagonal > 0
+    assert good > 0 or name == "scene.gltf"

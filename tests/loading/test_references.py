@@ -6,8 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from mesh_files import MTL, assert_refused, obj, plain_gltf, put
-from naming_files import FILES, TEXTURED, naming, put_naming, textures, write_png
+from mesh_files import FILES, MTL, TEXTURED, assert_refused, naming, obj, plain_gltf, put, put_naming, textures, write_png
 from PIL import Image
 
 from anymesh.errors import InputError, OptionError

@@ -1,5 +1,7 @@
 """Facts about prices and budgets."""
 
+from __future__ import annotations
+
 import threading
 from datetime import UTC, datetime
 from importlib.metadata import version
@@ -9,7 +11,7 @@ from model_wire import a_request, png
 from scripted import ScriptedModel
 
 from anymesh.errors import BudgetError, ModelError, OptionError
-from anymesh.prompted.models.budget import LONG, PRICES, Budgeted, cost_of, max_input_tokens, max_picture_tokens
+from anymesh.prompted.models.budget import LONG, PRICES, Budgeted, Limiter, Rate, cost_of, max_input_tokens, max_picture_tokens
 from anymesh.prompted.models.vision import Reply, Request
 from anymesh.types import Picture
 
@@ -169,3 +171,46 @@ def test_an_unknown_price_leaves_the_cost_unknown() -> None:
     model = Budgeted(ScriptedModel(["a"]))
     assert model.ask(a_request()).cost is None
     assert (model.calls, model.cost) == (1, 0)
+
+
+class Clock:
+    def __init__(self) -> None:
+        self.now = 1000.0
+
+    def __call__(self) -> float:
+        return self.now
+
+    def sleep(self, seconds: float) -> None:
+        self.now += seconds
+
+
+def test_requests_and_tokens_of_a_minute_are_limited() -> None:
+    clock = Clock()
+
+    def limiter(rate: Rate) -> Limiter:
+        return Limiter(rate, clock=clock, sleep=clock.sleep)
+
+    by_count = limiter(Rate(requests=3))
+    for _ in range(3):
+        by_count.acquire(10)
+    assert clock.now == 1000.0
+    by_count.acquire(10)
+    assert clock.now == 1060.0
+    clock.now += 100
+    by_tokens = limiter(Rate(tokens=1000))
+    entry = by_tokens.acquire(900)
+    by_tokens.correct(entry, 300)
+    by_tokens.acquire(700)
+    begin = clock.now
+    by_tokens.acquire(1)
+    assert clock.now == begin + 60
+    clock.now += 100
+    by_tokens.acquire(5000)  # more than the limit alone: asked when nothing else was
+    begin = clock.now
+    by_tokens.acquire(1)
+    assert clock.now == begin + 60
+
+
+def test_rates_are_checked() -> None:
+    with pytest.raises(OptionError, match="--requests-per-minute: found 0"):
+        Rate(requests=0)

@@ -7,7 +7,19 @@ from rows import counts_of, row_cloud
 
 from anymesh.config import GroundingConfig
 from anymesh.prompted.grounding.cloud import sample_cloud, sight
-from anymesh.prompted.grounding.fuse import Instances, Mask, Proposal, count_points, fuse_masks, label_superpoints, marked_masks
+from anymesh.prompted.grounding.fuse import (
+    Instances,
+    Mask,
+    Proposal,
+    count_points,
+    fuse_masks,
+    join_numbered,
+    label_superpoints,
+    lost_parts,
+    marked_masks,
+    masks_to_labels,
+    propose_masks,
+)
 from anymesh.prompted.questions.grounding import MarkedPart
 from anymesh.rendering.render import render
 from anymesh.segmentation.divide import object_shape
@@ -116,3 +128,90 @@ def test_marks_become_masks_of_their_views() -> None:
     first, second = marked_masks(proposals, [MarkedPart("door", 1, 0, (1, 2, -1)), MarkedPart("lid", 2, 1, (3, 9))])
     assert [(m.label, m.instance, m.pixels.tolist()) for m in first] == [("door", 1, [[True, True], [False, False]])]
     assert [(m.label, m.instance, m.pixels.tolist()) for m in second] == [("lid", 2, [[False, False], [True, False]])]
+
+
+OUTSIDE = counts_of([[9, 0], [0, 0], [0, 9]], ["door"])  # of three superpoints, one view sees the first and the last
+INSIDE = counts_of([[0, 0], [9, 0], [0, 9]], ["door"])
+APART = Instances(np.array([1, 2, 0]), ("door", "door"))
+
+
+def test_pieces_with_one_number_that_no_view_shows_together_are_one_part() -> None:
+    found = join_numbered([OUTSIDE, INSIDE], APART)
+    assert found.number.tolist() == [1, 1, 0]
+    assert found.labels == ("door",)
+
+
+def test_pieces_with_different_numbers_or_labels_stay_apart() -> None:
+    second = counts_of([[0, 0], [9, 0], [0, 9]], ["door"], [2])
+    assert join_numbered([OUTSIDE, second], APART).number.tolist() == [1, 2, 0]
+    other = Instances(np.array([1, 2, 0]), ("door", "lid"))
+    lid = counts_of([[0, 0], [9, 0], [0, 9]], ["lid"])
+    assert join_numbered([OUTSIDE, lid], other).labels == ("door", "lid")
+
+
+@pytest.mark.parametrize("order", [(1, 2), (2, 1)])
+def test_numbers_that_are_mixed_up_join_nothing_that_one_view_tells_apart(order: tuple[int, int]) -> None:
+    together = counts_of([[9, 0, 0], [0, 9, 0], [0, 0, 9]], ["door", "door"], order)
+    found = join_numbered([OUTSIDE, INSIDE, INSIDE, together], APART)
+    assert found.number.tolist() == [1, 2, 0]
+
+
+def test_what_no_view_shows_and_what_has_no_number_stay_as_they_are() -> None:
+    unseen = Instances(np.array([1, 2, -1]), ("door", "door"))
+    nothing = counts_of([[9], [9], [0]], [])
+    assert join_numbered([nothing], unseen).number.tolist() == [1, 2, -1]
+    assert join_numbered([nothing], unseen).labels == ("door", "door")
+
+
+def test_marked_parts_that_became_no_part_of_their_own_are_told() -> None:
+    face = np.array([[0, 0, 1, 1, 2, 2, -1]])
+    masks = [Mask(face == k, "knob", k + 1) for k in range(3)]
+    assert lost_parts([masks], [face], np.array([1, 2, 3]), ["knob"] * 3) == ()
+    merged = lost_parts([masks], [face], np.array([1, 1, 2]), ["knob"] * 2)
+    assert merged == ("marked, but not found as parts of their own: 1 of label 'knob'",)
+    assert "2 of label 'knob'" in lost_parts([masks], [face], np.array([0, 1, 2]), ["knob", "lid"])[0]
+    again = [*masks[:2], Mask(face == 2, "knob", 2)]  # numbered otherwise in another view: nothing is lost
+    assert lost_parts([masks, again], [face, face], np.array([1, 2, 3]), ["knob"] * 3) == ()
+
+
+SAMPLED = GroundingConfig(points=20_000)
+BODY, FRONT = box((0, 0, 0), (1, 1, 1)), box((0, -0.1, 0), (1, -0.01, 1))
+
+
+def views_of(mesh, size: int = 300):
+    middle = mesh.bounds.mean(0)
+    eyes = [middle + mesh.diagonal * np.array(e) for e in ((0, -1.0, 0.2), (0.7, -0.7, 0.2), (-0.7, -0.7, 0.2))]
+    return [render(mesh, Camera.looking_at(eye, middle, np.deg2rad(60.0), size, size)) for eye in eyes]
+
+
+def test_small_masks_are_dropped_and_small_lie_over_large() -> None:
+    masks = np.zeros((3, 60, 60), bool)
+    masks[0, 5:15, 5:15] = True
+    masks[1, 2:50, 2:50] = True
+    masks[2, 55:58, 55:58] = True  # 9 px
+    labels = masks_to_labels(masks, 50.0)
+    assert labels.max() == 2
+    assert labels[10, 10] != labels[30, 30]
+    assert labels[56, 56] == -1
+    assert (labels == labels[10, 10]).sum() == 88  # the majority filter removes three pixels at each corner
+
+
+def test_speckles_go_and_pieces_apart_get_numbers_of_their_own() -> None:
+    masks = np.zeros((1, 60, 60), bool)
+    masks[0, 5:25, 5:55] = masks[0, 35:55, 5:55] = True
+    masks[0, 15, 30] = False
+    labels = masks_to_labels(masks, 50.0)
+    assert labels[15, 30] == labels[10, 10]
+    assert sorted(np.unique(labels)) == [-1, 1, 2]
+    assert labels[10, 10] != labels[40, 40]
+
+
+def test_masks_of_a_view_stay_on_the_object() -> None:
+    mesh, _ = mesh_of([BODY, FRONT])
+    views = views_of(mesh)
+    masks = [np.ones((1, 300, 300), bool) for _ in views]
+    found = propose_masks(masks, views, SAMPLED)
+    for p, v in zip(found, views, strict=True):
+        assert ((p.labels > 0) == (v.face >= 0)).all()
+        assert p.numbers == (1,)
+    assert propose_masks([np.zeros((0, 300, 300), bool)] * 3, views, SAMPLED)[0].numbers == ()
