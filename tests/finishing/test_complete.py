@@ -307,14 +307,6 @@ def test_a_back_lies_where_it_is_asked_for(draft):
     np.testing.assert_allclose(back.max(0)[[0, 2]], [1 - draft, 3 - draft])
 
 
-def test_a_cap_with_a_border_within_another_leaves_a_hole():
-    points = np.array([[0, 0, 0], [0, 4, 0], [4, 4, 0], [4, 0, 0], [1, 1, 0], [2, 1, 0], [2, 2, 0], [1, 2, 0]], float)
-    faces = cap(points, [np.arange(4), np.arange(4, 8)], np.array([0, 0, 1.0]))
-    cross = np.cross(points[faces[:, 1]] - points[faces[:, 0]], points[faces[:, 2]] - points[faces[:, 0]])
-    assert (cross[:, 2] > 0).all()
-    assert cross[:, 2].sum() / 2 == pytest.approx(15)
-
-
 def test_folds_are_dropped_and_closed_surfaces_stay_closed():
     whole = board(np.zeros(3), np.ones(3), np.eye(3))
     flap = np.array([[[0, 0, 0], [0, 0, 1], [0.0, -1, 0]]])

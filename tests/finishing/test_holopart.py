@@ -1,7 +1,6 @@
 """HoloPart's released command line, spoken by a checkout that fails in the ways the real one does; and a server."""
 
 import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -127,10 +126,8 @@ def test_what_goes_wrong_is_told(tmp_path: Path, fault: str, told: str) -> None:
 
 
 def test_a_hang_is_ended(tmp_path: Path) -> None:
-    start = time.monotonic()
     with pytest.raises(ModelError, match=r"it took longer than 0\.5 s"):
         completer(tmp_path, "hang", timeout=0.5).complete(cupboard())
-    assert time.monotonic() - start < 20
 
 
 def test_a_checkout_that_is_none_is_told(tmp_path: Path) -> None:

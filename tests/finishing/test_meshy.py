@@ -224,13 +224,6 @@ def test_a_refusal_is_told_once(server, meshy, status, told) -> None:
     assert server.count("create") == 1
 
 
-def test_a_wrong_key_is_refused_before_anything_is_made(server, meshy, monkeypatch) -> None:
-    monkeypatch.setenv("MESHY_API_KEY", "msy_wrong")
-    with pytest.raises(ModelError, match="the key in MESHY_API_KEY is missing or refused"):
-        meshy().retexture(GLB, "oak")
-    assert server.asked == ["create"]
-
-
 def test_the_budget_refuses_before_anything_is_paid(server, meshy) -> None:
     with pytest.raises(BudgetError, match=r"about 10 credits and would exceed --max-calls 0; spent so far: 0 tasks"):
         meshy(max_calls=0).retexture(GLB, "oak")

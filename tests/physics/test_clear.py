@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from assets import box, solid
+from assets import box
 from scipy.spatial.transform import Rotation
 
 from anymesh.physics.clear import ComponentShapes, ContactScene, LinkSurface, clear, placed_hull
@@ -191,22 +191,6 @@ def test_no_components_give_no_faults() -> None:
     assert (found.found, found.poses) == ([], ())
 
 
-def cleared_boxes(first: tuple, second: tuple, levels: int = 1, rounds: int = 3, refined: list | None = None):
-    """Clear a contact of two boxes of links whose surfaces do not cross."""
-    surfaces = {"a": LinkSurface(solid((0, 0, 0), (0.1, 0.1, 0.1))), "b": LinkSurface(solid((9, 9, 9), (9.1, 9.1, 9.1)))}
-    scene = ContactScene(surfaces, [dict.fromkeys("ab", np.eye(4))], 1e-4, 1e-3)
-    cubes = {"a": solid(*first), "b": solid(*second)}
-    shapes = [ComponentShapes(n, Component(t, True), 0, (fitted(hull_of(t.reshape(-1, 3))),)) for n, t in cubes.items()]
-
-    def refine(components, to):
-        assert refined is not None
-        refined.append(list(to))
-        return [(fitted(hull_of(c.triangles.reshape(-1, 3) * 0.5)),) for c in components]
-
-    found = clear(scene, shapes, refine, levels=levels, rounds=rounds)
-    return found, [sum(volume(as_hull(s)) for s in p.shapes) for p in found.pieces]
-
-
 BIG, SMALL = ((0, 0, 0), (1, 1, 1)), ((0.4, 0.4, 0.98), (0.6, 0.6, 1.18))
 
 
@@ -225,16 +209,3 @@ def test_the_smaller_share_is_trimmed_at_any_size(scale: float, swapped: bool) -
     large, small = sorted((sum(volume(as_hull(s)) for s in p.shapes) / scale**3 for p in found.pieces), reverse=True)
     assert small == pytest.approx(0.008)
     assert large == pytest.approx(0.98, abs=0.002)
-
-
-def test_a_contact_that_would_cost_much_refines_its_components_first_and_is_trimmed_at_the_last_level() -> None:
-    """Both cubes would lose a fifth."""
-    deep = ((0, 0, 0.8), (1, 1, 1.8))
-    refined: list = []
-    _, volumes = cleared_boxes(BIG, deep, levels=2, refined=refined)
-    assert refined[0] == [1, 1]
-    _, last = cleared_boxes(BIG, deep, levels=1)
-    assert sorted(last) == pytest.approx([0.8, 1.0], abs=0.002)
-    kept, _ = cleared_boxes(BIG, deep, levels=1, rounds=0)
-    assert (kept.before, kept.left) == (1, (("a", "b"),))
-    assert len(volumes) == 2

@@ -18,7 +18,7 @@ from anymesh.export.links import split_links
 from anymesh.geometry.kinematics import carried_links, joint_transform, link_transforms
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.physics.clear import ContactScene, LinkSurface
-from anymesh.physics.collision import MAX_POSES, MIN_POSES, CollisionConfig, collision_shapes, joint_poses, sampled_poses
+from anymesh.physics.collision import CollisionConfig, collision_shapes, joint_poses, sampled_poses
 from anymesh.physics.convex import as_hull
 from anymesh.physics.decompose import content_key, load_shapes, save_shapes
 from anymesh.types import Asset, Box, Cylinder, Hull, JointType, Part, Segmentation
@@ -115,8 +115,9 @@ def test_a_key_has_one_shape_which_is_replaced(tmp_path) -> None:
     assert isinstance(found, Box)
     assert (found.size.tolist(), found.center.tolist()) == ([1, 2, 3], [1, 1, 1])
     save_shapes(tmp_path / "a", "many", (as_hull(brick), rod, brick))
-    kinds = [type(s) for s in load_shapes(tmp_path / "a", "many") or ()]
-    assert kinds == [Hull, Cylinder, Box]
+    many = load_shapes(tmp_path / "a", "many") or ()
+    assert [type(s) for s in many] == [Hull, Cylinder, Box]
+    np.testing.assert_array_equal(as_hull(many[0]).vertices, as_hull(brick).vertices)
     save_shapes(tmp_path / "a", "none", ())
     assert load_shapes(tmp_path / "a", "none") == ()
 
@@ -197,14 +198,6 @@ def test_a_joint_carries_its_child_and_what_hangs_on_it():
     by_child = {j.child: j for j in asset.joints}
     assert carried_links(asset, by_child["drawer"]) == ["drawer", "knob"]
     assert carried_links(asset, by_child["knob"]) == ["knob"]
-
-
-def test_many_joints_get_fewer_places_each():
-    few, many = row(3), row(300)
-    assert len(sampled_poses(few, origins_of(few), 17)) == 2 + 3 * 16  # 0 is the rest pose
-    count = MAX_POSES // 300
-    assert MIN_POSES < count < 17
-    assert len(sampled_poses(many, origins_of(many), 17)) == 2 + 300 * (count - 1)
 
 
 def test_overlaps_are_found_among_all_pairs():

@@ -13,7 +13,7 @@ from trimesh.creation import box as solid_box
 from anymesh.physics.clear import LinkSurface, cross, placed_bounds
 from anymesh.physics.collision import CollisionConfig
 from anymesh.physics.contacts_ import ContactBench
-from anymesh.physics.convex import cut, hull_of
+from anymesh.physics.convex import hull_of
 from anymesh.physics.split import concave_planes
 from anymesh.types import Asset, Box, Cylinder, Part, Segmentation
 
@@ -66,15 +66,6 @@ def test_components_below_a_share_of_the_gap_get_no_shape(share: float, count: i
     mesh, part = mesh_of([box((0, 0, 0), (1, 1, 1)), box((0, 0, 1 + 1e-6), (side, side, 1 + 1e-6 + side))])
     asset = Asset("block", source(), mesh, Segmentation(0 * part, (Part("base", "base"),)), (), "")
     assert len(collision_of(asset).shapes["base"]) == count
-
-
-def test_a_plane_through_a_side_divides_no_triangle() -> None:
-    vertices, faces = box((0, 0, 0), (1, 1, 1))
-    cube = vertices[faces].astype(float)
-    bottom = (cube[:, :, 2] == 0).all(1)
-    below, above = cut(cube, np.array([0.0, 0.0, 1.0]), 0.0)
-    np.testing.assert_array_equal(below, cube[bottom])
-    np.testing.assert_array_equal(above, cube[~bottom])
 
 
 X, Y, Z = np.eye(3)

@@ -18,9 +18,7 @@ from anymesh.physics.decompose import (
     Decomposer,
     Method,
     Resolution,
-    cleaned,
     divide_here,
-    split_components,
 )
 from anymesh.runtime import Deadline
 
@@ -111,14 +109,6 @@ def test_what_takes_too_long_is_cut_by_planes_at_once():
     assert found.fallback.used == Method.SURFACE.value
 
 
-def test_a_fallback_gives_the_same_shapes_each_time():
-    def shapes():
-        (found,) = Decomposer(FakePool(Method.SOLID), None, 30.0).divide([bracket()], [FINE])
-        return [as_hull(s).vertices.tobytes() for s in found.shapes]
-
-    assert shapes() == shapes()
-
-
 def test_what_a_fallback_made_is_not_kept(tmp_path):
     Decomposer(FakePool(Method.SOLID), tmp_path, 30.0).divide([bracket()], [FINE])
     assert not list(tmp_path.glob("*.npz"))
@@ -136,35 +126,6 @@ def test_copies_are_divided_once():
     assert pool.calls == [(Method.SOLID, 1)]
     for a, b in zip(one.shapes, other.shapes, strict=True):
         np.testing.assert_allclose(as_hull(a).vertices + shift, as_hull(b).vertices, atol=1e-8)
-
-
-def test_a_few_components_are_shared_out_one_by_one_and_many_in_batches():
-    few, many = FakePool(), FakePool()
-    for pool, count in ((few, 20), (many, 200)):
-        boxes = [Component(triangles(box((0, 0, 0), (1, 2, 3 + k))), True) for k in range(count)]
-        assert len(Decomposer(pool, None, 30.0).divide(boxes, [FINE] * count)) == count
-    assert few.calls == [(Method.SOLID, 1)] * 20
-    assert len(many.calls) < 5
-
-
-def test_a_dense_component_gets_time_to_be_simplified():
-    pool, fine = FakePool(), triangles(*[box((0, 0, k), (1, 1, k + 1)) for k in range(1000)])
-    Decomposer(pool, None, 5.0).divide([bracket(), Component(fine, False)], [FINE, FINE])
-    assert pool.seconds[0] == pytest.approx(5.0, abs=0.01)
-    assert pool.seconds[1] == pytest.approx(5.0 + 2e-5 * len(fine))
-
-
-def test_cleaning_removes_slivers_and_double_faces_alone():
-    whole = triangles(box((0, 0, 0), (1, 1, 1)))
-    sliver = np.array([[[0, 0, 0], [1, 0, 0], [0.5, 0, 0]]], float)
-    np.testing.assert_allclose(cleaned(np.concatenate([whole, whole[:2], sliver])), whole, atol=1e-5)
-
-
-def test_small_components_beyond_the_most_share_hulls():
-    beads = [box((x, y, 0), (x + 0.01, y + 0.01, 0.01)) for x in np.arange(20) for y in np.arange(20)]
-    found = split_components(triangles(*beads), 0.0, max_components=50)
-    assert 50 < len(found) <= 50 + 64
-    assert sum(len(c.triangles) for c in found) == 12 * 400
 
 
 def test_the_asset_names_the_link_whose_collision_fell_back():

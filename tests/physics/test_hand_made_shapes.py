@@ -8,11 +8,10 @@ import trimesh
 from assets import solid
 from trimesh import Trimesh
 from trimesh.boolean import union
-from trimesh.creation import box as solid_box
 from trimesh.creation import cylinder, icosphere
 
 from anymesh.geometry.surface import plain_triangles
-from anymesh.physics.clear import LinkSurface, cross, placed_bounds
+from anymesh.physics.clear import LinkSurface, placed_bounds
 from anymesh.physics.contacts_ import ContactBench
 from anymesh.physics.convex import (
     MAX_CORNERS,
@@ -36,7 +35,7 @@ from anymesh.physics.decompose import (
     smallest_box,
     split_components,
 )
-from anymesh.physics.split import concave_planes, cutting_planes, least_volume_first, outline, patch_of, split_surface
+from anymesh.physics.split import concave_planes, patch_of, split_surface
 from anymesh.types import Box, Cylinder, Hull
 
 X, Y, Z = np.eye(3)
@@ -110,12 +109,6 @@ def test_a_plane_divides_a_triangle_by_area(offset: float, below: float) -> None
     assert (0.0 if left is None else volume(left)) == pytest.approx(np.clip(offset, 0, 1), abs=1e-9)
 
 
-def test_a_surface_has_each_corner_and_edge_once() -> None:
-    points, edges = outline(solid((0, 0, 0), (1, 1, 1)))
-    assert (len(points), len(edges)) == (8, 18)  # 12 edges and a diagonal per side
-    assert (edges[:, 0] < edges[:, 1]).all()
-
-
 def test_distinct_planes_at_concave_edges_are_limited() -> None:
     slab, bars = solid((0, 0, 0), (10, 4, 1)), [solid((k, 1, 1), (k + 0.5, 3, 2)) for k in range(1, 9)]
     whole = union([Trimesh(*(t.reshape(-1, 3), np.arange(36).reshape(-1, 3))).process() for t in (slab, *bars)])
@@ -125,16 +118,6 @@ def test_distinct_planes_at_concave_edges_are_limited() -> None:
     assert concave_planes(slab, 5) == []
 
 
-@pytest.mark.parametrize(("overlap", "depth", "found"), [(0.1, 0.05, True), (0.1, 0.15, False), (-0.1, 0.05, False)])
-def test_surfaces_cross_if_they_penetrate_by_more_than_a_depth(overlap: float, depth: float, found: bool) -> None:
-    a = LinkSurface(solid((0, 0, 0), (1, 1, 1)))
-    b = LinkSurface(solid((0.1, 0.45, 0), (0.3, 0.6, 0.5)))
-    lifted = shift(0, 0, 1 - overlap)
-    assert cross(a, np.eye(4), b, lifted, depth) == found
-    assert cross(b, lifted, a, np.eye(4), depth) == found
-    assert cross(a, shift(5), b, shift(5) @ lifted, depth) == found
-
-
 def test_the_bounds_of_a_turned_surface_are_those_of_its_box() -> None:
     T = shift(1, 0, 0)
     T[:3, :3] = [[0, -1, 0], [1, 0, 0], [0, 0, 1]]
@@ -142,38 +125,11 @@ def test_the_bounds_of_a_turned_surface_are_those_of_its_box() -> None:
     assert found == pytest.approx(np.array([[-1, 0, 0], [1, 1, 3]]))
 
 
-def test_components_beyond_a_number_are_joined_by_cells() -> None:
-    """Four small cubes at the corners of a square and one beside another, after a large one."""
-    corners = [(0, 0), (9, 0), (0, 9), (9, 9), (0.5, 0)]
-    pieces = [solid((20, 0, 0), (25, 5, 5)), *(solid((x, y, 0), (x + 0.2, y + 0.2, 0.2)) for x, y in corners)]
-    found = split_components(np.concatenate(pieces), 0.0, 1)
-    assert sorted(len(c.triangles) for c in found) == [12, 12, 12, 12, 24]
-    assert (found[0].solid, found[1].solid) == (True, False)
-    assert len(split_components(np.concatenate(pieces), 0.0)) == 6
-    assert len(split_components(np.concatenate(pieces), 1.0)) == 1
-
-
 def test_cleaning_removes_slivers_and_duplicates() -> None:
     cube = solid((0, 0, 0), (1, 1, 1))
     sliver = np.array([[[0, 0, 0], [1, 0, 0], [0.5, 1e-10, 0]]])
     assert len(cleaned(np.concatenate([cube, cube[:3], sliver, cube[:1, ::-1]]))) == 12
     assert cleaned(cube + 7) == pytest.approx(cube + 7, abs=2e-6)
-
-
-def test_cutting_planes_keep_a_distance_from_the_ends_and_skip_thin_directions() -> None:
-    found = list(cutting_planes(solid((0, 0, 0), (1, 0.03, 0.5)), 0.01))
-    axes = {int(np.abs(n).argmax()) for n, _ in found}
-    assert axes == {0, 2}  # 3 cm are less than four walls
-    for n, offset in found:
-        high = (1, 0.03, 0.5)[int(np.abs(n).argmax())]
-        assert 0.01 - 1e-9 <= abs(offset) <= high - 0.01 + 1e-9
-    assert {round(abs(o), 6) for n, o in found if abs(n[0]) > 0.9} == {0.01, 0.5, 0.99}
-
-
-def test_the_plane_at_the_inner_edge_of_an_l_leaves_the_least_volume() -> None:
-    l_shape = np.concatenate([solid((0, 0, 0), (1, 0.2, 1)), solid((0, 0.2, 0), (0.2, 1, 1))])
-    order = least_volume_first(outline(l_shape), [(X, 0.5), (Y, 0.201), (Y, 0.7), (X, 0.1)])
-    assert order[0] == 1
 
 
 def test_an_open_l_is_two_plates_and_a_sheet_is_one() -> None:
@@ -189,13 +145,6 @@ def test_an_open_l_is_two_plates_and_a_sheet_is_one() -> None:
     assert flat is not None
     assert flat.gap == pytest.approx(0.01, abs=1e-6)
     assert flat.hull.vertices[:, 2].max() == pytest.approx(0)  # behind the side that it faces
-
-
-@pytest.mark.parametrize(("gap", "count"), [(0.4, 1), (0.05, 2)])
-def test_a_bracket_is_one_hull_where_its_gap_is_allowed(gap: float, count: int) -> None:
-    l_shape = union([solid_box(bounds=[(0, 0, 0), (1, 0.2, 1)]), solid_box(bounds=[(0, 0, 0), (0.2, 1, 1)])])
-    (component,) = split_components(np.asarray(l_shape.triangles, float), 0.0)
-    assert len(component_shapes(component, Resolution(gap, 0.01, 8))) == count
 
 
 def chamfered(side: float) -> Hull:

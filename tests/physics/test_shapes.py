@@ -15,10 +15,6 @@ from anymesh.physics.convex import _unit_hulls, as_hull, cut, fitted, hull_of, t
 from anymesh.physics.decompose import (
     Resolution,
     component_shapes,
-    content_key,
-    load_shapes,
-    save_shapes,
-    smallest_box,
     split_components,
 )
 from anymesh.physics.inertia import SUBSTANCES, Inertia, link_inertia, physical, raw_inertia, substance_of
@@ -136,13 +132,6 @@ def test_a_solid_with_a_cavity_is_decomposed_and_stays_open():
     assert sum(volume(as_hull(s)) for s in shapes) == pytest.approx(float(solid.volume), rel=0.05)
 
 
-def test_what_lies_in_a_convex_piece_and_what_is_tiny_needs_no_shape():
-    pieces = [box((0, 0, 0), (1, 1, 1)), box((0.2, 0.2, 0.2), (0.4, 0.4, 0.4)), box((2, 0, 0), (2.001, 0.001, 0.001))]
-    found = split_components(np.concatenate([triangles(*p) for p in pieces]), 0.01)
-    assert [len(c.triangles) for c in found] == [12]
-    assert found[0].triangles.max() == 1
-
-
 def test_the_last_component_holds_no_other_and_needs_no_hull(monkeypatch):
     made = []
     monkeypatch.setattr("anymesh.physics.decompose.hull_of", lambda corners: made.append(corners.max()) or hull_of(corners))
@@ -159,32 +148,6 @@ def test_inside_out_solids_are_turned():
     (found,) = split_components(v[f[:, ::-1]], 0.0)
     normal = np.cross(found.triangles[:, 1] - found.triangles[:, 0], found.triangles[:, 2] - found.triangles[:, 0])
     assert ((found.triangles.mean(1) - v.mean(0)) * normal).sum(1).min() > 0
-
-
-def test_flat_and_empty_links_get_a_thickness():
-    sheet = np.array([[[0, 0, 0], [1, 0, 0], [1, 1, 0]], [[0, 0, 0], [1, 1, 0], [0, 1.0, 0]]])
-    (component,) = split_components(sheet, 0.0)
-    (shape,) = component_shapes(component, FINE)
-    assert isinstance(shape, Box)
-    np.testing.assert_allclose(np.sort(shape.size), [FINE.wall, 1, 1], atol=1e-9)
-    assert shape.center[2] == pytest.approx(-FINE.wall / 2)  # behind the visible face
-    nothing = smallest_box(np.zeros((1, 3, 3)), 0.002)
-    np.testing.assert_allclose(as_hull(nothing).vertices.max(0), [0.001] * 3)
-
-
-def test_shapes_are_kept_by_content(tmp_path):
-    hull = hull_of(turned(np.random.default_rng(1).normal(size=(20, 3))))
-    shapes = (hull, Box(np.ones(3), np.eye(3), np.array([1, 2, 3.0])), Cylinder(np.zeros(3), np.eye(3), 0.5, 2.0))
-    key = content_key(hull.vertices, True, 0.1)
-    assert key != content_key(hull.vertices, True, 0.2)
-    assert load_shapes(tmp_path, key) is None
-    save_shapes(tmp_path, key, shapes)
-    found = load_shapes(tmp_path, key)
-    assert found is not None
-    assert [type(s) for s in found] == [Hull, Box, Cylinder]
-    np.testing.assert_array_equal(found[0].vertices, hull.vertices)
-    (tmp_path / f"{key}.npz").write_bytes(b"cut short")
-    assert load_shapes(tmp_path, key) is None
 
 
 def at(*place):
@@ -222,16 +185,6 @@ def test_a_tight_drawer_is_free_and_open_after_clearing():
 
 def test_links_that_overlap_at_rest_are_listed():
     assert collision_of(sliding(0.002, depth=0.02)).overlapping == (("case", "tray"),)
-
-
-def test_a_round_hull_keeps_few_corners_and_nearly_all_of_its_volume():
-    ball = trimesh.creation.icosphere(5)
-    hull = fitted(hull_of(np.asarray(ball.vertices)))
-    assert isinstance(hull, Hull)
-    assert len(hull.vertices) <= 64
-    assert 0.85 < volume(hull) / ball.volume < 1
-    inner = np.abs(np.einsum("ij,ij->i", hull.vertices, hull.vertices) - 1)
-    assert inner.max() < 1e-9  # they are corners of the ball
 
 
 CONFIG = ExportConfig()

@@ -87,8 +87,9 @@ def record(out: str) -> dict:
     return found
 
 
-def test_a_model_makes_the_asset_in_few_calls_that_are_counted_and_kept(model: Model) -> None:
-    assert articulate(model, "out") == 0
+def test_a_model_makes_the_asset_in_few_calls_that_are_counted_and_kept(model: Model, capfd, caplog) -> None:
+    with caplog.at_level(0):
+        assert articulate(model, "out") == 0
     found = record("out")
     (joint,) = found["joints"]
     assert (joint["type"], joint["child"]) == ("revolute", "lid")
@@ -99,6 +100,11 @@ def test_a_model_makes_the_asset_in_few_calls_that_are_counted_and_kept(model: M
     kept = sorted(p.name for p in Path("out/transcript").glob("*.json"))
     assert [name.split("_")[1] for name in kept] == [f"{kind}.json" for kind, _ in model.asked]
     assert Path("out/transcript/index.html").stat().st_size > 2000
+    shown = capfd.readouterr()
+    assert SECRET not in shown.out + shown.err + caplog.text
+    files = [p for p in Path().rglob("*") if p.is_file()]
+    assert any("cache" in p.parts for p in files)
+    assert not [p for p in files if SECRET.encode() in p.read_bytes()]
 
 
 @pytest.mark.slow
@@ -226,13 +232,3 @@ def test_no_answer_at_all_ends_with_one_line_and_leaves_nothing(model: Model, ca
     assert told.count("\n") == 1
     assert SECRET not in told
     assert not Path("out").exists()
-
-
-def test_the_key_is_in_no_file_and_no_output(model: Model, capfd, caplog) -> None:
-    with caplog.at_level(0):
-        assert articulate(model, "out") == 0
-    shown = capfd.readouterr()
-    assert SECRET not in shown.out + shown.err + caplog.text
-    files = [p for p in Path().rglob("*") if p.is_file()]
-    assert any("cache" in p.parts for p in files)
-    assert not [p for p in files if SECRET.encode() in p.read_bytes()]

@@ -95,11 +95,3 @@ def test_every_layer_is_a_vision_model(opened: Callable[..., VisionModel], tmp_p
         names.append(type(model).__name__)
         model = getattr(model, "_model", None)
     assert names == ["Cached", "Budgeted", "Retrying", "Client"]
-
-
-def test_the_double_answers_by_a_rule_and_remembers() -> None:
-    model = ScriptedModel(lambda request: {"kind": request.kind})
-    assert model.ask(a_request()).text == '{"kind": "hinge"}'
-    assert [request.kind for request in model.requests] == ["hinge"]
-    with pytest.raises(ModelError, match="no answer to question 1"):
-        ScriptedModel([]).ask(a_request())

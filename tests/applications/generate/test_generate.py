@@ -264,9 +264,7 @@ def test_looks_by_meshy_are_counted_in_and_limited(server, articulations, tmp_pa
 @pytest.mark.parametrize(
     ("what", "faults", "error", "told"),
     [
-        ("create", [refuses(401, "no")], ModelError, "the key in MESHY_API_KEY is missing or refused"),
         ("create", [refuses(402, "no")], ModelError, "too few credits, a text-to-3D preview takes about 20"),
-        ("create", [refuses(429, "wait", retry_after="3600")], ModelError, "asks to wait 3600 s"),
         ("look", [refuses(400, "oops")], ModelError, "HTTP 400, it says: oops"),
     ],
 )

@@ -88,14 +88,10 @@ def test_report_is_written_beside(scanned) -> None:
     assert not list(out.parent.glob(".*"))
 
 
-def test_voxel_and_faces_are_obeyed(recording: Path, tmp_path: Path) -> None:
-    report = scan(recording, tmp_path / "coarse.glb", voxel=0.015, faces=2000)
-    assert report.voxel == 0.015
+def test_voxel_faces_and_a_floor_to_keep_are_obeyed(recording: Path, tmp_path: Path) -> None:
+    report = scan(recording, tmp_path / "floor.glb", voxel=0.02, faces=2000, keep_floor=True)
+    assert report.voxel == 0.02
     assert report.faces < 2200
-
-
-def test_the_floor_stays_when_asked(recording: Path, tmp_path: Path) -> None:
-    report = scan(recording, tmp_path / "floor.glb", voxel=0.02, keep_floor=True)
     assert report.floor == "kept"
     assert max(report.extents) > 0.8
 

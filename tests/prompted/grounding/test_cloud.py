@@ -1,6 +1,5 @@
 """Test the points of a surface, their superpoints, and their visibility in views."""
 
-import time
 from dataclasses import replace
 
 import numpy as np
@@ -131,21 +130,6 @@ def test_visibility_agrees_with_a_ray_to_every_point() -> None:
     rays = (cloud.points - eye) * (1 - 1e-4)
     free = RayScene(MESH.vertices, MESH.faces).first_hit(np.repeat(eye[None], len(rays), 0), rays, 1.0).face < 0
     assert (seen == free).mean() > 0.985
-
-
-def test_visibility_costs_little_more_than_the_projection() -> None:
-    cloud = cloud_of(MESH, replace(FEW, points=200_000))
-    view = render(MESH, camera((1.5, -1.0, 1.2)))
-
-    def seconds(work) -> float:
-        times = []
-        for _ in range(3):
-            start = time.perf_counter()
-            work()
-            times.append(time.perf_counter() - start)
-        return min(times)
-
-    assert seconds(lambda: seen_points(cloud, [view])) < 30 * seconds(lambda: view.camera.project(cloud.points))
 
 
 def test_colours_between_vertices_are_interpolated_wherever_the_object_stands() -> None:
