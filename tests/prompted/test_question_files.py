@@ -20,7 +20,7 @@ from anymesh.errors import InputError, OpenQuestionError, OptionError
 from anymesh.evaluation.evaluating import evaluate
 from anymesh.evaluation.ground_truth import example_truths, prepared
 from anymesh.evaluation.oracle import oracle
-from anymesh.prompted.answerers import answering
+from anymesh.pipeline import answering
 from anymesh.prompted.answerers import file_answerer as files
 from anymesh.prompted.answerers.file_answerer import answer_text, open_in, record_answer
 from anymesh.prompted.answerers.question_files import example_answer, explain_schema, find_questions

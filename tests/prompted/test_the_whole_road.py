@@ -16,8 +16,8 @@ from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepare
 from anymesh.evaluation.oracle import SimulatedVlm, oracle
 from anymesh.export.asset_json import schema
 from anymesh.loading import load_mesh, place_mesh
+from anymesh.pipeline import answering
 from anymesh.pipeline.solving import Solver
-from anymesh.prompted.answerers import answering
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NAME = "storage_box"

@@ -10,6 +10,7 @@ from loopback import guard
 from meshy_wire import MeshyServer, serving
 
 from anymesh import pipeline
+from anymesh.applications.generate import run as run_module
 from anymesh.pipeline.run_folder import RunFolder, Saved
 from anymesh.runtime import Progress
 from anymesh.types import Asset
@@ -67,5 +68,5 @@ def quick(articulations: list[dict], monkeypatch: pytest.MonkeyPatch) -> list[di
             shutil.copyfile(folder / "asset.json", run.folder / "asset.json")
             return run.asset()
 
-    monkeypatch.setattr(pipeline, "finish", finish)
+    monkeypatch.setattr(run_module, "finish", finish)
     return articulations

@@ -14,6 +14,7 @@ from meshy_wire import KEY, SIGNATURE, cuts, refuses
 import anymesh
 from anymesh import finish, pipeline
 from anymesh.applications.generate import explain_generation, generate
+from anymesh.applications.generate import run as run_module
 from anymesh.applications.generate.job import choose_size
 from anymesh.applications.generate.protocol import Unit
 from anymesh.applications.generate.work import STILL, WorkFolder
@@ -240,8 +241,8 @@ def test_a_warning_tells_that_nothing_moves(program, tmp_path, quick, monkeypatc
 
         return stilled
 
-    for stage in ("articulate", "finish"):
-        monkeypatch.setattr(pipeline, stage, still(getattr(pipeline, stage)))
+    for module, stage in ((pipeline, "articulate"), (run_module, "finish")):
+        monkeypatch.setattr(module, stage, still(getattr(module, stage)))
     asset = generate("a box", tmp_path / "out", generator=program("--prompt {prompt} --out {out}"), **FAST)
     assert asset.warnings[0] == STILL
     assert record(tmp_path / "out")["warnings"] == [STILL]
