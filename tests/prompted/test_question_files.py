@@ -103,7 +103,6 @@ def test_a_refused_answer_says_why_and_stays_open(work: Path, known, capsys) -> 
     record_answer(Path("q"), right)
     assert not (folder / "refused.md").exists()
     assert open_in(Path("q")) == []
-    assert waiting(capsys)["questions"] != [str(folder)]
 
 
 @pytest.mark.slow
