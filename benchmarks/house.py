@@ -104,11 +104,11 @@ def sums_of(path: PurePosixPath) -> list[str]:
 
 
 def sources(revision: str) -> dict[PurePosixPath, str]:
-    """Return the text of each Python file of a revision, or of the working tree without what git ignores."""
+    """Return the text of each Python file of a revision, or of the working tree without hidden and built folders."""
     if revision == TREE:
-        listed = ["git", "ls-files", "--cached", "--others", "--exclude-standard", "*.py"]
-        names = subprocess.run(listed, cwd=ROOT, capture_output=True, text=True, check=True).stdout.split()
-        return {PurePosixPath(name): (ROOT / name).read_text("utf-8") for name in names if (ROOT / name).is_file()}
+        paths = [path.relative_to(ROOT) for path in sorted(ROOT.rglob("*.py"))]
+        kept = [path for path in paths if not path.parts[0].startswith(".") and path.parts[0] not in ("build", "dist", "out")]
+        return {PurePosixPath(path): (ROOT / path).read_text("utf-8") for path in kept}
     packed = subprocess.run(["git", "archive", revision], cwd=ROOT, capture_output=True, check=True).stdout
     with tarfile.open(fileobj=io.BytesIO(packed)) as tree:
         files = {member.name: tree.extractfile(member) for member in tree if member.name.endswith(".py")}
