@@ -8,7 +8,7 @@ Functions and classes are loaded on first use, so that importing this package is
 
 from typing import TYPE_CHECKING
 
-from anymesh.entry_points import API, resolve
+from anymesh.entry_points import API, REGISTER_IN_IPYTHON, resolve
 from anymesh.errors import AnymeshError, InputError, MissingExtraError, OptionError, OutputError
 
 if TYPE_CHECKING:
@@ -57,5 +57,5 @@ def __getattr__(name: str) -> object:
 
 
 def load_ipython_extension(shell: object) -> None:
-    """Show the assets of lists and dictionaries too, not only alone, after `%load_ext anymesh` in a notebook."""
-    resolve("viewer.report:register")(shell)
+    """Print assets in IPython as one line per joint, after `%load_ext anymesh`."""
+    resolve(REGISTER_IN_IPYTHON)(shell)

@@ -15,6 +15,10 @@ PROMPTED_STAGES = "prompted.stages:PromptedStages"
 WRITE_TRANSCRIPT = "prompted.answerers.recordings:write_transcript"
 REMOVE_TRANSCRIPT = "prompted.answerers.recordings:remove_transcript"
 
+# What an asset shows of itself in a notebook.
+ASSET_HTML = "viewer.report:asset_html"
+REGISTER_IN_IPYTHON = "viewer.report:register"
+
 # `anymesh eval --protocol interaction` is one of the applications.
 EVALUATE_INTERACTION = "applications.policy.interaction_:evaluate_interaction"
 INTERACTION_SUMMARY = "applications.policy.interaction_:summary"

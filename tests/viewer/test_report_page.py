@@ -11,12 +11,13 @@ from assets import cabinet, joint, mesh_of, posed_triangles, slanted, source
 from shown import Page, asked, folder_of, hostile, picture, script_hash, styles
 from typer.testing import CliRunner
 
+import anymesh
 from anymesh.errors import InputError, OutputError
 from anymesh.loading import load_mesh
 from anymesh.types import Asset, Part, Segmentation
 from anymesh.viewer.command_line import picture as picture_command
 from anymesh.viewer.command_line import report
-from anymesh.viewer.report import asset_html, register, show, write_report
+from anymesh.viewer.report import asset_html, show, write_report
 from anymesh.viewer.report_asset import FROM_Y_UP, asset_entry, displayed, find_assets, read_asset
 from anymesh.viewer.report_html import html_report
 
@@ -238,16 +239,23 @@ def test_a_notebook_shows_an_asset_in_a_frame_of_its_own():
     assert inner.open == []
     assert inner.scene(0)["joints"][0]["name"] == "hinge"
     assert show(cabinet())._repr_html_() == html
+    assert cabinet()._repr_html_() == html
 
+
+def test_after_load_ext_a_shell_prints_one_line_per_joint():
     told = {}
 
     class Formatter:
-        def for_type_by_name(self, module, name, function):
-            told[module, name] = function
+        def for_type(self, kind, function):
+            told[kind] = function
 
-    shell = type("Shell", (), {"display_formatter": type("D", (), {"formatters": {"text/html": Formatter()}})})
-    register(shell)
-    assert told == {(Asset.__module__, Asset.__qualname__): asset_html}
+    shell = type("Shell", (), {"display_formatter": type("D", (), {"formatters": {"text/plain": Formatter()}})})
+    anymesh.load_ipython_extension(shell)
+    printed = []
+    told[Asset](cabinet(), type("Printer", (), {"text": printed.append}), False)
+    lines = printed[0].splitlines()
+    assert lines[0].endswith(f"{len(cabinet().joints)} joints")
+    assert [line.split(":")[0].strip() for line in lines[1:]] == [joint.name for joint in cabinet().joints]
 
 
 @pytest.fixture(scope="module")

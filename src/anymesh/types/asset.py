@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from jaxtyping import Float, Int
 
+from anymesh.entry_points import ASSET_HTML, resolve
 from anymesh.types.exchange import Exchange
 from anymesh.types.mesh import Mesh
 from anymesh.types.motion import Joint
@@ -103,3 +104,7 @@ class Asset:
                     raise ValueError(f"joints do not form a tree rooted at {names[0]!r}: {name!r} does not reach it")
                 seen.add(at)
                 at = parent[at]
+
+    def _repr_html_(self) -> str:
+        """Return what a notebook shows of the asset: its report, in a frame."""
+        return resolve(ASSET_HTML)(self)

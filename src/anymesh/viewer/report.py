@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Any
 
 from anymesh.errors import InputError
+from anymesh.names import confidence_word
+from anymesh.rendering.preview import extent
 from anymesh.runtime import Progress, silent, writing
 from anymesh.types import Asset
 from anymesh.viewer.report_asset import FACES, asset_entry, find_assets, folder_entry, within
@@ -92,6 +94,13 @@ def asset_html(asset: Asset, *, height: int = HEIGHT) -> str:
     )
 
 
+def asset_text(asset: Asset) -> str:
+    """Return one line for the asset, and one per joint with its motion and how sure it is."""
+    joints = (f"  {j.name}: {j.type.value} {extent(j)}, {confidence_word(j.confidence)}" for j in asset.joints)
+    return "\n".join((f"{asset.name}: {len(asset.joints)} joints", *joints))
+
+
 def register(shell: Any) -> None:
-    """Register the display of assets in an IPython shell, by class name."""
-    shell.display_formatter.formatters["text/html"].for_type_by_name("anymesh.types.asset", "Asset", asset_html)
+    """Let an IPython shell print assets by `asset_text`; their page they show by themselves (`Asset._repr_html_`)."""
+    plain = shell.display_formatter.formatters["text/plain"]
+    plain.for_type(Asset, lambda asset, printer, cycle: printer.text(asset_text(asset)))
