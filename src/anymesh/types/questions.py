@@ -1,4 +1,4 @@
-"""Protocols between the stages that ask about pictures and whoever answers: a model, files, or ground truth."""
+"""Protocols of questions about pictures and of their answerers: a model, files, or ground truth."""
 
 from __future__ import annotations
 
