@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
-from anymesh.types import JointType, Motion
+from anymesh.types import JointType, Motion, StatedJoint
 from anymesh.types.camera import Camera
 
 SEEDS = st.integers(0, 10**6)
@@ -44,6 +44,19 @@ def test_a_turn_follows_the_right_hand_and_a_slide_the_axis(seed, amount):
     on_axis = np.r_[turn.origin + 1.7 * turn.axis, 1]
     np.testing.assert_allclose(turn.transform(amount) @ on_axis, on_axis, atol=1e-9)
     np.testing.assert_allclose(slide.transform(amount) @ on_axis, on_axis + np.r_[amount * slide.axis, 0], atol=1e-9)
+
+
+@given(SEEDS, st.booleans(), st.sampled_from((JointType.REVOLUTE, JointType.PRISMATIC)), st.floats(0.1, 10))
+def test_a_stated_joint_moves_what_its_mesh_holds_in_any_frame(seed, mirrored, kind, size):
+    stated = motion(seed, kind)
+    joint = StatedJoint(kind, stated.origin, 3 * stated.axis, (-0.5, 1.2), name="lid")
+    T = np.eye(4)
+    T[:3, :3] = Rotation.random(random_state=seed).as_matrix() * size * np.array([-1 if mirrored else 1, 1, 1])
+    T[:3, 3] = (1, 2, 3)
+    moved = joint.transformed(T)
+    assert moved.limits is not None
+    assert moved.opening_motion.transform(moved.limits[1]) @ T == pytest.approx(T @ stated.transform(1.2), abs=1e-9)
+    assert moved.opening_motion.transform(moved.limits[0]) @ T == pytest.approx(T @ stated.transform(-0.5), abs=1e-9)
 
 
 def test_an_axis_is_a_unit_vector():

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float, Float32, Int, UInt8
 
 from anymesh.errors import InputError
-from anymesh.types import Material, Mesh, Node
+from anymesh.types import Material, Mesh, Node, StatedJoint
 
 
 def check_geometry(name: str, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], first: int = 0) -> None:
@@ -32,7 +33,7 @@ def simple_mesh(
     vertices: np.ndarray,
     faces: np.ndarray,
     material: Material | None = None,
-    **corners: np.ndarray | None,
+    **corners: Any,
 ) -> Mesh:
     """Return a checked mesh of one node and at most one material, with corner_uv, corner_color and corner_normal."""
     vertices = np.array(vertices, np.float64)
@@ -98,7 +99,11 @@ def join(meshes: list[Mesh]) -> Mesh:
                 known[id(material)] = materials.index(material)
         number = np.array([*(known[id(m)] for m in mesh.materials), -1], np.int64)
         face_material.append(number[mesh.face_material])
-    nodes = [node for mesh in meshes for node in mesh.nodes]
+    nodes, joints = list[Node](), list[StatedJoint]()
+    for mesh in meshes:
+        first = len(joints)
+        nodes += [replace(n, joint=n.joint + first if n.joint >= 0 else -1) for n in mesh.nodes]
+        joints += [replace(j, parent=None if j.parent is None else j.parent + first) for j in mesh.joints]
     names = unique_names(node.name for node in nodes)
     vertices, count = _offsets(len(m.vertices) for m in meshes), _offsets(len(m.nodes) for m in meshes)
     return Mesh(
@@ -111,6 +116,7 @@ def join(meshes: list[Mesh]) -> Mesh:
         _corners([m.corner_uv for m in meshes], meshes, 2, np.float32, 0),
         _corners([m.corner_color for m in meshes], meshes, 4, np.uint8, 255),
         _normals(meshes),
+        tuple(joints),
     )
 
 

@@ -26,10 +26,25 @@ from anymesh.pipeline.results import (
     SegmentationResult,
 )
 from anymesh.runtime import read_json, write_json
-from anymesh.types import Asset, Exchange, Joint, JointType, Material, Mesh, Node, Part, Picture, Segmentation, Source, Texture
+from anymesh.types import (
+    Asset,
+    Exchange,
+    Joint,
+    JointType,
+    Material,
+    Mesh,
+    Node,
+    Part,
+    Picture,
+    Segmentation,
+    Source,
+    StatedJoint,
+    Texture,
+)
 from anymesh.types.motion import Recognition, RecognizedLabel
 
 Result = TypeVar("Result")
+AnyJoint = TypeVar("AnyJoint", Joint, StatedJoint)
 Arrays = Mapping[str, np.ndarray]
 MESH_ARRAYS = ("vertices", "faces", "face_node", "face_material", "corner_uv", "corner_color", "corner_normal")
 log = logging.getLogger("anymesh")
@@ -69,7 +84,9 @@ def _pack_mesh(mesh: Mesh) -> tuple[Record, dict[str, np.ndarray]]:
             record["textures"][slot] = {"array": key, "mime": texture.mime, "name": texture.name}
         materials.append(record)
     arrays |= {key: np.frombuffer(data, np.uint8) for data, key in images.items()}
-    return {"nodes": [asdict(node) for node in mesh.nodes], "materials": materials}, arrays
+    nodes = [{k: v for k, v in asdict(node).items() if k != "joint" or v >= 0} for node in mesh.nodes]
+    joints = {"joints": [_pack_joint(joint) for joint in mesh.joints]} if mesh.joints else {}
+    return {"nodes": nodes, "materials": materials} | joints, arrays
 
 
 def _unpack_load(record: Record, arrays: Arrays) -> LoadResult:
@@ -92,6 +109,7 @@ def _unpack_mesh(record: Record, arrays: Arrays) -> Mesh:
         **mesh_arrays,
         nodes=tuple(Node(**node) for node in record["nodes"]),
         materials=tuple(material(m) for m in record["materials"]),
+        joints=tuple(_unpack_joint(StatedJoint, joint) for joint in record.get("joints", ())),
     )
 
 
@@ -165,15 +183,15 @@ def _unpack_segmentation(record: Record, arrays: Arrays) -> SegmentationResult:
     return SegmentationResult(segmentation, record["answerer"], tuple(record["warnings"]), exchanges)
 
 
-def _pack_joint(joint: Joint) -> Record:
+def _pack_joint(joint: Joint | StatedJoint) -> Record:
     record = {f.name: getattr(joint, f.name) for f in fields(joint)}
     return record | {"type": str(joint.type), "origin": joint.origin.tolist(), "axis": joint.axis.tolist()}
 
 
-def _unpack_joint(record: Record) -> Joint:
+def _unpack_joint(kind: type[AnyJoint], record: Record) -> AnyJoint:
     values: dict[str, Any] = {**record, "type": JointType(record["type"]), "limits": _limits(record)}
     values["origin"], values["axis"] = np.array(record["origin"], float), np.array(record["axis"], float)
-    return Joint(**values)
+    return kind(**values)
 
 
 def _pack_joints(result: JointResult) -> tuple[Record, dict[str, np.ndarray]]:
@@ -184,7 +202,7 @@ def _pack_joints(result: JointResult) -> tuple[Record, dict[str, np.ndarray]]:
 
 
 def _unpack_joints(record: Record, arrays: Arrays) -> JointResult:
-    joints = tuple(_unpack_joint(j) for j in record["joints"])
+    joints = tuple(_unpack_joint(Joint, j) for j in record["joints"])
     return JointResult(joints, record["answerer"], tuple(record["warnings"]), _unpack_exchanges(record["exchanges"], arrays))
 
 
@@ -213,7 +231,7 @@ def _pack_corrected(result: CorrectionResult) -> tuple[Record, dict[str, np.ndar
 
 def _unpack_corrected(record: Record, arrays: Arrays) -> CorrectionResult:
     segmentation = Segmentation(arrays["face_part"], tuple(Part(**part) for part in record["parts"]))
-    joints = tuple(_unpack_joint(j) for j in record["joints"])
+    joints = tuple(_unpack_joint(Joint, j) for j in record["joints"])
     return CorrectionResult(segmentation, joints, tuple(record["warnings"]), tuple(record["log"]))
 
 

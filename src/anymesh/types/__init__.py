@@ -3,7 +3,7 @@
 from anymesh.types.asset import Asset, Part, Segmentation, Source
 from anymesh.types.exchange import Exchange, Picture
 from anymesh.types.mesh import Box, Cylinder, Hull, Material, Mesh, Node, Shape, Texture
-from anymesh.types.motion import MOVING, Handle, Joint, JointType, KnownJoint, Motion, Sweep
+from anymesh.types.motion import MOVING, Handle, Joint, JointType, KnownJoint, Motion, StatedJoint, Sweep
 
 __all__ = [
     "MOVING",
@@ -25,6 +25,7 @@ __all__ = [
     "Segmentation",
     "Shape",
     "Source",
+    "StatedJoint",
     "Sweep",
     "Texture",
 ]

@@ -12,6 +12,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Float32, Int, UInt8
 
+from anymesh.types.motion import StatedJoint
 from anymesh.types.triangles import face_cross
 
 TEXTURE_SLOTS = ("base_color", "metallic_roughness", "normal", "occlusion", "emissive")
@@ -52,6 +53,7 @@ class Node:
 
     name: str  # the node's name in the file; unique within a mesh
     geometry: str = ""  # the geometry's name in the file, shared by instances
+    joint: int = -1  # index into the mesh's joints of the one that moves this node, -1 = none
 
 
 def _check_range(name: str, numbers: np.ndarray, low: int, end: int) -> None:
@@ -84,6 +86,7 @@ class Mesh:
     corner_uv: Float32[np.ndarray, "F 3 2"] | None = None
     corner_color: UInt8[np.ndarray, "F 3 4"] | None = None
     corner_normal: Float32[np.ndarray, "F 3 3"] | None = None
+    joints: tuple[StatedJoint, ...] = ()  # that the file states, parents before the joints that they carry
 
     def __post_init__(self) -> None:
         count = len(self.faces)
@@ -98,6 +101,7 @@ class Mesh:
         _check_range("face indices", self.faces, 0, len(self.vertices))
         _check_range("face_node", self.face_node, 0, len(self.nodes))
         _check_range("face_material", self.face_material, -1, len(self.materials))
+        _check_range("joints of nodes", np.array([node.joint for node in self.nodes]), -1, len(self.joints))
 
     @cached_property
     def triangles(self) -> Float[np.ndarray, "F 3 3"]:
@@ -159,10 +163,15 @@ class Mesh:
             corner_uv=corners(self.corner_uv),
             corner_color=corners(self.corner_color),
             corner_normal=normal,
+            joints=tuple(joint.transformed(T) for joint in self.joints),
         )
 
+    def without_joints(self) -> Mesh:
+        """Return the mesh without the joints that its file states."""
+        return replace(self, nodes=tuple(replace(node, joint=-1) for node in self.nodes), joints=()) if self.joints else self
+
     def subset(self, faces: Int[np.ndarray, " n"] | Bool[np.ndarray, " F"]) -> Mesh:
-        """Return the mesh of some faces (indices or mask), without unused vertices; nodes and materials are kept."""
+        """Return the mesh of some faces (indices or mask), without unused vertices; nodes, materials and joints are kept."""
         chosen = self.faces[faces]
         used, inverse = np.unique(chosen, return_inverse=True)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 import numpy as np
@@ -114,6 +114,29 @@ class KnownJoint:
     def opening_range(self) -> tuple[float, float] | None:
         """Return the limits of `opening_motion`."""
         return (-self.limits[1], -self.limits[0]) if self.limits is not None and sum(self.limits) < 0 else self.limits
+
+
+@dataclass(frozen=True, eq=False)
+class StatedJoint(KnownJoint):
+    """A joint that the file states for the nodes that refer to it, in the frame of their mesh at rest.
+
+    name: of the part that it moves; reason: where the file states it; parent: index of the joint that moves its parent, None if
+    that is the base. If `axis_known` is False, only the origin is known, as of a bone: type, axis and limits mean nothing.
+    """
+
+    name: str = ""
+    reason: str = ""
+    parent: int | None = None
+    axis_known: bool = True
+
+    def transformed(self, T: Float[np.ndarray, "4 4"]) -> StatedJoint:
+        """Return the joint of a mesh under a 4x4 transform that keeps angles; a mirroring one turns the other way round."""
+        slides, linear = self.type is JointType.PRISMATIC, T[:3, :3]
+        axis = linear @ self.axis
+        length = float(np.linalg.norm(axis) / np.linalg.norm(self.axis))
+        limits = (self.limits[0] * length, self.limits[1] * length) if slides and self.limits is not None else self.limits
+        sign = -1.0 if not slides and np.linalg.det(linear) < 0 else 1.0
+        return replace(self, origin=linear @ self.origin + T[:3, 3], axis=sign / length * axis, limits=limits)
 
 
 @dataclass(frozen=True, eq=False)
