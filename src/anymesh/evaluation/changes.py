@@ -113,6 +113,7 @@ def _reversed(mesh: Mesh, which: Bool[np.ndarray, " F"]) -> Mesh:
         faces=flip(mesh.faces),
         corner_uv=flip(mesh.corner_uv),
         corner_color=flip(mesh.corner_color),
+        corner_more_uv=flip(mesh.corner_more_uv),
         corner_normal=None if normal is None else flip(np.where(which[:, None, None], -normal, normal)),
     )
 

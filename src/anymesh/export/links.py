@@ -16,7 +16,7 @@ class Primitive:
     """Triangles of one link with one material.
 
     material: into the mesh's materials, -1 = none; positions: (n, 3) in the link frame [m]; triangles: (m, 3) into them; uv: v
-    up; normals: unit; colors: RGBA 0..255.
+    up; normals: unit; colors: RGBA 0..255; more_uv: further sets, side by side.
     """
 
     material: int
@@ -25,6 +25,7 @@ class Primitive:
     uv: Float32[np.ndarray, "n 2"] | None
     normals: Float32[np.ndarray, "n 3"] | None
     colors: UInt8[np.ndarray, "n 4"] | None
+    more_uv: Float32[np.ndarray, "n k"] | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,6 +98,7 @@ def _primitive(mesh: Mesh, faces: np.ndarray, origin: np.ndarray) -> Primitive:
         return None if attribute is None else attribute[faces].reshape(-1, width)
 
     uv, normals, colors = rows(mesh.corner_uv, 2), rows(mesh.corner_normal, 3), rows(mesh.corner_color, 4)
+    more_uv = None if mesh.corner_more_uv is None else rows(mesh.corner_more_uv, mesh.corner_more_uv.shape[2])
     if uv is not None:
         uv = np.nan_to_num(uv, posinf=0.0, neginf=0.0)
     if normals is not None:
@@ -104,7 +106,7 @@ def _primitive(mesh: Mesh, faces: np.ndarray, origin: np.ndarray) -> Primitive:
     if colors is not None and (colors == 255).all():
         colors = None
     columns = [np.ascontiguousarray(positions).view(np.uint64)]
-    columns += [np.ascontiguousarray(a).view(np.uint32) for a in (uv, normals, colors) if a is not None]
+    columns += [np.ascontiguousarray(a).view(np.uint32) for a in (uv, normals, colors, more_uv) if a is not None]
     first, inverse = unique_rows([c[:, i].astype(np.uint64) for c in columns for i in range(c.shape[1])])
     return Primitive(
         material=int(mesh.face_material[faces[0]]),
@@ -113,6 +115,7 @@ def _primitive(mesh: Mesh, faces: np.ndarray, origin: np.ndarray) -> Primitive:
         uv=None if uv is None else uv[first],
         normals=None if normals is None else normals[first],
         colors=None if colors is None else colors[first],
+        more_uv=None if more_uv is None else more_uv[first],
     )
 
 

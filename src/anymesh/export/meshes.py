@@ -130,7 +130,8 @@ def _with_back(primitive: Primitive, shift: np.ndarray) -> Primitive:
         triangles=np.concatenate([front, front[:, ::-1] + len(primitive.positions)]),
         uv=twice(uv, 1),
         normals=normals,
-        colors=None if colors is None else np.concatenate([colors, colors]),
+        colors=twice(colors, 1),
+        more_uv=twice(primitive.more_uv, 1),
     )
 
 

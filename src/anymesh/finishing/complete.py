@@ -52,6 +52,7 @@ def with_new_faces(
         corner_uv=_extended(mesh.corner_uv, like, corner),
         corner_color=_extended(mesh.corner_color, like, corner),
         corner_normal=_with_normals(mesh, triangles),
+        corner_more_uv=_extended(mesh.corner_more_uv, like, corner),
     )
     segmentation = replace(asset.segmentation, face_part=np.concatenate([asset.segmentation.face_part, part]))
     source = np.concatenate([np.arange(len(mesh.faces)), np.full(len(triangles), -1)])

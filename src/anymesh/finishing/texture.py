@@ -105,6 +105,7 @@ def points_mesh(mesh: Mesh, face: Int[np.ndarray, " n"], weights: Float[np.ndarr
         corner_uv=at(mesh.corner_uv),
         corner_color=at(mesh.corner_color),
         corner_normal=None,
+        corner_more_uv=at(mesh.corner_more_uv),
     )
 
 
@@ -229,4 +230,10 @@ def _with_materials(mesh: Mesh, new: np.ndarray, like: np.ndarray, weights: Floa
 
     material = mesh.face_material.copy()
     material[new] = mesh.face_material[like]
-    return replace(mesh, face_material=material, corner_uv=placed(mesh.corner_uv), corner_color=placed(mesh.corner_color))
+    return replace(
+        mesh,
+        face_material=material,
+        corner_uv=placed(mesh.corner_uv),
+        corner_color=placed(mesh.corner_color),
+        corner_more_uv=placed(mesh.corner_more_uv),
+    )

@@ -3,17 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float32
 
 from anymesh.errors import InputError
-from anymesh.loading.files import Folder, picture, picture_file, warn_unreadable
-from anymesh.loading.gltf_data import Buffers, from_uri, item, parse_json, split_glb
+from anymesh.loading.files import Folder
+from anymesh.loading.gltf_data import Buffers, item, parse_json, split_glb
+from anymesh.loading.gltf_materials import GltfMaterial, read_materials
 from anymesh.loading.join import join, rgba, simple_mesh, unique_names, unit
-from anymesh.types import Material, Mesh, Node, Texture
+from anymesh.types import Mesh, Node
 from anymesh.types.mesh import to_srgb
 
 TRIANGLES = 4  # primitive mode
@@ -140,7 +140,7 @@ def _primitive(where: str, p: dict[str, Any], buffers: Buffers, looks: list[Gltf
     faces = _faces(where, p.get("mode", TRIANGLES), index)
     if not len(faces):
         return None
-    look = looks[p["material"]] if "material" in p else None
+    look = looks[p["material"]] if "material" in p else GltfMaterial(None)
 
     def corners(key: str) -> np.ndarray | None:
         values = buffers.array(attributes[key]) if key in attributes else None
@@ -148,13 +148,14 @@ def _primitive(where: str, p: dict[str, Any], buffers: Buffers, looks: list[Gltf
             raise InputError(f"{where}: {key} has {len(values)} elements; valid are {len(vertices)}, as many as positions")
         return values
 
-    uv = corners(f"TEXCOORD_{look.uv_set if look else 0}")
+    uv, more_uv = look.coordinates(corners)
     color, normal = corners("COLOR_0"), corners("NORMAL")
     normal = None if normal is None else unit(normal)
-    mesh = simple_mesh(where, "mesh", vertices, faces, look.material if look else None)
+    mesh = simple_mesh(where, "mesh", vertices, faces, look.material)
     return replace(
         mesh,
-        corner_uv=None if uv is None else (look or GltfMaterial(None)).place(uv)[faces],  # ty: ignore[invalid-argument-type]
+        corner_uv=None if uv is None else uv[faces],
+        corner_more_uv=None if more_uv is None else more_uv[faces],
         corner_color=None if color is None else rgba(_display(color))[faces],
         corner_normal=None if normal is None else normal[faces],
     )
@@ -174,87 +175,3 @@ def _faces(where: str, mode: int, index: np.ndarray) -> np.ndarray:
             return np.stack([index[1:-1], index[2:], np.full(max(len(index) - 2, 0), index[0])], 1)
         case _:
             raise InputError(f"{where}: found the primitive mode {mode}; valid are 4, 5 and 6 (triangles)")
-
-
-@dataclass(frozen=True)
-class GltfMaterial:
-    """A material, and the texture coordinates of its pictures."""
-
-    material: Material
-    uv_set: int = 0
-    transform: dict[str, Any] | None = None  # KHR_texture_transform of the base colour
-
-    def place(self, uv: np.ndarray) -> Float32[np.ndarray, "n 2"]:
-        """Return texture coordinates with the picture's transform applied and v upwards as in OBJ."""
-        uv = np.nan_to_num(np.asarray(uv, np.float64)[:, :2])
-        if self.transform:
-            angle = float(self.transform.get("rotation", 0.0))
-            c, s = np.cos(angle), np.sin(angle)
-            uv = (uv * self.transform.get("scale", (1, 1))) @ np.array([[c, -s], [s, c]]) + self.transform.get("offset", (0, 0))
-        return np.stack([uv[:, 0], 1 - uv[:, 1]], 1).astype(np.float32)
-
-
-def read_materials(tree: dict[str, Any], buffers: Buffers, folder: Folder) -> list[GltfMaterial]:
-    """Return the materials in the order of the file; a missing or broken picture gives a warning."""
-    images = [_image(k, image, buffers, folder) for k, image in enumerate(tree.get("images", []))]
-    return [_material(k, m, tree.get("textures", []), images) for k, m in enumerate(tree.get("materials", []))]
-
-
-def _image(number: int, image: dict[str, Any], buffers: Buffers, folder: Folder) -> Texture | None:
-    uri, name = image.get("uri"), str(image.get("name") or f"image_{number}")
-    if uri is not None and not uri.startswith("data:"):
-        return picture_file(folder, uri)
-    try:
-        data = buffers.view(image["bufferView"]) if uri is None else from_uri(uri, folder)
-    except (InputError, LookupError, TypeError) as error:  # a picture is optional
-        warn_unreadable(folder, name, error)
-        return None
-    return picture(folder, data, name)
-
-
-def _material(number: int, m: dict[str, Any], textures: list[dict[str, Any]], images: list[Texture | None]) -> GltfMaterial:
-    pbr, extensions = m.get("pbrMetallicRoughness", {}), m.get("extensions", {})
-    color, base = pbr.get("baseColorFactor"), pbr.get("baseColorTexture")
-    metallic, roughness = pbr.get("metallicFactor", 1.0), pbr.get("roughnessFactor", 1.0)
-    old = extensions.get("KHR_materials_pbrSpecularGlossiness")
-    if old is not None:  # an archived extension; its colour and gloss have counterparts
-        color, base = old.get("diffuseFactor", color), old.get("diffuseTexture", base)
-        metallic, roughness = 0.0, 1.0 - float(old.get("glossinessFactor", 1.0))
-    named = {
-        "base_color": base,
-        "metallic_roughness": pbr.get("metallicRoughnessTexture"),
-        "normal": m.get("normalTexture"),
-        "occlusion": m.get("occlusionTexture"),
-        "emissive": m.get("emissiveTexture"),
-    }
-    slot_textures = {slot: _texture(info, textures, images) for slot, info in named.items() if info is not None}
-    mode, cutoff = m.get("alphaMode", "OPAQUE"), float(m.get("alphaCutoff", 0.5))
-    material = Material(
-        name=str(m.get("name") or f"material_{number}"),
-        base_color=_factor(color, 4),
-        metallic=_factor([metallic], 1)[0],
-        roughness=_factor([roughness], 1)[0],
-        emissive=_factor(m.get("emissiveFactor", (0.0, 0.0, 0.0)), 3),
-        double_sided=bool(m.get("doubleSided", False)),
-        alpha_mode=mode if mode in ("OPAQUE", "MASK", "BLEND") else "OPAQUE",
-        alpha_cutoff=cutoff if np.isfinite(cutoff) else 0.5,
-        textures={slot: t for slot, t in slot_textures.items() if t is not None},
-    )
-    main = base or next((info for info in named.values() if info is not None), {})
-    moved = main.get("extensions", {}).get("KHR_texture_transform")
-    return GltfMaterial(material, (moved or {}).get("texCoord", main.get("texCoord", 0)), moved)
-
-
-def _texture(info: dict[str, Any], textures: list[dict[str, Any]], images: list[Texture | None]) -> Texture | None:
-    texture = textures[info["index"]]
-    extended = [e["source"] for e in texture.get("extensions", {}).values() if isinstance(e, dict) and "source" in e]
-    sources = [texture["source"]] if "source" in texture else []
-    return next((images[s] for s in (*extended, *sources) if images[s] is not None), None)
-
-
-def _factor(values: Any, width: int) -> Any:
-    """Return numbers clipped to 0..1; 1 if there are none."""
-    if values is None:
-        return (1.0,) * width
-    v = np.nan_to_num(np.asarray(values, np.float64).reshape(width), nan=1.0)
-    return tuple(float(x) for x in np.clip(v, 0, 1))

@@ -117,6 +117,7 @@ def join(meshes: list[Mesh]) -> Mesh:
         _corners([m.corner_color for m in meshes], meshes, 4, np.uint8, 255),
         _normals(meshes),
         tuple(joints),
+        _corners([m.corner_more_uv for m in meshes], meshes, 0, np.float32, 0),
     )
 
 
@@ -127,8 +128,12 @@ def _offsets(lengths: Iterable[int]) -> np.ndarray:
 def _corners(values: list, meshes: list[Mesh], width: int, dtype: type, fill: int) -> np.ndarray | None:
     if all(v is None for v in values):
         return None
-    pairs = zip(values, meshes, strict=True)
-    return np.concatenate([np.full((len(m.faces), 3, width), fill, dtype) if v is None else v for v, m in pairs])
+    width = max(width, *(v.shape[2] for v in values if v is not None), 0)
+    padded = [np.full((len(m.faces), 3, width), fill, dtype) for m in meshes]
+    for rows, v in zip(padded, values, strict=True):
+        if v is not None:
+            rows[..., : v.shape[2]] = v
+    return np.concatenate(padded)
 
 
 def _normals(meshes: list[Mesh]) -> np.ndarray | None:

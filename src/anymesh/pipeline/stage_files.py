@@ -41,12 +41,14 @@ from anymesh.types import (
     StatedJoint,
     Texture,
 )
+from anymesh.types.mesh import REPEAT
 from anymesh.types.motion import Recognition, RecognizedLabel
 
 Result = TypeVar("Result")
 AnyJoint = TypeVar("AnyJoint", Joint, StatedJoint)
 Arrays = Mapping[str, np.ndarray]
-MESH_ARRAYS = ("vertices", "faces", "face_node", "face_material", "corner_uv", "corner_color", "corner_normal")
+MESH_ARRAYS = tuple(f.name for f in fields(Mesh) if f.name not in ("nodes", "materials", "joints"))
+USUAL = (("wrap", (REPEAT, REPEAT)), ("uv_set", 0), ("strength", 1.0), ("unlit", False))  # not stored
 log = logging.getLogger("anymesh")
 FOLDER = "stages"
 EPOCH = (1980, 1, 1, 0, 0, 0)  # date inside every archive, so that equal results are equal files
@@ -77,11 +79,12 @@ def _pack_mesh(mesh: Mesh) -> tuple[Record, dict[str, np.ndarray]]:
     images: dict[bytes, str] = {}
     materials = []
     for material in mesh.materials:
-        record = {f.name: getattr(material, f.name) for f in fields(material) if f.name != "textures"}
+        record = {k: v for k, v in vars(material).items() if k != "textures" and (k, v) not in USUAL}
         record["textures"] = {}
         for slot, texture in material.textures.items():
             key = images.setdefault(texture.data, f"image_{len(images)}")
-            record["textures"][slot] = {"array": key, "mime": texture.mime, "name": texture.name}
+            stored = {k: v for k, v in vars(texture).items() if k != "data" and (k, v) not in USUAL}
+            record["textures"][slot] = {"array": key} | stored
         materials.append(record)
     arrays |= {key: np.frombuffer(data, np.uint8) for data, key in images.items()}
     nodes = [{k: v for k, v in asdict(node).items() if k != "joint" or v >= 0} for node in mesh.nodes]
@@ -98,11 +101,12 @@ def _unpack_load(record: Record, arrays: Arrays) -> LoadResult:
 def _unpack_mesh(record: Record, arrays: Arrays) -> Mesh:
     def material(material_record: Record) -> Material:
         textures = {
-            slot: Texture(arrays[t["array"]].tobytes(), t["mime"], t["name"]) for slot, t in material_record["textures"].items()
+            slot: replace(
+                Texture(arrays[t["array"]].tobytes(), t["mime"]), **_tuples({k: v for k, v in t.items() if k != "array"})
+            )
+            for slot, t in material_record["textures"].items()
         }
-        values: dict[str, Any] = {**material_record, "textures": textures}
-        values["base_color"], values["emissive"] = tuple(material_record["base_color"]), tuple(material_record["emissive"])
-        return Material(**values)
+        return Material(**_tuples({**material_record, "textures": textures}))
 
     mesh_arrays: dict[str, Any] = {name: arrays.get(name) for name in MESH_ARRAYS}
     return Mesh(
@@ -111,6 +115,10 @@ def _unpack_mesh(record: Record, arrays: Arrays) -> Mesh:
         materials=tuple(material(m) for m in record["materials"]),
         joints=tuple(_unpack_joint(StatedJoint, joint) for joint in record.get("joints", ())),
     )
+
+
+def _tuples(values: Record) -> dict[str, Any]:
+    return {k: tuple(v) if isinstance(v, list) else v for k, v in values.items()}
 
 
 def _pack_exchanges(exchanges: tuple[Exchange, ...]) -> tuple[list[Record], dict[str, np.ndarray]]:

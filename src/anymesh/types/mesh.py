@@ -15,16 +15,20 @@ from jaxtyping import Bool, Float, Float32, Int, UInt8
 from anymesh.types.motion import StatedJoint
 from anymesh.types.triangles import face_cross
 
+REPEAT, MIRROR, CLAMP = "repeat", "mirror", "clamp"
 TEXTURE_SLOTS = ("base_color", "metallic_roughness", "normal", "occlusion", "emissive")
 
 
 @dataclass(frozen=True)
 class Texture:
-    """An encoded image, as the bytes of its file."""
+    """An encoded image, as the bytes of its file, and how a material lays it on."""
 
     data: bytes
     mime: str  # "image/png" or "image/jpeg"
     name: str = ""
+    wrap: tuple[str, str] = (REPEAT, REPEAT)  # beyond 0..1 along u and v: REPEAT, MIRROR or CLAMP
+    uv_set: int = 0  # 0: Mesh.corner_uv, k: columns 2k - 2 and 2k - 1 of Mesh.corner_more_uv
+    strength: float = 1.0  # scale of a normal picture, strength of an occlusion picture
 
 
 @dataclass(frozen=True)
@@ -35,16 +39,23 @@ class Material:
     base_color: tuple[float, float, float, float] = (0.7, 0.7, 0.7, 1.0)  # linear factor, RGBA in 0..1
     metallic: float = 0.0
     roughness: float = 0.8
-    emissive: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    emissive: tuple[float, float, float] = (0.0, 0.0, 0.0)  # linear; above 1 for what is brighter than white
     double_sided: bool = False
-    alpha_mode: str = "OPAQUE"  # OPAQUE, MASK or BLEND
+    alpha_mode: str = "OPAQUE"  # OPAQUE (alpha of factor, picture and vertex colours does not count), MASK or BLEND
     alpha_cutoff: float = 0.5
     textures: Mapping[str, Texture] = field(default_factory=dict)  # slot of TEXTURE_SLOTS -> image
+    unlit: bool = False  # the base colour is shown as it is, without light
 
     def __post_init__(self) -> None:
         unknown = set(self.textures) - set(TEXTURE_SLOTS)
         if unknown:
             raise ValueError(f"material {self.name!r}: texture slots {sorted(unknown)}, valid are {TEXTURE_SLOTS}")
+
+    @property
+    def opacity(self) -> float:
+        """Return the opacity of the factor, 0..1, as far as alpha_mode lets it count; every writer obeys this."""
+        alpha = self.base_color[3]
+        return {"BLEND": alpha, "MASK": float(alpha >= self.alpha_cutoff)}.get(self.alpha_mode, 1.0)
 
 
 @dataclass(frozen=True)
@@ -74,7 +85,8 @@ class Mesh:
 
     vertices: (V, 3) [units of its frame]; faces: (F, 3) into vertices; face_node: (F,) into nodes;
     face_material: (F,) into materials, -1 = none. Corner attributes are per face corner, or None when the source has none:
-    corner_uv (F, 3, 2), v up as in OBJ; corner_color (F, 3, 4) sRGB and alpha 0..255; corner_normal (F, 3, 3) unit.
+    corner_uv (F, 3, 2), v up as in OBJ; corner_color (F, 3, 4) sRGB and alpha 0..255; corner_normal (F, 3, 3) unit;
+    corner_more_uv (F, 3, 2n) n further sets of texture coordinates, side by side.
     """
 
     vertices: Float[np.ndarray, "V 3"]
@@ -87,6 +99,7 @@ class Mesh:
     corner_color: UInt8[np.ndarray, "F 3 4"] | None = None
     corner_normal: Float32[np.ndarray, "F 3 3"] | None = None
     joints: tuple[StatedJoint, ...] = ()  # that the file states, parents before the joints that they carry
+    corner_more_uv: Float32[np.ndarray, "F 3 n"] | None = None
 
     def __post_init__(self) -> None:
         count = len(self.faces)
@@ -94,7 +107,7 @@ class Mesh:
             raise ValueError("a mesh needs at least one face, found none")
         if not np.isfinite(self.vertices).all():
             raise ValueError("vertices must be finite")
-        for name in ("face_node", "face_material", "corner_uv", "corner_color", "corner_normal"):
+        for name in ("face_node", "face_material", "corner_uv", "corner_color", "corner_normal", "corner_more_uv"):
             value = getattr(self, name)
             if value is not None and len(value) != count:
                 raise ValueError(f"{name} must have one row per face ({count}), found {len(value)}")
@@ -164,6 +177,7 @@ class Mesh:
             corner_color=corners(self.corner_color),
             corner_normal=normal,
             joints=tuple(joint.transformed(T) for joint in self.joints),
+            corner_more_uv=corners(self.corner_more_uv),
         )
 
     def without_joints(self) -> Mesh:
@@ -187,6 +201,7 @@ class Mesh:
             corner_uv=rows(self.corner_uv),
             corner_color=rows(self.corner_color),
             corner_normal=rows(self.corner_normal),
+            corner_more_uv=rows(self.corner_more_uv),
         )
 
 

@@ -176,6 +176,7 @@ def _with_floor(mesh: Mesh) -> tuple[Mesh, int]:
         corner_uv=padded(mesh.corner_uv),
         corner_color=padded(mesh.corner_color),
         corner_normal=padded(mesh.corner_normal),
+        corner_more_uv=padded(mesh.corner_more_uv),
     ), count
 
 

@@ -91,7 +91,7 @@ def point_colors(mesh: Mesh, s: SurfacePoints) -> UInt8[np.ndarray, "n 3"]:
     dots = replace(  # a mesh with one degenerate face per point, so that its face colours are those of the points
         mesh, vertices=np.zeros((1, 3)), faces=np.zeros((len(s), 3), np.int64), face_node=mesh.face_node[s.faces],
         face_material=mesh.face_material[s.faces], corner_uv=at_points(mesh.corner_uv),
-        corner_color=at_points(mesh.corner_color), corner_normal=None,
+        corner_color=at_points(mesh.corner_color), corner_normal=None, corner_more_uv=None,
     )  # fmt: skip
     return face_colors(dots)
 
