@@ -103,6 +103,12 @@ def _singular(word: str) -> str:
     return next((w for w in singulars if w in _BY_NAME or w in FIXED), likely)
 
 
+def names_several(name: str) -> bool:
+    """Return whether a name contains the plural of a kind of part, as that of a group of objects does ("LeftDoors")."""
+    words = [w.lower() for w in _SPLIT.split(name) if w]
+    return any(w not in _BY_NAME and _singular(w) in _BY_NAME for w in words)
+
+
 def recognize(name: str) -> Word | None:
     """Return the kind of part that a name means; the last recognized word counts (a "door handle" is a handle)."""
     return _BY_NAME.get(_part_word(name))

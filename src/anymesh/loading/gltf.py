@@ -34,9 +34,10 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
             folder.warn(f"the file requires the extension {extension}, which is not read")
     looks = read_materials(tree, buffers, folder)
     labels = unique_names(str(m.get("name") or f"mesh_{k}") for k, m in enumerate(tree["meshes"]))
+    unique = unique_names(node_name(node, k, labels) for k, node in enumerate(tree.get("nodes", [])))
     meshes: dict[int, Mesh | None] = {}
     placed = []
-    for index, T in _placed(name, tree):
+    for index, T, path in _placed(name, tree):
         node = tree["nodes"][index]
         number = node.get("mesh")
         if number is None:
@@ -51,7 +52,8 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
             folder.warn(f"a mesh has {what}, which are ignored")
         if not np.isfinite(T).all():
             raise InputError(f"{name}: node {index} has a transform that is not finite")
-        nodes = (Node(str(node.get("name") or labels[number]), labels[number]),)
+        chain = tuple(unique[k] for k in path)
+        nodes = (Node(node_name(node, index, labels), labels[number], path=chain if len(chain) > 1 else ()),)
         placed.append(replace(mesh.transformed(T), nodes=nodes))
     if not placed:
         modes = {p.get("mode", TRIANGLES) for m in tree["meshes"] for p in m["primitives"]}
@@ -59,6 +61,12 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
         contents = f"only {' and '.join(only)}" if only else "no mesh in its scene"
         raise InputError(f"{name}: found {contents}; a scene with at least one triangle is needed")
     return join(placed)
+
+
+def node_name(node: dict[str, Any], number: int, labels: list[str]) -> str:
+    """Return the name of a node, else that of its mesh. labels: those of all meshes."""
+    mesh = node.get("mesh")
+    return str(node.get("name") or (f"node_{number}" if mesh is None else item(labels, mesh)))
 
 
 def _ignored(node: dict[str, Any], mesh: dict[str, Any]) -> Iterator[str]:
@@ -71,24 +79,27 @@ def _ignored(node: dict[str, Any], mesh: dict[str, Any]) -> Iterator[str]:
         yield "instances (EXT_mesh_gpu_instancing)"
 
 
-def _placed(name: str, tree: dict[str, Any]) -> Iterator[tuple[int, np.ndarray]]:
-    """Yield nodes of the scene with their transforms to it: parents first, siblings in reverse (face labels rely on it)."""
+def _placed(name: str, tree: dict[str, Any]) -> Iterator[tuple[int, np.ndarray, tuple[int, ...]]]:
+    """Yield nodes of the scene with their transforms to it and the nodes down to them.
+
+    Parents come first, siblings in reverse (face labels rely on it).
+    """
     nodes, scenes = tree.get("nodes", []), tree.get("scenes", [])
     if scenes:
         roots = scenes[tree.get("scene", 0)].get("nodes", [])
     else:
         children = {c for node in nodes for c in node.get("children", [])}
         roots = [k for k in range(len(nodes)) if k not in children]
-    waiting = [(index, np.eye(4)) for index in roots]
+    waiting: list[tuple[int, np.ndarray, tuple[int, ...]]] = [(index, np.eye(4), (index,)) for index in roots]
     seen = set()
     while waiting:
-        index, T_parent = waiting.pop()
+        index, T_parent, path = waiting.pop()
         if index in seen or not 0 <= index < len(nodes):
             raise InputError(f"{name}: node {index} has two parents or is none of {len(nodes)}; valid is a tree of nodes")
         seen.add(index)
         T = T_parent @ _local(nodes[index])
-        yield index, T
-        waiting += [(child, T) for child in nodes[index].get("children", [])]
+        yield index, T, path
+        waiting += [(child, T, (*path, child)) for child in nodes[index].get("children", [])]
 
 
 def _local(node: dict[str, Any]) -> np.ndarray:

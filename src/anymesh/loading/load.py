@@ -25,6 +25,7 @@ from anymesh.loading.gltf import read_gltf
 from anymesh.loading.obj import read_obj
 from anymesh.loading.off_stl import read_off, read_stl
 from anymesh.loading.ply import read_ply
+from anymesh.loading.scene_graph import scene_of_objects
 from anymesh.loading.trimesh_ import parse_dae, read_dae
 from anymesh.loading.upright import AUTO, AXES, INFER, Up, infer_up, read_up, up_of
 from anymesh.types import Mesh
@@ -91,7 +92,7 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None) -> LoadedMesh
     suffix = path.suffix.lower()
     try:
         with np.errstate(over="ignore", invalid="ignore"):
-            mesh = _with_usable_uv(READERS[suffix](data, folder), folder)
+            mesh = _with_usable_uv(scene_of_objects(READERS[suffix](data, folder), folder), folder)
         up, unit = _frame(suffix, path.name, data)
     except InputError:
         raise

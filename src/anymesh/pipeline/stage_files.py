@@ -87,7 +87,7 @@ def _pack_mesh(mesh: Mesh) -> tuple[Record, dict[str, np.ndarray]]:
             record["textures"][slot] = {"array": key} | stored
         materials.append(record)
     arrays |= {key: np.frombuffer(data, np.uint8) for data, key in images.items()}
-    nodes = [{k: v for k, v in asdict(node).items() if k != "joint" or v >= 0} for node in mesh.nodes]
+    nodes = [{k: v for k, v in asdict(node).items() if (k, v) not in (("joint", -1), ("path", ()))} for node in mesh.nodes]
     joints = {"joints": [_pack_joint(joint) for joint in mesh.joints]} if mesh.joints else {}
     return {"nodes": nodes, "materials": materials} | joints, arrays
 
@@ -111,7 +111,7 @@ def _unpack_mesh(record: Record, arrays: Arrays) -> Mesh:
     mesh_arrays: dict[str, Any] = {name: arrays.get(name) for name in MESH_ARRAYS}
     return Mesh(
         **mesh_arrays,
-        nodes=tuple(Node(**node) for node in record["nodes"]),
+        nodes=tuple(replace(Node(**node), path=tuple(node.get("path", ()))) for node in record["nodes"]),
         materials=tuple(material(m) for m in record["materials"]),
         joints=tuple(_unpack_joint(StatedJoint, joint) for joint in record.get("joints", ())),
     )

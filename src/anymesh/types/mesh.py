@@ -62,9 +62,10 @@ class Material:
 class Node:
     """One placed geometry of the source's scene graph; each instance counts once per placement."""
 
-    name: str  # the node's name in the file; unique within a mesh
+    name: str  # the name of the object in the file; unique within a mesh
     geometry: str = ""  # the geometry's name in the file, shared by instances
     joint: int = -1  # index into the mesh's joints of the one that moves this node, -1 = none
+    path: tuple[str, ...] = ()  # names in the file from the scene's root to this node, each node's unique; () for (name,)
 
 
 def _check_range(name: str, numbers: np.ndarray, low: int, end: int) -> None:

@@ -1,0 +1,114 @@
+"""Test which nodes of a scene are one object, how it is named, and what is not part of it."""
+
+import numpy as np
+import pytest
+from mesh_files import FACES, POINTS
+
+from anymesh.loading.files import Folder
+from anymesh.loading.join import join, simple_mesh
+from anymesh.loading.scene_graph import is_generic, scene_of_objects
+from anymesh.types import Material, Mesh, Node
+
+ROOT = ("Sketchfab_model", "root", "GLTF_SceneRootNode")
+FBX = (*ROOT, "x.fbx", "RootNode")
+
+
+def scene(*nodes: tuple, folder: Folder) -> Mesh:
+    """Return the scene of one solid per node: (chain, material, geometry)."""
+    made = []
+    for k, (chain, material, *geometry) in enumerate(nodes):
+        chain = (chain,) if isinstance(chain, str) else chain
+        solid = simple_mesh("x", "x", POINTS + 3 * k, FACES, Material(material) if material else None)
+        made.append(join([solid]))
+        node = Node(chain[-1], geometry[0] if geometry else chain[-1], path=chain if len(chain) > 1 else ())
+        made[-1] = Mesh(solid.vertices, solid.faces, solid.face_node, (node,), solid.face_material, solid.materials)
+    return scene_of_objects(join(made), folder)
+
+
+@pytest.fixture
+def folder(tmp_path) -> Folder:
+    return Folder(tmp_path / "x.glb")
+
+
+def counts(mesh: Mesh) -> dict[str, int]:
+    return dict(zip((n.name for n in mesh.nodes), np.bincount(mesh.face_node).tolist(), strict=True))
+
+
+@pytest.mark.parametrize(
+    ("nodes", "expected"),
+    [
+        # Sketchfab, without and with the names of the source
+        ([((*ROOT, "Body_0", "Object_4"), "a"), ((*ROOT, "Door_Left_1", "Object_5"), "a"),
+          ((*ROOT, "Door_Left_1", "Object_6"), "b")],
+         {"Body": 1, "Door_Left": 2}),
+        ([((*FBX, "Body", "Body_Oak_0"), "Oak"), ((*FBX, "Cube.001", "Cube.001_Oak_0"), "Oak"),
+          ((*FBX, "Door", "Door_Oak_0"), "Oak"), ((*FBX, "Door", "Door_Steel_0"), "Steel")],
+         {"Body": 1, "Cube.001": 1, "Door": 2}),
+        ([((*ROOT, "Drawer_1_4", "Object_4"), "a"), ((*ROOT, "Drawer_2_5", "Object_5"), "a")], {"Drawer_1": 1, "Drawer_2": 1}),
+        ([((*ROOT, "Drawer_1", "Object_4"), "a"), ((*ROOT, "Drawer_2", "Object_5"), "a")], {"Drawer_1": 1, "Drawer_2": 1}),
+        # one mesh per material: three.js, Babylon, shapes of Maya, the material's name
+        ([(("Body",), "a"), (("Lid", "Lid_1"), "a"), (("Lid", "Lid_2"), "b")], {"Body": 1, "Lid": 2}),
+        ([(("Body",), "a"), (("Lid", "Lid_primitive0"), "a"), (("Lid", "Lid_primitive1"), "b")], {"Body": 1, "Lid": 2}),
+        ([(("Body", "BodyShape"), "a"), (("Lid", "LidShape"), "a")], {"Body": 1, "Lid": 1}),
+        # objects of their own that are numbered, or several below a plural
+        ([(("Body",), "a"), (("Drawers", "Drawers_1"), "b"), (("Drawers", "Drawers_2"), "b")],
+         {"Body": 1, "Drawers_1": 1, "Drawers_2": 1}),
+        ([(("Body",), "a"), (("Doors", "Object_1"), "b"), (("Doors", "Object_2"), "b")],
+         {"Body": 1, "Doors": 1, "Doors_1": 1}),
+        # a group of unnamed objects; the name of the whole says nothing of its parts; a mesh above is an object of its own
+        ([(("Case", "Cube"), "a"), (("Case", "Cube.001"), "a"), (("Door", "group3", "pCube7"), "a")], {"Case": 2, "Door": 1}),
+        ([(("Cabinet", "Object_2"), "a"), (("Cabinet", "Object_3"), "b")], {"Object_2": 1, "Object_3": 1}),
+        ([(("Case",), "a"), (("Case", "Cube.001"), "a"), (("Case", "Door"), "a")], {"Case": 1, "Cube.001": 1, "Door": 1}),
+        # the geometry's name
+        ([("node_1", "a", "Door"), ("node_2", "a", "Body")], {"Door": 1, "Body": 1}),
+        ([("mesh_0", "a"), ("mesh_1", "b")], {"mesh_0": 1, "mesh_1": 1}),
+        ([((*ROOT, "柜门_3", "Object_4"), "a"), ((*ROOT, "柜体_5", "Object_7"), "a")], {"柜门": 1, "柜体": 1}),
+    ],
+)  # fmt: skip
+def test_one_node_per_named_object(nodes, expected, folder) -> None:
+    mesh = scene(*nodes, folder=folder)
+    assert counts(mesh) == {name: n * len(FACES) for name, n in expected.items()}
+    assert folder.warnings == []
+
+
+def test_a_path_leads_to_the_node_that_was_joined(folder) -> None:
+    mesh = scene((("Body",), "a"), (("Lid", "Lid_1"), "a"), (("Lid", "Lid_2"), "b"), folder=folder)
+    assert [n.path for n in mesh.nodes] == [(), ("Lid",)]
+
+
+@pytest.mark.parametrize(
+    ("names", "kept", "warning"),
+    [
+        (["Body_LOD0", "Body_LOD1", "Body_LOD2"], ["Body"],
+         "2 coarser levels of detail are left out, the finest is kept: Body_LOD1, Body_LOD2"),
+        (["LOD1_Lid", "LOD0_Lid", "Body"], ["Lid", "Body"], "1 coarser level of detail is left out"),
+        ([("LOD0", "Lid"), ("LOD0", "Body"), ("LOD1", "All")], ["Lid", "Body"], "1 coarser level"),
+        ([("Lid", "Lid.lod.1"), ("Lid", "Lid.lod.2"), "Body"], ["Lid", "Body"], "1 coarser level"),
+        (["Body", "UCX_Body_00", "UBX_Body"], ["Body"],
+         "2 collision shapes are left out, the visual meshes are kept: UCX_Body_00, UBX_Body"),
+        (["Body", "Body-col"], ["Body"], "1 collision shape is"),
+        (["Body", "Body-convcolonly", "floor-colonly"], ["Body"], "2 collision shapes"),
+        (["Body", "body_collider", "Collision_hull"], ["Body"], "2 collision shapes"),
+        ([("Body",), ("collision", "Cube")], ["Body"], "1 collision shape"),
+        (["Lid", "Camera001.Target", "SpotLightHelper"], ["Lid"],
+         "2 helpers of cameras and lights are left out: Camera001.Target, Spot"),
+    ],
+)  # fmt: skip
+def test_what_is_not_part_of_the_object_is_left_out(names, kept, warning, folder) -> None:
+    mesh = scene(*((name, "a") for name in names), folder=folder)
+    assert list(counts(mesh)) == kept
+    assert [w.startswith(warning) for w in folder.warnings] == [True]
+
+
+@pytest.mark.parametrize(
+    "names", [["Body-col", "Lid"], ["UCX_a", "UCX_b"], ["Lodge1", "Colander", "Protocol"], ["Camera", "Lamp"]]
+)
+def test_what_may_be_seen_is_kept(names, folder) -> None:
+    assert list(counts(scene(*((name, "a") for name in names), folder=folder))) == names
+    assert folder.warnings == []
+
+
+def test_names_that_programs_give() -> None:
+    generic = "Object_4 mesh_0_3 defaultMaterial Cube.001 polySurface12 ID7 Group#3 cabinet.fbx Box01 12 RootNode".split()
+    assert [name for name in generic if not is_generic(name)] == []
+    assert [name for name in "Door base body Boxer panel_2 Grouper 门 Handle.001".split() if is_generic(name)] == []
