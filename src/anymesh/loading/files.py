@@ -1,6 +1,6 @@
 """Bytes of a mesh file and of the files that it refers to: checked, and only within its own folder or a given root.
 
-References are paths, file URLs and the packages of ROS and Gazebo. Pictures of materials are kept as the bytes of their file.
+Pictures of materials are kept as the bytes of their file.
 """
 
 from __future__ import annotations
@@ -12,34 +12,24 @@ import json
 import os
 import re
 import struct
-import unicodedata
 import warnings
-from collections.abc import Generator, Iterator, Sequence
+from collections.abc import Generator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
-from urllib.parse import unquote
 
 from PIL import Image
 
 from anymesh.errors import InputError, OptionError
+from anymesh.loading.references import ASIDE, SHOWN, Unresolved, readable, resolve_reference
 from anymesh.types import Texture
 
-SCHEME = re.compile(r"([a-zA-Z][a-zA-Z0-9+.-]+):")  # one letter is a Windows drive
-DRIVE = re.compile(r"[a-zA-Z]:")
-FILE_URL = re.compile(r"(?i)file:(//localhost(?=/)|//)?")
-PACKAGE_URL = re.compile(r"(?i)(?:package|model)://([^/]*)/?(.*)", re.S)
-PACKAGES = ("package", "model")  # schemes of ROS and of Gazebo
-MISSING = "is missing"
-OUTSIDE = "lies outside the permitted folder"
-SHOWN = 100  # characters of a reference shown in a message
-HINT = "--root FOLDER names the folder within which files may be read"
 MAX_PIXELS = 16384**2
 MIME_TYPES = {"PNG": "image/png", "JPEG": "image/jpeg"}
 OBJECT = re.compile(r"\s*<[^>]*>")  # Python's name of a stream in an error, with an address that differs between runs
 FORMATS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae")
 MAX_FACES = 20_000_000
 MAX_BYTES = 4 * 1024**3
+LFS, LFS_HINT = b"version https://git-lfs.github.com/", "is a Git LFS pointer, not the file itself; run `git lfs pull` in its folder"
 ASCII_STL = re.compile(rb"(?is)(\xef\xbb\xbf)?\s*solid\b.{0,2000}facet")
 SIGNS = {  # start of files of other formats
     "GLB": rb"glTF",
@@ -54,103 +44,6 @@ SIGNS = {  # start of files of other formats
     "an ASCII STL": ASCII_STL,
     "a web page": rb"(?i)\s*<(!doctype )?html",
 }
-
-
-@dataclass(frozen=True)
-class Unresolved:
-    """Reason why a reference leads to no readable file, as the end of a sentence."""
-
-    reason: str
-
-
-def resolve_reference(uri: str, bases: Sequence[Path], root: Path) -> Path | Unresolved:
-    """Find the file within `root` that a reference means; nothing outside is read or listed, and no URL is followed.
-
-    bases: the folders that relative paths start from, in order; they and root are resolved, and lie within root.
-
-    A backslash counts as a slash. Percent-encoded names are decoded if the name as written is missing. If no name has the same
-    case, the only one that differs in case is used. `package://NAME/REST` and `model://NAME/REST` mean REST in a folder NAME
-    between the first base and root, or in the folder NAME of root. Links are followed before any check.
-    """
-    scheme = SCHEME.match(uri)
-    kind = scheme[1].lower() if scheme else ""
-    if kind in PACKAGES:
-        starts = _package_starts(uri, bases[0], root)
-    elif kind in ("", "file"):
-        starts = _path_starts(FILE_URL.sub("", uri, count=1) if kind else uri, bases, root)
-    else:
-        return Unresolved(f"has the scheme {kind}:, which is not followed")
-    outside = False
-    for start, name in starts:
-        path = None if start is None else _walk(start, name, root)
-        if path is not None and _is_file(path):
-            return path
-        outside = outside or path is None
-    return Unresolved(OUTSIDE if outside else MISSING)
-
-
-def _path_starts(text: str, bases: Sequence[Path], root: Path) -> Iterator[tuple[Path | None, str]]:
-    """Yield folders and the paths to walk from them; None for an absolute path that does not lead into root."""
-    for name in dict.fromkeys(n.replace("\\", "/") for n in (text, unquote(text))):
-        drive = name[1:] if DRIVE.match(name[1:]) and name.startswith("/") else name
-        if drive.startswith("//"):  # a server is not searched
-            yield None, ""
-        elif drive.startswith("/") or DRIVE.match(drive):
-            inner = _relative(Path(drive), root) if Path(drive).is_absolute() else None
-            yield (None, "") if inner is None else (root, inner)
-        else:
-            yield from ((base, drive) for base in bases)
-
-
-def _package_starts(uri: str, base: Path, root: Path) -> Iterator[tuple[Path, str]]:
-    match = PACKAGE_URL.match(uri.replace("\\", "/"))
-    if match is None:
-        return
-    for name, rest in dict.fromkeys((match.groups(), (unquote(match[1]), unquote(match[2])))):
-        above = (folder for folder in (base, *base.parents) if folder.is_relative_to(root))
-        yield from ((folder, rest) for folder in above if folder.name == name)
-        yield root, f"{name}/{rest}"
-
-
-def _relative(path: Path, root: Path) -> str | None:
-    try:
-        return path.resolve().relative_to(root).as_posix()
-    except (OSError, RuntimeError, ValueError):  # links in a circle, another place, a name with a null character
-        return None
-
-
-def _walk(start: Path, name: str, root: Path) -> Path | None:
-    """Return the resolved path that a relative path leads to, whether a file exists or not; None outside root."""
-    here = start
-    try:
-        for part in name.split("/"):
-            if part == "..":
-                here = here.parent
-            elif part not in ("", "."):
-                here = _child(here, part, root).resolve()
-    except (OSError, RuntimeError, ValueError):  # such as links in a circle, a name that is too long, a null character
-        return root / "\ufffd"
-    return here if here.is_relative_to(root) else None
-
-
-def _child(folder: Path, name: str, root: Path) -> Path:
-    """Return the entry of that name, or the only one that differs in case or Unicode form; nothing outside root is listed."""
-    exact = folder / name
-    if exact.exists() or not folder.is_relative_to(root) or not folder.is_dir():
-        return exact
-    alike = [entry for entry in folder.iterdir() if _folded(entry.name) == _folded(name)]
-    return alike[0] if len(alike) == 1 else exact
-
-
-def _folded(name: str) -> str:
-    return unicodedata.normalize("NFC", name).casefold()
-
-
-def _is_file(path: Path) -> bool:
-    try:
-        return path.is_file()
-    except (OSError, ValueError):
-        return False
 
 
 class Folder:
@@ -168,6 +61,8 @@ class Folder:
         own = path.parent.resolve()
         self._root = own if root is None else _checked(Path(root), path, own)
         self._bases: tuple[Path, ...] = (own,)
+        beside = [own.parent / name for name in ASIDE] if root is None else []
+        self._aside = tuple(folder for folder in beside if folder.is_dir() and not folder.is_symlink())
 
     def beside(self, file: Path) -> Folder:
         """Return the same files, but with relative references starting from the folder of `file` first.
@@ -180,32 +75,34 @@ class Folder:
 
     def find(self, uri: str) -> Path | None:
         """Return the file that a reference means; None if none may be read."""
-        file = resolve_reference(uri, self._bases, self._root)
+        file = resolve_reference(uri, self._bases, self._root, self._aside)
         return None if isinstance(file, Unresolved) else file
 
     def read(self, uri: str) -> bytes:
         """Return the bytes of a file that the mesh requires. Raise InputError if it cannot be read."""
         content = self._bytes(uri)
         if isinstance(content, Unresolved):
-            raise InputError(f"{self.path.name} refers to {uri[:SHOWN]!r}, which {_reason(content)}")
+            raise InputError(f"{self.path.name} refers to {readable(uri)[:SHOWN]!r}, which {content.reason}")
         return content
 
     def read_or_warn(self, uri: str, what: str) -> bytes | None:
         """Return the bytes of an optional file; None, with a warning, if it cannot be read. what: its role."""
         content = self._bytes(uri)
         if isinstance(content, Unresolved):
-            self.warn(f"{what} {uri[:SHOWN]!r} left out: it {_reason(content)}")
+            self.warn(f"{what} {readable(uri)[:SHOWN]!r} left out: it {content.reason}")
             return None
         return content
 
     def _bytes(self, uri: str) -> bytes | Unresolved:
-        file = resolve_reference(uri, self._bases, self._root)
+        file = resolve_reference(uri, self._bases, self._root, self._aside)
         if isinstance(file, Unresolved):
             return file
         try:
             data = file.read_bytes()
         except OSError as error:
             return Unresolved(f"cannot be opened ({error.strerror})")
+        if data.startswith(LFS):
+            return Unresolved(LFS_HINT)
         self._digests[os.path.relpath(file, self._bases[-1])] = hashlib.sha256(data).hexdigest()
         return data
 
@@ -218,10 +115,6 @@ class Folder:
         """Return a digest that differs between loads of the same mesh file with other referenced contents or warnings."""
         contents = (sorted(self._digests.items()), self.warnings)
         return hashlib.sha256(json.dumps(contents).encode()).hexdigest()
-
-
-def _reason(unresolved: Unresolved) -> str:
-    return f"{unresolved.reason} ({HINT})" if unresolved.reason == OUTSIDE else unresolved.reason
 
 
 def _checked(root: Path, path: Path, own: Path) -> Path:
@@ -244,7 +137,7 @@ def picture(folder: Folder, data: bytes, name: str) -> Texture | None:
 
     PNG and JPEG are kept unchanged, other formats are converted to PNG.
     """
-    stem = PurePosixPath(name.replace("\\", "/")).stem
+    stem = PurePosixPath(readable(name).replace("\\", "/")).stem
     try:
         with quiet_decoder():
             image = Image.open(io.BytesIO(data))
@@ -264,7 +157,7 @@ def picture(folder: Folder, data: bytes, name: str) -> Texture | None:
 def warn_unreadable(folder: Folder, name: str, error: Exception) -> None:
     """Warn of an existing texture that cannot be read."""
     reason = f"{type(error).__name__}: {OBJECT.sub('', str(error))}"[:100]
-    folder.warn(f"texture {name[:SHOWN]!r} left out: it cannot be read ({reason})")
+    folder.warn(f"texture {readable(name)[:SHOWN]!r} left out: it cannot be read ({reason})")
 
 
 @contextmanager
@@ -293,6 +186,8 @@ def check_file(path: Path) -> bytes:
         data = path.read_bytes()
     except OSError as error:
         raise InputError(f"{path.name} cannot be opened: {error.strerror}") from None
+    if data.startswith(LFS):
+        raise InputError(f"{path.name} {LFS_HINT}")
     if not _plausible(suffix, data):
         seems = next((f"; it looks like {kind}" for kind, sign in SIGNS.items() if re.match(sign, data)), "")
         raise InputError(f"{path.name}: found no {suffix[1:].upper()} file inside{seems}; is the extension right?")
