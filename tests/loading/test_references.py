@@ -28,7 +28,15 @@ def test_a_texture_that_cannot_be_read_is_one_warning(tmp_path, name, uri) -> No
     (warning,) = loaded.warnings
     assert f"{'material library' if name == 'library.obj' else 'texture'} {uri[:100]!r} left out" in warning
     foreign, helps = "C:" in uri or "server" in uri, "beside the mesh" in warning or uri == "model://"
-    told = "another computer" if foreign else "--root FOLDER" if uri in OUTSIDE else "not followed" if uri in URLS else "is missing"
+    told = (
+        "another computer"
+        if foreign
+        else "--root FOLDER"
+        if uri in OUTSIDE
+        else "not followed"
+        if uri in URLS
+        else "is missing"
+    )
     assert told in warning
     assert helps
     assert len(warning) < 250

@@ -29,7 +29,10 @@ OBJECT = re.compile(r"\s*<[^>]*>")  # Python's name of a stream in an error, wit
 FORMATS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae")
 MAX_FACES = 20_000_000
 MAX_BYTES = 4 * 1024**3
-LFS, LFS_HINT = b"version https://git-lfs.github.com/", "is a Git LFS pointer, not the file itself; run `git lfs pull` in its folder"
+LFS, LFS_HINT = (
+    b"version https://git-lfs.github.com/",
+    "is a Git LFS pointer, not the file itself; run `git lfs pull` in its folder",
+)
 ASCII_STL = re.compile(rb"(?is)(\xef\xbb\xbf)?\s*solid\b.{0,2000}facet")
 SIGNS = {  # start of files of other formats
     "GLB": rb"glTF",

@@ -41,8 +41,8 @@ def resolve_reference(uri: str, bases: Sequence[Path], root: Path, aside: Sequen
 
     A backslash counts as a slash. Percent-encoded names are decoded if the name as written is missing. If no name is equal,
     the only one that differs in case or encoding is used. `package://NAME/REST` and `model://NAME/REST` mean REST in a folder
-    NAME between the first base and root, or in the folder NAME of root. Links are followed before any check. A file not
-    there is looked for by its last folders and name: in the bases, and in folders of pictures there and up to two folders above.
+    NAME between the first base and root, or in the folder NAME of root. Links are followed before any check. A file that is
+    not there is looked for by its last folders and name: in the bases, and in folders of pictures there and up to two above.
     """
     scheme = SCHEME.match(uri)
     kind = scheme[1].lower() if scheme else ""
