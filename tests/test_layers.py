@@ -23,6 +23,7 @@ CORE = [
     {"cli"},
 ]
 TOOLS = [
+    {"formats"},
     {"prompted"},
     {"finishing"},
     {"checking", "evaluation", "correcting"},

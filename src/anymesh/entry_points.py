@@ -15,6 +15,10 @@ PROMPTED_STAGES = "prompted.stages:PromptedStages"
 WRITE_TRANSCRIPT = "prompted.answerers.recordings:write_transcript"
 REMOVE_TRANSCRIPT = "prompted.answerers.recordings:remove_transcript"
 
+# Readers of further formats.
+READ_DAE = "formats.dae:read_dae"
+DAE_FRAME = "formats.dae:dae_frame"
+
 # What an asset shows of itself in a notebook.
 ASSET_HTML = "viewer.report:asset_html"
 REGISTER_IN_IPYTHON = "viewer.report:register"

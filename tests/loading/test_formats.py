@@ -34,8 +34,8 @@ from mesh_files import (
 )
 from PIL import Image
 
+from anymesh.formats.dae import with_decimal_points
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.loading.trimesh_ import with_decimal_points
 from anymesh.types.mesh import to_linear
 
 FILES = all_files()
@@ -254,7 +254,8 @@ def test_dae_geometry_survives_a_broken_material(tmp_path) -> None:
     loaded = load_mesh(put(tmp_path, "box.dae", broken))
     np.testing.assert_allclose(loaded.mesh.triangles, POINTS[FACES])
     (warning,) = loaded.warnings
-    assert "its materials are left out" in warning
+    assert "picture 'gone'" in warning
+    assert loaded.mesh.materials[0].name == "red"
 
 
 def test_dae_decimal_commas_are_points(tmp_path) -> None:

@@ -15,7 +15,7 @@ from typing import Any
 from anymesh import __version__
 from anymesh.errors import failed_stage, redacted
 
-LIBRARIES = "numpy scipy trimesh embreex mujoco manifold3d libigl fast-simplification pillow pycollada typer".split()
+LIBRARIES = "numpy scipy trimesh embreex mujoco manifold3d libigl fast-simplification pillow typer".split()
 
 
 def defect_record(error: BaseException, command: str, options: Mapping[str, Any]) -> dict[str, Any]:

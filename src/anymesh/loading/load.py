@@ -9,7 +9,6 @@ a box and a fridge. A size is accepted within a factor of 3.
 from __future__ import annotations
 
 import hashlib
-import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -19,6 +18,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.entry_points import DAE_FRAME, READ_DAE, resolve
 from anymesh.errors import InputError, OptionError
 from anymesh.loading.files import MAX_FACES, Folder, check_file
 from anymesh.loading.gltf import read_gltf
@@ -26,7 +26,6 @@ from anymesh.loading.obj import read_obj
 from anymesh.loading.off_stl import read_off, read_stl
 from anymesh.loading.ply import read_ply
 from anymesh.loading.scene_graph import scene_of_objects
-from anymesh.loading.trimesh_ import parse_dae, read_dae
 from anymesh.loading.upright import AUTO, AXES, INFER, Up, infer_up, read_up, up_of
 from anymesh.types import Mesh
 
@@ -37,7 +36,7 @@ READERS: dict[str, Callable[[bytes, Folder], Mesh]] = {
     ".ply": read_ply,
     ".stl": read_stl,
     ".off": read_off,
-    ".dae": read_dae,
+    ".dae": lambda data, folder: resolve(READ_DAE)(data, folder),
 }
 FARTHEST = 1e12  # coordinates above are no plausible lengths
 MAX_UV = 1e6  # a larger texture coordinate in single precision does not tell the place in the picture
@@ -93,7 +92,7 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None) -> LoadedMesh
     try:
         with np.errstate(over="ignore", invalid="ignore"):
             mesh = _with_usable_uv(scene_of_objects(READERS[suffix](data, folder), folder), folder)
-        up, unit = _frame(suffix, path.name, data)
+        up, unit = _frame(suffix, data)
     except InputError:
         raise
     except Exception as error:  # readers raise many types of errors for broken files
@@ -121,21 +120,13 @@ def _check_numbers(name: str, mesh: Mesh) -> None:
         raise InputError(f"{name}: the mesh has no extent, all faces are degenerate")
 
 
-def _frame(suffix: str, name: str, data: bytes) -> tuple[str | None, float | None]:
+def _frame(suffix: str, data: bytes) -> tuple[str | None, float | None]:
     """Return the up axis and the unit that the format or the file states."""
     match suffix:
         case ".glb" | ".gltf":
             return "y", 1.0
         case ".dae":
-            root = parse_dae(name, data)
-            up = next((n.text or "" for n in root.iter() if n.tag.endswith("}up_axis")), "Y_UP").strip()
-            unit = next((n.get("meter") for n in root.iter() if n.tag.endswith("}unit")), None)
-            try:
-                metres = float(unit) if unit else None
-            except ValueError:
-                metres = None
-            known = metres is not None and math.isfinite(metres) and metres > 0
-            return {"X_UP": "x", "Z_UP": "z"}.get(up, "y"), metres if known else None
+            return resolve(DAE_FRAME)(data)
         case _:
             return None, None
 

@@ -1,0 +1,1 @@
+"""Readers of formats other than those of the core, which finds them by name."""
