@@ -77,15 +77,13 @@ def draw_method(folder: Path, name: str, part: int) -> None:
     solver = Solver(place_mesh(load_mesh(path)).mesh, config)
     mesh = solver.geometry.mesh  # straight
     studio = VisualPrompts(mesh, config)
-    contacts = find_contacts(solver.geometry.whole, config.segmentation)
-    tree = part_candidates(
-        mesh, solver.geometry.whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates
-    )
-    tree, place, rows = examine_candidates(mesh, tree, config)
+    contacts = find_contacts(solver.geometry.whole)
+    tree = part_candidates(mesh, solver.geometry.whole, contacts)
+    tree, place, rows = examine_candidates(mesh, tree)
     score, _ = score_parts(tree, place, rows)
     chosen = assign_parts(tree.overlap, shipped_classifier().probability(score))
     found = solver.parts().segmentation
-    _, _, context, motions = sorted(part_motions(solver.geometry.whole, found, config), key=lambda m: m[0])[part - 1]
+    _, _, context, motions = sorted(part_motions(solver.geometry.whole, found), key=lambda m: m[0])[part - 1]
     scores = motion_scores(motions)
     ranked = [(float(scores[k]), motions.candidates[k]) for k in np.argsort(-scores, kind="stable")]
     drawn = {

@@ -24,10 +24,6 @@ NAMES = frozenset(
 )
 # One adapter per engine or format, each private to its file.
 SAME_NAME = frozenset("World _Reader _Embedding".split())
-# Names that saved files hold, by file.
-KEPT = {
-    "config.py": frozenset(["support"]),  # in the key of saved stages
-}
 
 
 def words(name: str) -> set[str]:
@@ -54,9 +50,9 @@ def names(path: Path) -> set[str]:
 
 def test_replaced_words_do_not_come_back() -> None:
     bad = {path: {n for n in names(path) if n.strip("_") in NAMES or words(n) & WORDS} for path in FILES}
-    places = {str(path.relative_to(SOURCE)): some for path, some in bad.items()}
-    left = {place: some - KEPT.get(place, frozenset()) for place, some in places.items()}
-    assert not {place: some for place, some in left.items() if some}, "see the glossary for the names to use"
+    assert not {str(path.relative_to(SOURCE)): some for path, some in bad.items() if some}, (
+        "see the glossary for the names to use"
+    )
 
 
 def test_replaced_words_do_not_come_back_in_tests() -> None:
@@ -73,11 +69,6 @@ def test_variables_are_named_after_what_they_hold() -> None:
         if "found" in stored:
             bad.append(str(path.relative_to(SOURCE)))
     assert not bad, "see the glossary for the names to use"
-
-
-def test_kept_names_are_there() -> None:
-    for place, kept in KEPT.items():
-        assert kept <= names(SOURCE / place), place
 
 
 def test_no_two_classes_share_a_name() -> None:

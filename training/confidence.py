@@ -73,7 +73,7 @@ def samples(sample: EvalSample, rounds: int, rng: np.random.Generator) -> Iterat
     parts = [replace(p, label=f"thing {p.name}") if k else p for k, p in enumerate(plain.parts)]
     segmentation = replace(plain, parts=tuple(parts))
     offers.sweep_candidates = Swept()  # ty: ignore[invalid-assignment]
-    whole = object_shape(sample.mesh, Config().seed, labels=sample.labels)
+    whole = object_shape(sample.mesh, labels=sample.labels)
     numbers = {p.name: k - 1 for k, p in enumerate(parts)}
     for wrong in WRONG:
         for n in range(1 if wrong == 0 else rounds):

@@ -18,7 +18,6 @@ import numpy as np
 from jaxtyping import Int
 from PIL import Image
 
-from anymesh.config import Config
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures.sheet import question_sheet
@@ -73,8 +72,7 @@ def failures(folder: Path) -> list[Failure]:
 def states(failure: Failure, sample: EvalSample) -> Int[np.ndarray, " F"]:
     """Return one of the states, the indices of COLORS, per face."""
     rows, mesh = failure.rows, sample.mesh
-    config = Config()
-    chosen = failure.number[object_shape(mesh, config.seed, config.patches).mesh_patch]
+    chosen = failure.number[object_shape(mesh).mesh_patch]
     count = len(sample.truth.parts)
     both = np.bincount(chosen * count + sample.labels, mesh.face_areas, (chosen.max() + 1) * count).reshape(-1, count)
     iou = both / np.maximum(both.sum(1, keepdims=True) + both.sum(0) - both, 1e-300)

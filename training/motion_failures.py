@@ -16,7 +16,6 @@ import numpy as np
 from jaxtyping import Float, UInt8
 
 from anymesh.articulation.estimate import estimate_joints, part_motions
-from anymesh.config import Config
 from anymesh.evaluation.drawing import contact_sheet, draw_joint
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.record import what_is_off
@@ -54,12 +53,12 @@ def failures(rows: Sequence[MotionRows]) -> list[Failure]:
 
 def picture(failure: Failure, sample: EvalSample) -> tuple[UInt8[np.ndarray, "H W 3"], str]:
     """Draw the joint with the motion that the held-out classifier chooses, and describe its errors."""
-    rows, config = failure.rows, Config()
+    rows = failure.rows
     segmentation = sample.segmentation()
-    whole = object_shape(sample.mesh, config.seed, config.patches, sample.labels)
+    whole = object_shape(sample.mesh, labels=sample.labels)
     motions = [
         (i, over, context, replace(motions, scores=failure.scores) if i == rows.number else motions)
-        for i, over, context, motions in part_motions(whole, segmentation, config)
+        for i, over, context, motions in part_motions(whole, segmentation)
     ]
     joints = estimate_joints(segmentation, motions)
     result = next(j for j in score(sample, segmentation, joints).joints if j.part == rows.part)

@@ -20,7 +20,6 @@ from anymesh.articulation.estimate import PartMotions, part_motions
 from anymesh.articulation.motion_features import motion_features
 from anymesh.articulation.rank_motions import same_joints
 from anymesh.articulation.repeated_parts import in_a_row, same_size
-from anymesh.config import ArticulationConfig, Config
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.evaluation.score import angle_error, distance_at, opening_side, opens_both_ways
 from anymesh.geometry.patches import ObjectShape
@@ -68,11 +67,11 @@ class MotionRows:
 
 def rows_of(sample: EvalSample, source: str, form: str = "") -> list[MotionRows]:
     """Propose, sweep and measure the motions of all parts with a known joint."""
-    config, truth = Config(articulation=ArticulationConfig(most_swept=ALL)), sample.truth
-    whole = object_shape(sample.mesh, config.seed, config.patches, sample.labels)
+    truth = sample.truth
+    whole = object_shape(sample.mesh, labels=sample.labels)
     joints = {j.child: sample.joint(j) for j in truth.joints if j.type is not JointType.FIXED}
     found: list[MotionRows] = []
-    every = list(part_motions(whole, sample.segmentation(), config))
+    every = list(part_motions(whole, sample.segmentation(), most_swept=ALL))
     copies = _copies(whole, sample, every)
     for i, _, context, offered in every:
         name = truth.parts[i].name

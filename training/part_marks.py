@@ -19,7 +19,6 @@ import numpy as np
 from jaxtyping import Bool, Int, UInt8
 from PIL import Image, ImageDraw
 
-from anymesh.config import Config
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures.sheet import question_sheet
@@ -52,7 +51,7 @@ class Region:
 def regions(failure: Failure, sample: EvalSample, rng: np.random.Generator) -> list[Region]:
     """Return the regions of an object in random order."""
     rows, areas = failure.rows, sample.mesh.face_areas
-    patch = object_shape(sample.mesh, Config().seed, Config().patches).mesh_patch
+    patch = object_shape(sample.mesh).mesh_patch
     chosen = failure.number[patch]
     in_part = np.isin(sample.labels, rows.moving)
     parts = [sample.labels == k for k in rows.moving]

@@ -16,7 +16,6 @@ from typing import Any
 import numpy as np
 from jaxtyping import Bool, Float, Float32, Int
 
-from anymesh.config import Config
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
@@ -85,11 +84,11 @@ def read_rows(folder: Path) -> list[PartRows]:
 
 def rows_of(sample: EvalSample, source: str, form: str = "") -> PartRows:
     """Find and measure the candidates of an object."""
-    mesh, truth, config = sample.mesh, sample.truth, Config()
-    whole = object_shape(mesh, config.seed, config.patches)
-    contacts = find_contacts(whole, config.segmentation)
-    candidates = part_candidates(mesh, whole, contacts, config.segmentation.smallest, config.segmentation.most_candidates)
-    examined, place, rows = examine_candidates(mesh, candidates, config)
+    mesh, truth = sample.mesh, sample.truth
+    whole = object_shape(mesh)
+    contacts = find_contacts(whole)
+    candidates = part_candidates(mesh, whole, contacts)
+    examined, place, rows = examine_candidates(mesh, candidates)
     names = tuple(rows[0]) if rows else ()
     shape = len(contacts.shapes), len(truth.parts)
     area = np.bincount(whole.mesh_patch * shape[1] + sample.labels, mesh.face_areas, shape[0] * shape[1]).reshape(shape)

@@ -21,7 +21,7 @@ from jaxtyping import Float
 from anymesh.articulation.candidate_motions import Candidate, PartFacts
 from anymesh.articulation.estimate import part_motions
 from anymesh.articulation.rank_motions import rank_motions, same_joints
-from anymesh.config import SAME_AXIS_COSINE, Config
+from anymesh.config import SAME_AXIS_COSINE
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType
@@ -45,13 +45,13 @@ class Seen:
 
 def seen_with(spec: str, seeds: Sequence[int], name: str) -> list[list[Seen]]:
     """Return what is read off each part with a known joint, once for each seed."""
-    sample, config = open_object(spec, name, ""), Config()
+    sample = open_object(spec, name, "")
     given, truth = sample.segmentation(), sample.truth
     joints = {j.child: sample.joint(j) for j in truth.joints if j.type is not JointType.FIXED}
     found: dict[str, list[Seen]] = {}
     for seed in seeds:
-        whole = object_shape(sample.mesh, seed, config.patches, sample.labels)
-        for i, _, context, motions in part_motions(whole, given, config):
+        whole = object_shape(sample.mesh, seed, sample.labels)
+        for i, _, context, motions in part_motions(whole, given):
             part = truth.parts[i].name
             if part not in joints:
                 continue

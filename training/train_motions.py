@@ -22,12 +22,11 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Bool
 
-from anymesh.articulation.estimate import MAX_COPIES
+from anymesh.articulation.estimate import MAX_COPIES, MAX_SWEPT
 from anymesh.articulation.motion_classifier import highest
 from anymesh.articulation.motion_features import SWEPT_FEATURES
 from anymesh.articulation.rank_motions import share_of_best
 from anymesh.articulation.repeated_parts import ScoredMotions, mean_over_copies
-from anymesh.config import ArticulationConfig
 from anymesh.scoring.by_hand import BLOCKED_SCORE
 from training.boosting import Model, Sample, Scores, fit, held_out, leave_kinds_out, leave_sources_out, manifest_of, write
 from training.calibration import Scored, calibration_table, fit_confidence, log_odds
@@ -75,7 +74,7 @@ def of_swept(
 ) -> tuple[list[MotionRows], Scores]:
     """Return the rows and scores of the motions that are swept, chosen by classifiers trained without what is left out."""
     before = held_out(unswept_samples(rows), left, UNSWEPT_MODELS)
-    chosen = [highest(score, ArticulationConfig().most_swept) for score in before]
+    chosen = [highest(score, MAX_SWEPT) for score in before]
     swept = [r.of_motions(k) for r, k in zip(rows, chosen, strict=True)]
     return swept, over_copies(swept, [s.reshape(-1, 2)[k].reshape(-1) for s, k in zip(scores, chosen, strict=True)])
 

@@ -20,7 +20,6 @@ from anymesh.articulation.limits import (
     opening_as_answered,
 )
 from anymesh.articulation.part_contexts import part_context
-from anymesh.config import ArticulationConfig
 from anymesh.motion.part_context import PartContext
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion
@@ -63,7 +62,7 @@ def swept(scene: Callable[[], Scene], motion: Motion) -> tuple[PartContext, Cand
     whole = object_shape(mesh, 0, labels=segmentation.face_part)
     label = segmentation.face_part[whole.source]
     shapes = [whole.of(np.flatnonzero(label == k)) for k in range(2)]
-    context = part_context(whole, label, shapes, [-1, 0], 1, ArticulationConfig())
+    context = part_context(whole, label, shapes, [-1, 0], 1)
     return context, max(sweep_candidates(context, [("asked", motion)]), key=lambda c: c.outward)
 
 

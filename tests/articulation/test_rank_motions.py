@@ -18,7 +18,6 @@ from anymesh.articulation.rank_motions import (
     same_joints,
     share_of_best,
 )
-from anymesh.config import Config
 from anymesh.scoring.classifier import MAX_CONFIDENCE
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion, Part, Segmentation, Sweep
@@ -219,7 +218,7 @@ def label(solids: list, moving: list[int]) -> str:
     mesh, number = mesh_of(solids)
     segmentation = Segmentation(np.isin(number, moving).astype(np.int64), (Part("base", "base"), Part("it", "part")))
     whole = object_shape(mesh, 0, labels=segmentation.face_part)
-    _, _, context, question = next(iter(part_motions(whole, segmentation, Config())))
+    _, _, context, question = next(iter(part_motions(whole, segmentation)))
     return label_of(context, choose_motion(context, question)[1])
 
 

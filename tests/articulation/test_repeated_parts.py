@@ -14,7 +14,6 @@ from anymesh.articulation import estimate
 from anymesh.articulation.candidate_motions import CandidateMotions
 from anymesh.articulation.motion_classifier import PartMotionScores
 from anymesh.articulation.repeated_parts import ScoredMotions, in_one_manner, mean_over_copies
-from anymesh.config import Config
 from anymesh.scoring.by_hand import UNMATCHED_SCORE
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType
@@ -81,7 +80,7 @@ def test_the_copies_of_a_part_are_the_others_of_its_row(monkeypatch: pytest.Monk
     mesh, segmentation = built({**pair("both"), "back": [box((0.002, 0.402, 0.002), (0.299, 0.422, 0.798))]})
     segmentation = replace(segmentation, parts=tuple(replace(part, label=part.name) for part in segmentation.parts))
     whole = object_shape(mesh, 0, labels=segmentation.face_part)
-    assert len(list(estimate.part_motions(whole, segmentation, Config()))) == 3
+    assert len(list(estimate.part_motions(whole, segmentation))) == 3
     assert copies_of == {"left": ["right"], "right": ["left"], "back": []}
 
 
@@ -107,7 +106,7 @@ def test_a_mark_on_a_round_pin_speaks_for_a_turn() -> None:
         """Return the log-odds of the best rotation minus those of the best slide."""
         mesh, segmentation = built({"base": WALL, "pin": pieces})
         whole = object_shape(mesh, 0, labels=segmentation.face_part)
-        _, _, _, question = next(iter(estimate.part_motions(whole, segmentation, Config())))
+        _, _, _, question = next(iter(estimate.part_motions(whole, segmentation)))
         turns = np.array([c.motion.kind is JointType.REVOLUTE for c in question.candidates])
         return float(question.scores[turns].max() - question.scores[~turns].max())
 
@@ -137,9 +136,8 @@ def test_a_deep_drawer_needs_no_carving() -> None:
 
 def test_a_hinge_that_opens_to_no_side_is_compared_with_no_other() -> None:
     mesh, segmentation = built(pair("both"))
-    config = Config()
-    whole = object_shape(mesh, config.seed, config.patches, segmentation.face_part)
-    _, _, context, question = next(iter(estimate.part_motions(whole, segmentation, config)))
+    whole = object_shape(mesh, labels=segmentation.face_part)
+    _, _, context, question = next(iter(estimate.part_motions(whole, segmentation)))
     assert context.other_parts
     rims = [replace(c, outward=0.0) for c in question.candidates if c.role == "edge"]
     assert estimate._clear_of_others(context, rims[0], tuple(rims)) is rims[0]

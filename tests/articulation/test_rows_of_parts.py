@@ -17,7 +17,6 @@ from anymesh.articulation.limits import limits
 from anymesh.articulation.motion_features import MISSING, motion_features
 from anymesh.articulation.part_contexts import descendants, part_context
 from anymesh.articulation.repeated_parts import ScoredMotions, in_one_manner, share_opening_directions
-from anymesh.config import ArticulationConfig
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.offers import MovedPoints
 from anymesh.segmentation.divide import object_shape
@@ -176,7 +175,7 @@ def test_the_context_of_a_part_has_what_it_carries_and_what_is_static() -> None:
     whole = object_shape(mesh, 0, labels=piece)
     label, parent = piece[whole.source], [-1, 0, 1, 0]
     shapes = [whole.of(np.flatnonzero(label == k)) for k in range(4)]
-    found = {k: part_context(whole, label, shapes, parent, k, ArticulationConfig()) for k in (1, 2, 3)}
+    found = {k: part_context(whole, label, shapes, parent, k) for k in (1, 2, 3)}
 
     def faces(shape) -> int:
         return 0 if shape is None else len(shape.triangles)

@@ -1,13 +1,15 @@
 """Random valid answers: every question can be guessed, the same for a seed, and the visual method ends with a result."""
 
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
 from assets import box, mesh_of
 from guesser import Guesser
+from made import smaller
 
-from anymesh.config import Config, GroundingConfig, ViewsConfig
+from anymesh.config import Config
 from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepared
 from anymesh.pipeline.solving import solve
 from anymesh.prompted.questions.grounding import WhichMarks, WhichViews
@@ -15,8 +17,14 @@ from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types.questions import VisualAnswerer
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-QUICK = Config(views=ViewsConfig(size=160, around="3@15,1@50+30"), grounding=GroundingConfig(points=3_000))
+QUICK = Config(viewpoints="3@15,1@50+30")
 REGION = (np.arange(24).reshape(4, 6), np.arange(20, 44).reshape(4, 6))
+
+
+@pytest.fixture(autouse=True, scope="module")
+def quick() -> Iterator[None]:
+    with smaller(160, 3_000):
+        yield
 
 
 @pytest.mark.parametrize("consistent", [True, False])

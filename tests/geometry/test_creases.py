@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from anymesh.config import PatchConfig
 from anymesh.geometry.creases import convex_regions, divide_at_seams
 
 
@@ -24,7 +23,7 @@ def test_a_fold_inwards_by_more_than_twenty_five_degrees_is_a_crease(
 ) -> None:
     """The surface that defines the angle is beside the fold, and within a hundredth of the diagonal for a large object."""
     triangles = scale * trough(degrees)
-    region = convex_regions(triangles if upwards else triangles[:, ::-1], scale * diagonal, PatchConfig())
+    region = convex_regions(triangles if upwards else triangles[:, ::-1], scale * diagonal)
     assert len(set(region.tolist())) == count
     right = triangles[:, :, 0].mean(1) > 0
     assert len(set(region[right].tolist())) == len(set(region[~right].tolist())) == 1

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -10,7 +11,6 @@ import trimesh
 from assets import box, mesh_of
 from rigid import apply, move, shape_of
 
-from anymesh.config import PatchConfig
 from anymesh.geometry.boxes import OrientedBox, box_in_frame, box_pairs, dominant_normals, fit_box, same_box, within
 from anymesh.geometry.circles import fit_circle, outline_about, roundest
 from anymesh.geometry.distance_ import TriangleTree, distance_to_mesh
@@ -19,6 +19,7 @@ from anymesh.geometry.simplify_ import FEWEST, simplify
 from anymesh.geometry.surface import mesh_surface
 from anymesh.geometry.topology import components, edge_pairs, label_connected, weld
 from anymesh.geometry.triangle_set import body_obb, sample_surface, spread_directions
+from anymesh.segmentation import divide
 from anymesh.segmentation.divide import object_shape
 
 X, Y, Z = np.eye(3)
@@ -244,5 +245,6 @@ def test_cavities_are_found_whatever_else_is_inside_out() -> None:
 def test_above_the_most_patches_all_copies_join_what_they_are_nearest_to() -> None:
     beads = [box((x, 0.4, 1.01), (x + 0.01, 0.41, 1.02)) for x in np.linspace(0.05, 0.4, 12)]
     mesh = mesh_of([box((0, 0, 0), (1, 1, 1)), box((3, 0, 0), (4, 1, 1)), *beads])[0]
-    assert int(object_shape(mesh, config=PatchConfig(most_patches=5)).patch.max()) + 1 == 2
+    with patch.object(divide, "MAX_PATCHES", 5):
+        assert int(object_shape(mesh).patch.max()) + 1 == 2
     assert int(object_shape(mesh).patch.max()) + 1 == 14

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -10,7 +10,7 @@ import trimesh
 from assets import box
 from rigid import move, shape_of
 
-from anymesh.config import PatchConfig
+from anymesh.geometry import creases
 from anymesh.geometry import sweep as sweep_module
 from anymesh.geometry.creases import convex_regions
 from anymesh.geometry.simplify_ import simplify
@@ -185,7 +185,8 @@ def test_regions_of_a_simplified_surface_are_those_of_its_nearest_faces() -> Non
     whole = trimesh.boolean.union([block, plate])
     fine = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(whole.vertices, whole.faces, 0.05))
     triangles = np.asarray(fine.triangles, float)
-    region = convex_regions(triangles, 1.5, replace(PatchConfig(), superpoint_faces=1500))
+    with patch.object(creases, "MAX_CREASE_FACES", 1500):
+        region = convex_regions(triangles, 1.5)
     top = triangles[:, :, 2].min(1) > 0.2
     low = triangles[:, :, 2].max(1) < 0.1
     assert len(set(region[top])) == len(set(region[low])) == 1

@@ -7,8 +7,7 @@ import pytest
 from assets import CUBE, CUBE_FACES
 from trimesh.creation import revolve
 
-from anymesh.config import PatchConfig
-from anymesh.geometry import simplify_
+from anymesh.geometry import patches, simplify_
 from anymesh.geometry.patches import MIN_PATCH_FACES, DividedSurface
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.triangle_set import TriangleSet
@@ -90,10 +89,11 @@ def divided(triangles: np.ndarray, patch: np.ndarray, copy: np.ndarray | None = 
     return DividedSurface(shape, rows if copy is None else copy, patch, np.array([[0, 1]]), 2.0)
 
 
-def test_parts_of_a_patch_are_simplified_apart() -> None:
+def test_parts_of_a_patch_are_simplified_apart(monkeypatch: pytest.MonkeyPatch) -> None:
     fine = sheet(20)
     right = (fine.mean(1)[:, 0] > 0.5).astype(np.int64)
-    found = divided(fine, np.zeros(800, np.int64)).simplified(PatchConfig(most_faces=100), right)
+    monkeypatch.setattr(patches, "MAX_FACES", 100)
+    found = divided(fine, np.zeros(800, np.int64)).simplified(right)
     assert 20 < len(found.patch) <= 130
     part = right[found.source]
     assert found.shape.triangles[part == 0][:, :, 0].max() <= 0.5 + 1e-6
@@ -104,13 +104,15 @@ def test_parts_of_a_patch_are_simplified_apart() -> None:
     assert found.shape.known is not None
 
 
-def test_few_faces_stay_and_dense_patches_are_simplified_in_proportion() -> None:
+def test_few_faces_stay_and_dense_patches_are_simplified_in_proportion(monkeypatch: pytest.MonkeyPatch) -> None:
     """Sheets of 1800, 450 and 8 triangles; the last one stays."""
     sheets = [sheet(30), sheet(15, (2, 0, 0)), sheet(2, (4, 0, 0))]
     triangles, patch = np.concatenate(sheets), np.repeat([0, 1, 2], [1800, 450, 8])
     order = np.random.default_rng(0).permutation(len(patch))
     triangles, patch = triangles[order], patch[order]
-    found = divided(triangles, patch).simplified(PatchConfig(most_faces=500, least_faces=30))
+    monkeypatch.setattr(patches, "MAX_FACES", 500)
+    monkeypatch.setattr(patches, "KEPT_PATCH_FACES", 30)
+    found = divided(triangles, patch).simplified()
     count = np.bincount(found.patch)
     assert 300 < count[0] <= 400
     assert 70 < count[1] <= 100
@@ -123,16 +125,21 @@ def test_few_faces_stay_and_dense_patches_are_simplified_in_proportion() -> None
     assert found.of(np.array([3, 1])).faces.tolist() == [3, 1]
 
 
-def test_a_mesh_of_the_maximum_number_of_faces_stays() -> None:
+def test_a_mesh_of_the_maximum_number_of_faces_stays(monkeypatch: pytest.MonkeyPatch) -> None:
     surface = divided(sheet(5), np.zeros(50, np.int64))
-    assert surface.simplified(PatchConfig(most_faces=50)).source.tolist() == list(range(50))
-    assert len(surface.simplified(PatchConfig(most_faces=49, least_faces=20)).source) < 50
+    monkeypatch.setattr(patches, "MAX_FACES", 50)
+    assert surface.simplified().source.tolist() == list(range(50))
+    monkeypatch.setattr(patches, "MAX_FACES", 49)
+    monkeypatch.setattr(patches, "KEPT_PATCH_FACES", 20)
+    assert len(surface.simplified().source) < 50
 
 
-def test_very_many_patches_keep_few_faces_each() -> None:
+def test_very_many_patches_keep_few_faces_each(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of 100 patches of 32 triangles, 3 * 60 / 100 faces each would be left, and the minimum is kept."""
     triangles = np.concatenate([sheet(4, (2 * k, 0, 0)) for k in range(100)])
-    found = divided(triangles, np.repeat(np.arange(100), 32)).simplified(PatchConfig(most_faces=60, least_faces=32))
+    monkeypatch.setattr(patches, "MAX_FACES", 60)
+    monkeypatch.setattr(patches, "KEPT_PATCH_FACES", 32)
+    found = divided(triangles, np.repeat(np.arange(100), 32)).simplified()
     count = np.bincount(found.patch)
     assert len(count) == 100
     assert count.max() <= MIN_PATCH_FACES == 20

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 import trimesh
 
-from anymesh.config import PatchConfig
 from anymesh.geometry import superpoints as module
 from anymesh.geometry.creases import _contract, convex_regions
 from anymesh.geometry.superpoints import superpoints
@@ -66,7 +65,7 @@ def test_a_soft_concave_crease_bounds_a_region_and_a_convex_one_does_not() -> No
     low, high = trimesh.creation.box((1, 1, 0.3)), trimesh.creation.box((0.4, 0.4, 0.4))
     high.apply_translation((0, 0, 0.3))
     triangles = soft(trimesh.boolean.union([low, high]))
-    region = convex_regions(triangles, 1.5, PatchConfig())
+    region = convex_regions(triangles, 1.5)
     top = triangles.mean(1)[:, 2] > 0.25
     block, plate = np.bincount(region[top]).argmax(), np.bincount(region[~top]).argmax()
     assert block != plate
@@ -80,7 +79,7 @@ def test_the_inside_of_a_bowl_stays_whole() -> None:
     lid.apply_translation((0, 0, 0.5))
     bowl = trimesh.boolean.difference([ball, hole, lid])
     triangles = bowl.triangles
-    region = convex_regions(triangles, float(np.linalg.norm(bowl.extents)), PatchConfig())
+    region = convex_regions(triangles, float(np.linalg.norm(bowl.extents)))
     radius = np.linalg.norm(triangles.mean(1), axis=1)
     inside = radius < 0.46
     area = bowl.area_faces

@@ -8,7 +8,6 @@ import trimesh
 from assets import box, mesh_of
 from rigid import apply, move, shape_of
 
-from anymesh.config import PatchConfig
 from anymesh.geometry.creases import convex_regions
 from anymesh.geometry.sweep import Obstacles, Passage, free_amount, sweep
 from anymesh.geometry.topology import components
@@ -330,7 +329,7 @@ def test_a_ball_on_a_plate_is_a_region_of_its_own() -> None:
     whole = trimesh.boolean.union([ball, plate])
     fine = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(whole.vertices, whole.faces, 0.06))
     triangles = np.asarray(fine.triangles, float)
-    region = convex_regions(triangles, 1.8, PatchConfig())
+    region = convex_regions(triangles, 1.8)
     z = triangles[:, :, 2]
     assert set(region[(z > 0.2).all(1)]).isdisjoint(region[(z < 0).any(1)])
     assert len(set(region[(z > 0.2).all(1)])) == 1
@@ -338,5 +337,5 @@ def test_a_ball_on_a_plate_is_a_region_of_its_own() -> None:
 
 def test_a_rounded_box_is_one_region() -> None:
     rounded = trimesh.creation.capsule(0.6, 0.3)
-    assert len(set(convex_regions(np.asarray(rounded.triangles, float), 1.5, PatchConfig()))) == 1
-    assert len(set(convex_regions(box((0, 0, 0), (1, 1, 1))[0][box((0, 0, 0), (1, 1, 1))[1]], 1.7, PatchConfig()))) == 1
+    assert len(set(convex_regions(np.asarray(rounded.triangles, float), 1.5))) == 1
+    assert len(set(convex_regions(box((0, 0, 0), (1, 1, 1))[0][box((0, 0, 0), (1, 1, 1))[1]], 1.7))) == 1

@@ -11,9 +11,15 @@ from assets import CABINET, box, mesh_of
 from geometry.rigid import apply, move, shape_of
 
 from anymesh.articulation.part_contexts import find_barrel_candidates
-from anymesh.config import ArticulationConfig
 from anymesh.geometry.triangle_set import body_obb, sample_surface
-from anymesh.motion.part_context import CONTACT_REACHES, MAX_SURFACE_POINTS, MIN_LEAD, PartContext, best_direction
+from anymesh.motion.part_context import (
+    CONNECTING_RATIO,
+    CONTACT_REACHES,
+    MAX_SURFACE_POINTS,
+    MIN_LEAD,
+    PartContext,
+    best_direction,
+)
 from anymesh.segmentation.divide import object_shape
 
 BASE, DOOR, DRAWER = CABINET["base"], CABINET["door"], CABINET["drawer"]
@@ -26,7 +32,7 @@ def part_context(part, others, T) -> PartContext:
     low, high = everything.min(0), everything.max(0)
     own, rest = shape_of(*part, T=T), shape_of(*others, T=T)
     diagonal = float(np.linalg.norm(high - low))
-    return PartContext(own, rest, rest, None, rest, (), diagonal, (low + high) / 2, ArticulationConfig())
+    return PartContext(own, rest, rest, None, rest, (), diagonal, (low + high) / 2)
 
 
 def place(seed, scale=1.0) -> np.ndarray:
@@ -96,7 +102,7 @@ def test_the_position_of_a_handle(seed, scale):
 
 def test_the_connecting_area_lies_between_part_and_parent():
     found = part_context([box((0, 0, 1), (1, 1, 1.2))], [box((0.4, 0.4, 0), (0.6, 0.6, 1))], np.eye(4))
-    near = found.config.connecting * found.tolerance_length
+    near = CONNECTING_RATIO * found.tolerance_length
     assert len(found.contact) > 10
     np.testing.assert_allclose(found.contact[:, 2], 1, atol=near + 1e-9)
     assert (np.abs(found.contact[:, :2] - 0.5) < 0.1 + near).all()
@@ -252,7 +258,7 @@ def seeded(part: list, others: list, seed: int) -> PartContext:
     low, high = corners.min(0), corners.max(0)
     own, rest = (replace(shape_of(*pieces), seed=seed) for pieces in (part, others))
     diagonal = float(np.linalg.norm(high - low))
-    return PartContext(own, rest, rest, None, rest, (), diagonal, (low + high) / 2, ArticulationConfig())
+    return PartContext(own, rest, rest, None, rest, (), diagonal, (low + high) / 2)
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -9,8 +9,10 @@ from anymesh.correcting.motions import ranked_motions
 from anymesh.evaluation.changes import rotation
 from anymesh.geometry.surface import ground_faces
 from anymesh.loading import load_mesh, place_mesh
+from anymesh.pipeline import solving
 from anymesh.pipeline.results import SegmentationResult
 from anymesh.pipeline.solving import GROUND_WARNING, Solver, solve
+from anymesh.segmentation.divide import divide_surface
 from anymesh.types import Asset, Joint, Mesh, Segmentation
 from anymesh.types.motion import Recognition
 
@@ -29,9 +31,12 @@ class Sees:
         return Recognition("box", self.size, ())
 
 
-def test_only_where_pictures_are_answered_seams_closed_in_places_divide_the_surface() -> None:
-    assert Solver(MESH, answerer_factory=lambda _: Sees(1.0)).geometry.config.patches.seams
-    assert not Solver(MESH).geometry.config.patches.seams
+def test_only_where_pictures_are_answered_seams_closed_in_places_divide_the_surface(monkeypatch) -> None:
+    divided = []
+    monkeypatch.setattr(solving, "divide_surface", lambda *_, seams: divided.append(seams) or divide_surface(MESH, 0))
+    for factory in (None, lambda _: Sees(1.0)):
+        assert len(Solver(MESH, answerer_factory=factory).geometry.whole.patch)
+    assert divided == [False, True]
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 from assets import box, mesh_of
 from PIL import Image
 
-from anymesh.config import ViewsConfig
+from anymesh.config import Config
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures.drawing import (
     DOT,
@@ -237,7 +237,7 @@ def frontal(azimuth: float, part_side: float):
     mesh, number = mesh_of([box((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5)), box(middle - half, middle + half)])
     up = np.array([0, 0, 1.0])
     directions = np.stack([along, up, -along, -up])
-    return views(mesh, ViewsConfig(), size=96), middle + part_side * 0.05 * out, directions, number
+    return views(mesh, Config().directions, size=96), middle + part_side * 0.05 * out, directions, number
 
 
 @pytest.mark.parametrize("azimuth", [0, 90, 180, 270])

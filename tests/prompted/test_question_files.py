@@ -5,22 +5,21 @@ import json
 import shutil
 import threading
 import time
+from collections.abc import Iterator
 from dataclasses import replace
-from functools import partial
 from pathlib import Path
 
 import numpy as np
 import pytest
 from asked import ASKED, PICTURE, parts
+from made import smaller
 
 from anymesh import pipeline
 from anymesh.cli import run
-from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.errors import InputError, OpenQuestionError, OptionError
 from anymesh.evaluation.evaluating import evaluate
 from anymesh.evaluation.ground_truth import example_truths, prepared
 from anymesh.evaluation.oracle import oracle
-from anymesh.pipeline import answering
 from anymesh.prompted.answerers import file_answerer as files
 from anymesh.prompted.answerers.file_answerer import answer_text, open_in, record_answer
 from anymesh.prompted.answerers.question_files import example_answer, explain_schema, find_questions
@@ -30,12 +29,16 @@ from anymesh.prompted.questions.saved_question import answer_object, pack_questi
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MESH = EXAMPLES / "meshes" / "storage_box.glb"
-FEW = partial(Config, grounding=GroundingConfig(points=8_000), views=ViewsConfig(size=240))  # faster, and as good here
+
+
+@pytest.fixture(autouse=True, scope="module")
+def quick() -> Iterator[None]:
+    with smaller(240, 8_000):
+        yield
 
 
 @pytest.fixture
 def work(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setattr(answering, "Config", FEW)
     monkeypatch.chdir(tmp_path)
     shutil.copy(MESH, tmp_path / "box.glb")
     return tmp_path

@@ -2,33 +2,37 @@
 
 import json
 from collections.abc import Iterator
-from functools import partial
 from pathlib import Path
 
 import jsonschema
 import pytest
 from dialects import _openai, _openai_content
+from made import smaller
 from model_wire import SECRET, Service
 
 from anymesh.cli import run
-from anymesh.config import Config, GroundingConfig, ViewsConfig
+from anymesh.config import Config
 from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepared
 from anymesh.evaluation.oracle import SimulatedVlm, oracle
 from anymesh.export.asset_json import schema
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.pipeline import answering
 from anymesh.pipeline.solving import Solver
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NAME = "storage_box"
-FEW = partial(Config, grounding=GroundingConfig(points=8_000), views=ViewsConfig(size=240))  # faster, and as good here
 Said = dict[str, tuple[str, str]]  # question -> its kind and the answer
+
+
+@pytest.fixture(autouse=True, scope="module")
+def quick() -> Iterator[None]:
+    with smaller(240, 8_000):
+        yield
 
 
 def perfect(truth: GroundTruth) -> Said:
     """What a perfect model says to each question about an object."""
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = Solver(placed.mesh, FEW(), lambda instead: SimulatedVlm(oracle(prepared(truth)), instead))
+    solver = Solver(placed.mesh, Config(), lambda instead: SimulatedVlm(oracle(prepared(truth)), instead))
     recognized = solver.answers.recognize()
     segmented = solver.parts("auto", recognized.recognition)
     jointed = solver.joints(segmented.segmentation, recognized.recognition, grounded=True)
@@ -36,8 +40,8 @@ def perfect(truth: GroundTruth) -> Said:
     return {e.text: (e.kind, e.answer) for e in exchanges}
 
 
-@pytest.fixture(scope="session")
-def said() -> Said:
+@pytest.fixture(scope="module")
+def said(quick: None) -> Said:
     return perfect(next(t for t in example_truths(EXAMPLES) if t.name == NAME))
 
 
@@ -66,7 +70,6 @@ class Model:
 def model(said: Said, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[Model]:
     monkeypatch.setenv("ANYMESH_API_KEY", SECRET)
     monkeypatch.setenv("ANYMESH_CACHE", str(tmp_path / "cache"))
-    monkeypatch.setattr(answering, "Config", FEW)
     monkeypatch.chdir(tmp_path)
     found = Model(said)
     found.service.turns.append(found.answer)

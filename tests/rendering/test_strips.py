@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 
-from anymesh.config import ViewsConfig
+from anymesh.config import Config
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures.visual_prompts import BAR, card_view, part_card, titled
 from anymesh.rendering.marks import HIGHLIGHT
@@ -132,8 +132,7 @@ def test_panels_fill_even_rows(count, shape):
 
 def test_a_silhouette_ignores_what_is_before_it():
     mesh, number = mesh_of([box((-1, -1, -1), (1, 1, 1)), box((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))])
-    config = ViewsConfig(size=64)
-    camera = views(mesh, config)[0].camera
+    camera = views(mesh, Config().directions, size=64)[0].camera
     inner = mesh.subset(number == 1)
     np.testing.assert_array_equal(silhouette(mesh.triangles[number == 1], camera), render(inner, camera).face >= 0)
 
@@ -141,9 +140,8 @@ def test_a_silhouette_ignores_what_is_before_it():
 def card(parts, part):
     mesh, number = mesh_of(parts)
     scene = RayScene(mesh.vertices, mesh.faces)
-    config = ViewsConfig(size=320)
-    view = card_view(views(mesh, config, scene=scene), number, part, scene)
-    return part_card(mesh, view, number, part, "part 1: knob", config, scene)
+    view = card_view(views(mesh, Config().directions, size=320, scene=scene), number, part, scene)
+    return part_card(mesh, view, number, part, "part 1: knob", scene)
 
 
 def test_cards_have_a_close_up_only_for_small_parts():
@@ -162,8 +160,8 @@ def test_cards_have_a_close_up_only_for_small_parts():
 def test_a_card_is_in_the_view_that_shows_where_the_part_meets_the_rest():
     """A flap on the front (-y): the side views show both of its short edges alike, and each contact is at one of them."""
     mesh, number = mesh_of([box((-1, -1, -1), (1, 1, 1)), box((-0.5, -1.6, -0.5), (0.5, -1.0, 0.5))])
-    scene, config = RayScene(mesh.vertices, mesh.faces), ViewsConfig(around="2@15+40", size=320)  # from -40 deg and its back
-    both = [*views(mesh, config, scene=scene)[:1], *views(mesh, ViewsConfig(around="1@15+320", size=320), scene=scene)]
+    scene = RayScene(mesh.vertices, mesh.faces)
+    both = views(mesh, [(40.0, 15.0), (320.0, 15.0)], size=320, scene=scene)
     pixels = [int((number[v.face] == 1)[v.face >= 0].sum()) for v in both]
     assert min(pixels) > 0.9 * max(pixels)
     across = np.linspace(-0.5, 0.5, 9)

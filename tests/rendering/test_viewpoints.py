@@ -7,10 +7,11 @@ import pytest
 from assets import box, mesh_of
 from scipy import ndimage
 
-from anymesh.config import PAPER_VIEWS, ViewsConfig
+from anymesh.config import PAPER_VIEWS, Config
 from anymesh.errors import OptionError
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures.visual_prompts import inside_views
+from anymesh.rendering import viewpoints
 from anymesh.rendering.render import render
 from anymesh.rendering.viewpoints import (
     best_view,
@@ -26,7 +27,7 @@ from anymesh.rendering.viewpoints import (
     zoom,
 )
 
-CONFIG = ViewsConfig(size=160)
+CONFIG = Config()
 
 
 def plate_before_part():
@@ -42,7 +43,7 @@ def plate_before_part():
 
 def test_the_cameras_stand_where_the_paper_puts_them_and_the_object_fills_each_picture():
     mesh, _ = plate_before_part()
-    found = cameras(mesh, replace(CONFIG, around=PAPER_VIEWS), 160)
+    found = cameras(mesh, replace(CONFIG, viewpoints=PAPER_VIEWS).directions, 160)
     middle = mesh.bounds.mean(0)
     assert len(found) == 8
     for k, camera in enumerate(found):
@@ -60,7 +61,7 @@ def test_the_cameras_stand_where_the_paper_puts_them_and_the_object_fills_each_p
 def test_tops_and_undersides_are_seen():
     mesh, number = mesh_of([box((0, 0, 0), (1, 1, 2)), box((0, 0, 2), (1, 1, 2.01)), box((0, 0, -0.01), (1, 1, 0))])
     for part in (1, 2):
-        shares = [visible_pixels(v, number, part) / 160**2 for v in views(mesh, CONFIG)]
+        shares = [visible_pixels(v, number, part) / 160**2 for v in views(mesh, CONFIG.directions, size=160)]
         assert max(shares[8:]) > 0.05
         assert max(shares[:8]) < 0.02  # from 15 degrees up the eye is below the top
 
@@ -86,25 +87,25 @@ def test_the_side_that_a_caption_names_is_the_one_that_shows():
         "left": ((-0.1, 0, 0), (0, 1, 1)),
     }.items():
         mesh, number = mesh_of([box((0, 0, 0), (1, 1, 1)), box(low, high)])
-        best = best_view(views(mesh, CONFIG, size=80), number, 1)
+        best = best_view(views(mesh, CONFIG.directions, size=80), number, 1)
         assert caption(*CONFIG.directions[best], 0.0) == f"from the {side}, 15 degrees up"
 
 
 @pytest.mark.parametrize("told", ["", "8", "8@", "@15", "8@100", "0@15", "8@15;2@50", "99@0", "8@15, 2@50", "8@15+", "-1@0"])
 def test_viewpoints_that_are_not_valid_are_told(told):
     with pytest.raises(OptionError, match="--viewpoints: found"):
-        ViewsConfig(around=told)
+        Config(viewpoints=told)
 
 
 def test_viewpoints_are_rings():
-    found = ViewsConfig(around="2@50+30,1@-35").directions
+    found = Config(viewpoints="2@50+30,1@-35").directions
     assert found == ((30.0, 50.0), (210.0, 50.0), (0.0, -35.0))
 
 
 def test_what_is_hidden_is_not_counted():
     mesh, part = plate_before_part()
     bare = mesh.subset(part != 2)
-    found, free = views(mesh, CONFIG), views(bare, CONFIG)
+    found, free = views(mesh, CONFIG.directions, size=160), views(bare, CONFIG.directions, size=160)
     assert visible_pixels(free[0], part[part != 2], 1) > 100
     hidden = visible_pixels(found[0], part, 1)
     assert hidden == 0
@@ -118,14 +119,14 @@ def test_what_is_hidden_is_not_counted():
 
 def test_ties_go_to_the_first_view():
     mesh, part = plate_before_part()
-    found = views(mesh, CONFIG, size=40)
+    found = views(mesh, CONFIG.directions, size=40)
     assert best_view([found[3], found[3], found[3]], part, 0) == 0
     assert best_view(found, part, 7) == 0
 
 
 def test_a_drawn_view_has_the_exact_buffers():
     mesh, _ = plate_before_part()
-    camera = cameras(mesh, CONFIG, 160)[1]
+    camera = cameras(mesh, CONFIG.directions, 160)[1]
     scene = RayScene(mesh.vertices, mesh.faces)
     plain, drawn = render(mesh, camera, scene=scene), shown(mesh, camera, scene)
     same = plain.face == drawn.face
@@ -137,7 +138,7 @@ def test_a_drawn_view_has_the_exact_buffers():
 
 def test_edges_are_lines_and_every_side_is_bright():
     mesh, _ = plate_before_part()
-    for view in views(mesh, CONFIG):
+    for view in views(mesh, CONFIG.directions, size=160):
         gray = view.color.mean(-1)
         bare = np.abs(np.diff(view.face, axis=1, append=-2)) + np.abs(np.diff(view.face, axis=0, append=-2)) == 0
         inner = ndimage.binary_erosion(bare & (view.face >= 0), iterations=2)
@@ -149,7 +150,7 @@ def test_edges_are_lines_and_every_side_is_bright():
 
 def test_the_inside_is_drawn_alone_over_a_ghost():
     mesh, part = mesh_of([box((0, 0, 0), (1, 1, 1)), box((0.3, 0.3, 0.3), (0.6, 0.6, 0.6))])
-    camera = cameras(mesh, CONFIG, 160)[1]
+    camera = cameras(mesh, CONFIG.directions, 160)[1]
     (view,) = inside_views(mesh, part == 1, [camera], RayScene(mesh.vertices, mesh.faces))
     seen = view.face >= 0
     assert set(part[view.face[seen]]) == {1}
@@ -162,7 +163,7 @@ def test_the_inside_is_drawn_alone_over_a_ghost():
 
 def test_normals_are_colours():
     mesh, _ = plate_before_part()
-    view = views(mesh, CONFIG)[2]
+    view = views(mesh, CONFIG.directions, size=160)[2]
     found = normal_picture(view)
     np.testing.assert_array_equal(found[view.face < 0], 255)
     np.testing.assert_allclose(found[view.face >= 0] / 127.5 - 1, view.normal[view.face >= 0], atol=0.005)
@@ -172,7 +173,7 @@ def test_normals_are_colours():
 def test_a_close_up_shows_the_same_points_where_it_says(number):
     mesh, part = plate_before_part()
     scene = RayScene(mesh.vertices, mesh.faces)
-    view = views(mesh, CONFIG, scene=scene)[number]
+    view = views(mesh, CONFIG.directions, size=160, scene=scene)[number]
     mask = view.face >= 0
     mask[:, :90] = False
     camera = zoom(view.camera, box_of(mask), 0.3, 160)
@@ -194,7 +195,7 @@ def test_a_close_up_shows_the_same_points_where_it_says(number):
 @pytest.mark.parametrize("margin", [0.0, 0.3])
 def test_a_close_up_holds_the_box_and_its_margin_and_little_else(margin):
     mesh, _ = plate_before_part()
-    camera = cameras(mesh, CONFIG, 160)[1]
+    camera = cameras(mesh, CONFIG.directions, 160)[1]
     box = np.array([100.0, 40, 130, 60])
     near = zoom(camera, box, margin, 200)
     low, high = box[:2] - margin * np.array([30, 20]), box[2:] + margin * np.array([30, 20])
@@ -206,15 +207,17 @@ def test_a_close_up_holds_the_box_and_its_margin_and_little_else(margin):
     assert np.ptp(pixel, axis=0).max() > 190
 
 
-def test_small_parts_get_a_close_up_and_others_do_not():
+def test_small_parts_get_a_close_up_and_others_do_not(monkeypatch):
     mesh, part = plate_before_part()
     bare, part = mesh.subset(part != 2), part[part != 2]
     scene = RayScene(bare.vertices, bare.faces)
-    view = views(bare, CONFIG, scene=scene)[0]
+    view = views(bare, CONFIG.directions, size=160, scene=scene)[0]
     covered = visible_pixels(view, part, 1)
-    assert close_up(bare, view, part, 1, ViewsConfig(size=160, zoom_below=covered), scene) is None
-    assert close_up(bare, view, part, 5, CONFIG, scene) is None
-    near = close_up(bare, view, part, 1, ViewsConfig(size=160, zoom_below=covered + 1), scene)
+    monkeypatch.setattr(viewpoints, "MIN_PART_PIXELS", 16 * covered)
+    assert close_up(bare, view, part, 1, scene) is None
+    assert close_up(bare, view, part, 5, scene) is None
+    monkeypatch.setattr(viewpoints, "MIN_PART_PIXELS", 16 * (covered + 1))
+    near = close_up(bare, view, part, 1, scene)
     assert near is not None
     assert near.face.shape == view.face.shape
     assert visible_pixels(near, part, 1) > 4 * covered
@@ -222,8 +225,9 @@ def test_small_parts_get_a_close_up_and_others_do_not():
     assert not (mask[[0, -1]].any())
     assert not (mask[:, [0, -1]].any())
     # the limit counts pixels of a full-size picture
-    small = views(bare, CONFIG, size=80, scene=scene)[0]
-    assert close_up(bare, small, part, 1, ViewsConfig(size=160, zoom_below=covered // 2), scene) is None
+    small = views(bare, CONFIG.directions, size=80, scene=scene)[0]
+    monkeypatch.setattr(viewpoints, "MIN_PART_PIXELS", 8 * covered)
+    assert close_up(bare, small, part, 1, scene) is None
 
 
 def test_there_is_no_box_of_nothing():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import pairwise
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -11,8 +12,8 @@ import trimesh
 from assets import box, mesh_of
 from test_panels import FRONT, bar, front_boxes, panels, solid
 
-from anymesh.config import Config, SegmentationConfig
 from anymesh.scoring.by_hand import NAME_SCORE
+from anymesh.segmentation import part_candidates as candidates
 from anymesh.segmentation import segment
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
@@ -29,19 +30,18 @@ from anymesh.segmentation.part_candidates import (
 from anymesh.segmentation.part_classifier import Reasons
 from anymesh.types import Mesh, Node, Segmentation
 
-CONFIG = SegmentationConfig()
 
-
-def tree_of(mesh: Mesh, most: int = 100) -> PartCandidates:
+def tree_of(mesh: Mesh, most: int = 100, smallest: float = 0.004) -> PartCandidates:
     whole = object_shape(mesh)
-    return part_candidates(mesh, whole, find_contacts(whole, CONFIG), CONFIG.smallest, most)
+    with patch.multiple(candidates, MAX_CANDIDATES=most, MIN_PART_RATIO=smallest):
+        return part_candidates(mesh, whole, find_contacts(whole))
 
 
 def merges(*boxes) -> list[set[int]]:
     """Return the groups of a component in the order in which they are merged."""
     mesh = mesh_of(boxes)[0]
     whole = object_shape(mesh)
-    return [set(group) for group in merged_groups(find_contacts(whole, CONFIG), np.arange(len(boxes)))]
+    return [set(group) for group in merged_groups(find_contacts(whole), np.arange(len(boxes)))]
 
 
 def row(*lengths: float, height: float = 1.0) -> list:
@@ -92,8 +92,7 @@ def test_the_largest_candidates_are_kept(most: int, smallest: float, pieces: lis
     """Loose cubes of 0.5, 0.3 and 0.1 m beside a base, 3.1 m across; the base is the first."""
     loose = [box((2, k, 0), (2 + s, k + s, s)) for k, s in enumerate((0.5, 0.3, 0.1))]
     mesh = mesh_of([box((0, 0, 0), (1, 1, 1)), *loose])[0]
-    whole = object_shape(mesh)
-    tree = part_candidates(mesh, whole, find_contacts(whole, CONFIG), smallest, most)
+    tree = tree_of(mesh, most, smallest)
     alone = [int(np.flatnonzero(m)[0]) for m in tree.members if m.sum() == 1]
     assert [k for k in alone if k > 0] == pieces
     assert len(tree.members) <= most
@@ -132,7 +131,7 @@ def segmented(
     scores: list[float],
     names: tuple[str, ...] = ("a", "b", "c"),
     moves: str = "it",
-    **settings,
+    at_least: int = 0,
 ):
     """Return the parts of three loose cubes, if those after the first have given scores. moves: label, "" if none can move."""
     mesh, piece = mesh_of(LOOSE)
@@ -145,8 +144,7 @@ def segmented(
         return np.array(found), lambda chosen: ["learned"] * len(chosen)
 
     monkeypatch.setattr(segment, "score_parts", score_parts)
-    config = Config(segmentation=replace(CONFIG, **settings))
-    found = segment.segment_parts(mesh, object_shape(mesh), lambda s: [moves] * (len(s.parts) - 1), config)
+    found = segment.segment_parts(mesh, object_shape(mesh), lambda s: [moves] * (len(s.parts) - 1), at_least)
     return {int(piece[found.face_part == k][0]): p for k, p in enumerate(found.parts) if k > 0}
 
 

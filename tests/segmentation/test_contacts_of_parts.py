@@ -7,17 +7,24 @@ from assets import box, mesh_of
 from geometry.rigid import shape_of
 from scipy.spatial.distance import cdist
 
-from anymesh.config import SegmentationConfig
 from anymesh.motion.part_context import connecting_area
 from anymesh.runtime import Deadline
-from anymesh.segmentation.contacts import PROBES, Contacts, area_in_contact, dominated_by, find_contacts, gap_within
+from anymesh.segmentation.contacts import (
+    PROBES,
+    TOUCH_RATIO,
+    Contacts,
+    area_in_contact,
+    dominated_by,
+    find_contacts,
+    gap_within,
+)
 from anymesh.segmentation.divide import object_shape
 
 BLOCK = box((0, 0, 0), (1, 1, 1))
 
 
 def contacts(*boxes) -> Contacts:
-    return find_contacts(object_shape(mesh_of(boxes)[0]), SegmentationConfig())
+    return find_contacts(object_shape(mesh_of(boxes)[0]))
 
 
 def gaps(a: np.ndarray, b: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -71,7 +78,7 @@ def test_touching_boxes_are_one_body_that_touches_at_the_face() -> None:
 def test_the_area_in_contact_is_measured_on_a_large_plate_as_on_a_small_knob(size: float) -> None:
     """On the plate, it includes what is within the tolerance around the knob, on the knob the bottom of its walls."""
     plate, knob = box((-5, -3, -0.1), (5, 3, 0)), box((1, 1, 0), (1 + size, 1 + size, size))
-    reach = 2 * SegmentationConfig().touch * float(np.linalg.norm([10, 6, 0.1 + size]))
+    reach = 2 * TOUCH_RATIO * float(np.linalg.norm([10, 6, 0.1 + size]))
     found, walls = contacts(plate, knob).area, 4 * size * min(reach, size)
     assert found[0, 1] == pytest.approx(size**2 + 4 * size * reach + np.pi * reach**2, rel=0.1)
     assert found[1, 0] == pytest.approx(size**2 + walls, rel=0.1)
@@ -114,12 +121,12 @@ def test_what_reaches_the_root_only_through_a_piece_hangs_on_it() -> None:
 def test_after_the_deadline_no_contact_is_measured() -> None:
     late = Deadline(1e-9)
     whole = object_shape(mesh_of([BLOCK, box((1, 0, 0), (2, 1, 1)), box((2.01, 0, 0), (3, 1, 1))])[0])
-    found = find_contacts(whole, SegmentationConfig(), late)
+    found = find_contacts(whole, late)
     assert len(found.shapes) == 3
     assert (len(found.touch), len(found.near), found.area) == (0, 0, {})
     assert late.warnings() == ("time limit of 1e-09 s: segmentation: some contacts were not measured",)
     in_time = Deadline(600.0)
-    found = find_contacts(whole, SegmentationConfig(), in_time)
+    found = find_contacts(whole, in_time)
     assert (found.touch.tolist(), found.near.tolist(), in_time.warnings()) == ([[0, 1]], [[1, 2]], ())
 
 
@@ -131,9 +138,7 @@ def test_a_deadline_during_the_search_for_clearances_ends_it(monkeypatch: pytest
         "anymesh.segmentation.contacts.gap_within", lambda *a, **k: (measured.append(1), gap_within(*a, **k))[1]
     )
     late = Deadline()
-    found = find_contacts(
-        object_shape(mesh_of([box((1.01 * k, 0, 0), (1.01 * k + 1, 1, 1)) for k in range(9)])[0]), SegmentationConfig(), late
-    )
+    found = find_contacts(object_shape(mesh_of([box((1.01 * k, 0, 0), (1.01 * k + 1, 1, 1)) for k in range(9)])[0]), late)
     assert len(measured) == 4
     assert len(found.near) == 2
     assert len(late.warnings()) == 1

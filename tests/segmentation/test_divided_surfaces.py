@@ -9,7 +9,6 @@ import pytest
 import trimesh
 from assets import box, mesh_of
 
-from anymesh.config import PatchConfig
 from anymesh.geometry.surface import mesh_surface
 from anymesh.segmentation import divide
 from anymesh.segmentation.divide import object_shape
@@ -18,7 +17,6 @@ from anymesh.segmentation.panels import tile
 from anymesh.segmentation.part_candidates import Overlap
 from anymesh.types import Mesh, Node
 
-CONFIG = PatchConfig()
 X, Y, Z = np.eye(3)
 
 
@@ -43,9 +41,9 @@ def is_cut(*pieces) -> bool:
     return set(patch[(z > 0.01).all(1)]).isdisjoint(patch[(z < -0.99).all(1)])
 
 
-def patches(*pieces, config: PatchConfig = CONFIG) -> tuple[np.ndarray, Mesh]:
+def patches(*pieces) -> tuple[np.ndarray, Mesh]:
     mesh = mesh_of(pieces)[0]
-    return object_shape(mesh, 0, config).mesh_patch, mesh
+    return object_shape(mesh).mesh_patch, mesh
 
 
 @pytest.mark.parametrize(("degrees", "cut"), [(20.0, False), (30.0, True), (60.0, True)])
@@ -74,7 +72,7 @@ def grooved_plate(closed: float, cells: int = 40) -> Mesh:
 @pytest.mark.parametrize(("closed", "seams", "cut"), [(0.2, True, True), (0.9, True, False), (0.2, False, False)])
 def test_a_dense_surface_is_cut_at_seams_that_are_closed_in_places(closed: float, seams: bool, cut: bool) -> None:
     mesh = grooved_plate(closed)
-    patch = object_shape(mesh, config=replace(CONFIG, seams=seams)).mesh_patch
+    patch = object_shape(mesh, seams=seams).mesh_patch
     x = mesh.triangles[:, :, 0]
     left, right = patch[(x < -0.1).all(1)], patch[(x > 0.1).all(1)]
     assert len(np.unique(left)) == len(np.unique(right)) == 1
@@ -86,7 +84,7 @@ def test_patches_are_numbered_without_gaps_where_no_face_lies_in_a_region(monkey
     plate = trimesh.creation.box(bounds=[(-1, -0.5, -0.1), (1, 0.5, 0.1)])
     fine = trimesh.remesh.subdivide_to_size(plate.vertices, plate.faces, 0.06)
     mesh = mesh_of([(np.asarray(fine[0]), np.asarray(fine[1]))])[0]
-    assert np.unique(object_shape(mesh, config=replace(CONFIG, seams=True)).mesh_patch).tolist() == [0, 1]
+    assert np.unique(object_shape(mesh, seams=True).mesh_patch).tolist() == [0, 1]
 
 
 @pytest.mark.parametrize(("apart", "cut"), [(2.0, True), (12.0, False)])
@@ -116,27 +114,34 @@ def cubes(*sides: float) -> list:
 
 
 @pytest.mark.parametrize(("most", "expected"), [(4, [0, 1, 2, 3]), (3, [0, 1, 2, 2]), (2, [0, 1, 1, 1])])
-def test_the_smallest_of_too_many_patches_join_their_nearest_larger_one(most: int, expected: list[int]) -> None:
-    patch, _ = patches(*cubes(1.0, 0.8, 0.6, 0.4), config=replace(CONFIG, most_patches=most))
+def test_the_smallest_of_too_many_patches_join_their_nearest_larger_one(
+    monkeypatch: pytest.MonkeyPatch, most: int, expected: list[int]
+) -> None:
+    monkeypatch.setattr(divide, "MAX_PATCHES", most)
+    patch, _ = patches(*cubes(1.0, 0.8, 0.6, 0.4))
     assert patch[::12].tolist() == expected
 
 
-def test_all_copies_of_one_size_are_kept_or_joined_together() -> None:
-    limited = replace(CONFIG, most_patches=3)
-    assert len(set(patches(*cubes(1.0, 0.9, 0.5, 0.5, 0.5), config=limited)[0])) == 2
-    assert len(set(patches(*cubes(0.5, 0.5, 0.5, 0.5), config=limited)[0])) == 3  # all are copies: the first are kept
+def test_all_copies_of_one_size_are_kept_or_joined_together(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(divide, "MAX_PATCHES", 3)
+    assert len(set(patches(*cubes(1.0, 0.9, 0.5, 0.5, 0.5))[0])) == 2
+    assert len(set(patches(*cubes(0.5, 0.5, 0.5, 0.5))[0])) == 3  # all are copies: the first are kept
 
 
 @pytest.mark.parametrize(("most", "expected"), [(15, [0, 1, 2, 3, 4, 5]), (7, [0, 1, 2, 3, 3, 3])])
-def test_the_smallest_of_too_many_patches_that_meet_join_their_nearest_larger_one(most: int, expected: list[int]) -> None:
+def test_the_smallest_of_too_many_patches_that_meet_join_their_nearest_larger_one(
+    monkeypatch: pytest.MonkeyPatch, most: int, expected: list[int]
+) -> None:
     """The 15 pairs of 6 blocks inside each other meet, and the 6 pairs of 4."""
     blocks = [box((-s, -s, -s), (s, s, s)) for s in (1.0, 0.9, 0.8, 0.7, 0.6, 0.5)]
-    patch, _ = patches(*blocks, config=replace(CONFIG, most_pairs=most))
+    monkeypatch.setattr(divide, "MAX_MEETING_PAIRS", most)
+    patch, _ = patches(*blocks)
     assert patch[::12].tolist() == expected
 
 
-def test_patches_that_do_not_meet_are_kept_whatever_the_number_of_pairs() -> None:
-    assert len(set(patches(*cubes(1.0, 0.8, 0.6, 0.4), config=replace(CONFIG, most_pairs=0))[0])) == 4
+def test_patches_that_do_not_meet_are_kept_whatever_the_number_of_pairs(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(divide, "MAX_MEETING_PAIRS", 0)
+    assert len(set(patches(*cubes(1.0, 0.8, 0.6, 0.4))[0])) == 4
 
 
 def test_regions_have_the_size_of_their_bounds() -> None:

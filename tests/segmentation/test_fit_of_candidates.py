@@ -12,7 +12,6 @@ from geometry.rigid import shape_of
 from test_part_features import DOOR, KNOB, MESH, WALLS, features
 from trimesh.creation import cylinder
 
-from anymesh.config import ArticulationConfig, SegmentationConfig
 from anymesh.motion.part_context import PartContext
 from anymesh.segmentation.part_features import (
     blocked_shares,
@@ -27,7 +26,6 @@ from anymesh.segmentation.part_features import (
 )
 from anymesh.types import Material, Mesh
 
-CONFIG = SegmentationConfig()
 AREA = [2 * (a * b + b * c + a * c) for a, b, c in ((0.89, 0.03, 0.89), (0.04, 0.04, 0.04))]  # [m^2] of the door and its knob
 WALL_AREA = [2 * (a * b + b * c + a * c) for a, b, c in ((1, 0.5, 0.05),) * 2 + ((0.05, 0.5, 0.9),) * 2 + ((0.9, 0.05, 0.9),)]
 DIAGONAL = np.linalg.norm([1, 0.53, 1])
@@ -43,9 +41,7 @@ def context(part: list, rest: list, seed: int = 0) -> PartContext:
     corners = np.concatenate([v for v, _ in [*part, *rest]])
     low, high = corners.min(0), corners.max(0)
     own, other = (replace(shape_of(*pieces), seed=seed) for pieces in (part, rest))
-    return PartContext(
-        own, other, other, None, other, (), float(np.linalg.norm(high - low)), (low + high) / 2, ArticulationConfig()
-    )
+    return PartContext(own, other, other, None, other, (), float(np.linalg.norm(high - low)), (low + high) / 2)
 
 
 @cache
@@ -164,7 +160,7 @@ def framed(left: float, back: float | None = None, plate=(0.6, 0.03, 0.6)) -> Pa
 @pytest.mark.parametrize(("left", "sides", "flush"), [(0.004, 4, 0.0), (0.1, 3, 0.0), (0.0, 3, 0.25), (0.0003, 3, 0.25)])
 def test_rims_with_a_clearance_are_counted(left: float, sides: int, flush: float) -> None:
     """A rim is far from the frame from 2 % of the diagonal on, 2.4 cm, and touches it below a 2500th, 0.5 mm."""
-    found, touched = fit_of_rim(framed(left), CONFIG)
+    found, touched = fit_of_rim(framed(left))
     assert found == sides
     assert touched == pytest.approx(flush, abs=0.02)
 
@@ -227,21 +223,21 @@ def wall(gap: float) -> tuple[np.ndarray, np.ndarray]:
 def test_a_wall_blocks_a_tile_that_would_move_by_its_own_width(gap: float, most: float) -> None:
     """The tile is 0.4 m wide. It lies on the floor and nothing is above it."""
     expected = {"blocked outward": 0, "blocked inward": 1, "blocked sideways least": 0, "blocked sideways most": most}
-    assert blocked_shares(context([TILE], [FLOOR, wall(gap)]), CONFIG) == expected
+    assert blocked_shares(context([TILE], [FLOOR, wall(gap)])) == expected
 
 
 def test_the_way_of_a_thin_part_is_three_hundredths_of_the_diagonal() -> None:
     """A sheet of 1 mm, 5 or 15 cm above a floor with a diagonal of 3.4 m, moves by 10 cm."""
     for gap, blocked in ((0.05, 1), (0.15, 0)):
         sheet = box((0, 0, gap), (0.4, 0.4, gap + 0.001))
-        assert blocked_shares(context([sheet], [FLOOR]), CONFIG)["blocked inward"] == blocked
+        assert blocked_shares(context([sheet], [FLOOR]))["blocked inward"] == blocked
 
 
 def test_both_sides_of_an_open_sheet_are_ahead() -> None:
     """A single square has no inside, whichever way its normal points."""
     square = np.array([[0, 0, 0.05], [0.4, 0, 0.05], [0.4, 0.4, 0.05], [0, 0.4, 0.05]], float)
     for faces in ([[0, 1, 2], [0, 2, 3]], [[0, 2, 1], [0, 3, 2]]):
-        found = blocked_shares(context([(square, np.array(faces))], [FLOOR]), CONFIG)
+        found = blocked_shares(context([(square, np.array(faces))], [FLOOR]))
         assert {found["blocked inward"], found["blocked outward"]} == {0, 1}
 
 
@@ -250,17 +246,17 @@ def test_an_open_sheet_is_exposed_with_either_side_whichever_way_its_normals_poi
     square, roof = np.array([[0, 0, 0.01], [0.4, 0, 0.01], [0.4, 0.4, 0.01], [0, 0.4, 0.01]]), box((-1, -1, 1), (1.4, 1.4, 1.1))
     for faces in ([[0, 1, 2], [0, 2, 3]], [[0, 2, 1], [0, 3, 2]]):
         sheet = square, np.array(faces)
-        assert exposure(context([sheet], [FLOOR]), CONFIG) == {"exposed": 1, "facing outward": 1, "facing up": 1}
-        assert exposure(context([sheet], [FLOOR, roof]), CONFIG)["exposed"] == 0
+        assert exposure(context([sheet], [FLOOR])) == {"exposed": 1, "facing outward": 1, "facing up": 1}
+        assert exposure(context([sheet], [FLOOR, roof]))["exposed"] == 0
 
 
 def test_half_a_wall_blocks_half_of_a_side() -> None:
     half = box((0.5, 0.2, 0), (0.6, 1.4, 0.6))
-    assert blocked_shares(context([TILE], [FLOOR, half]), CONFIG)["blocked sideways most"] == pytest.approx(0.5, abs=0.2)
+    assert blocked_shares(context([TILE], [FLOOR, half]))["blocked sideways most"] == pytest.approx(0.5, abs=0.2)
 
 
 def test_the_top_and_three_sides_of_a_tile_before_a_wall_see_the_outside() -> None:
-    f = exposure(context([TILE], [FLOOR, wall(0.1)]), CONFIG)
+    f = exposure(context([TILE], [FLOOR, wall(0.1)]))
     assert f["exposed"] == pytest.approx((FACES["top"] + 3 * FACES["side"]) / TOTAL, abs=0.08)
     assert f["facing outward"] == f["facing up"] == pytest.approx(FACES["top"] / TOTAL, abs=0.03)
 

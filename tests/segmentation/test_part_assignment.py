@@ -10,7 +10,7 @@ import scipy.optimize
 from assets import box, mesh_of
 from scipy.optimize import OptimizeResult, milp
 
-from anymesh.config import Config, SegmentationConfig
+from anymesh.config import Config
 from anymesh.errors import OptionError
 from anymesh.pipeline.solving import Solver
 from anymesh.segmentation import segment
@@ -100,8 +100,8 @@ def test_what_only_a_part_holds_goes_with_it() -> None:
         box((0.3, 0.05, 0.9), (0.6, 0.1, 0.95)), box((0.4, 0.4, 1), (0.5, 0.5, 1.1)),
     ]  # fmt: skip
     mesh, part = mesh_of(boxes)
-    whole = object_shape(mesh, 0, Config().patches)
-    contacts = find_contacts(whole, SegmentationConfig())
+    whole = object_shape(mesh)
+    contacts = find_contacts(whole)
     patch = np.array([whole.mesh_patch[part == k][0] for k in range(5)])
 
     def joined(*owner: int) -> list[int]:
@@ -118,7 +118,7 @@ BODY = box((0, 0.02, 0), (1, 0.5, 1))
 
 
 def parts(pieces, **settings) -> Segmentation:
-    return Solver(mesh_of(pieces)[0], Config(segmentation=SegmentationConfig(**settings))).parts().segmentation
+    return Solver(mesh_of(pieces)[0], Config(**settings)).parts().segmentation
 
 
 def no_part(tree: PartCandidates, place: np.ndarray, features: list[dict[str, float]]) -> tuple[np.ndarray, Reasons]:
@@ -160,7 +160,7 @@ def test_something_is_taken_where_something_must_move(monkeypatch: pytest.Monkey
     assert "stands out most" in found.parts[1].reason
     assert len(parts([BODY], at_least=1).parts) == 1  # there is no candidate
     with pytest.raises(OptionError, match="--at-least: found -1"):
-        SegmentationConfig(at_least=-1)
+        Config(at_least=-1)
 
 
 def test_a_candidate_that_is_held_makes_room_for_the_next(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -175,8 +175,7 @@ def test_a_candidate_that_is_held_makes_room_for_the_next(monkeypatch: pytest.Mo
 
     monkeypatch.setattr(segment, "score_parts", parts_below(0.3))
     mesh, _ = mesh_of([BODY, nail, top])
-    config = Config(segmentation=SegmentationConfig(at_least=1))
-    found = segment.segment_parts(mesh, object_shape(mesh, 0, config.patches), labels, config)
+    found = segment.segment_parts(mesh, object_shape(mesh), labels, 1)
     assert asked == [2, 2]
     assert found.faces(1).tolist() == list(range(24, 36))
     assert "stands out most" in found.parts[1].reason
@@ -198,8 +197,7 @@ def test_candidates_that_never_move_leave_the_base_alone(monkeypatch: pytest.Mon
     monkeypatch.setattr(segment, "score_parts", parts_below(0.5))
     monkeypatch.setattr(segment, "assign_parts", one)
     mesh, _ = mesh_of([BODY, *tops])
-    config = Config()
-    found = segment.segment_parts(mesh, object_shape(mesh, 0, config.patches), none, config)
+    found = segment.segment_parts(mesh, object_shape(mesh), none)
     assert asked == [2] * segment.MAX_ASSIGNMENTS
     assert len(found.parts) == 1
     assert not found.face_part.any()

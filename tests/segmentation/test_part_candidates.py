@@ -1,11 +1,13 @@
 """Test that the candidates include every part of a cabinet once, and that names are evidence for them."""
 
+from unittest.mock import patch
+
 import numpy as np
 import pytest
 from assets import box, mesh_of
 
-from anymesh.config import Config, SegmentationConfig
 from anymesh.scoring.by_hand import NAME_SCORE
+from anymesh.segmentation import part_candidates as part_candidates_module
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_candidates import NameClass, PartCandidates, name_class, part_candidates, shared_name
@@ -18,7 +20,8 @@ HANDLE = box((0.92, -0.05, 0.45), (0.95, 0, 0.55))
 def candidates(solids: list, most: int = 100, smallest: float = 0.004) -> PartCandidates:
     mesh = mesh_of(solids)[0]
     whole = object_shape(mesh)
-    return part_candidates(mesh, whole, find_contacts(whole, SegmentationConfig()), smallest, most)
+    with patch.multiple(part_candidates_module, MAX_CANDIDATES=most, MIN_PART_RATIO=smallest):
+        return part_candidates(mesh, whole, find_contacts(whole))
 
 
 def sizes(tree: PartCandidates) -> np.ndarray:
@@ -80,9 +83,9 @@ def test_names_that_begin_alike_are_one_part() -> None:
     """The wood and the metal of a drawer are one part, as exporters split a node by material; other names are not."""
     names = ("drawer_top_metal", "drawer_top_wood", "Door_left_wood", "base_body", "DRAWER_low")
     mesh, _ = mesh_of([box((k, 0, 0), (k + 0.5, 1, 1)) for k in range(5)])
-    whole = object_shape(mesh, 0, Config().patches)
+    whole = object_shape(mesh)
     members = np.array([[1, 1, 0, 0, 0], [0, 1, 0, 0, 0], [1, 1, 1, 0, 0], [1, 1, 1, 1, 1], [1, 0, 0, 0, 1]], bool)
-    tree = PartCandidates(whole, find_contacts(whole, SegmentationConfig()), members, names)
+    tree = PartCandidates(whole, find_contacts(whole), members, names)
     assert [shared_name(tree, k) for k in range(5)] == ["drawer top", "drawer_top_wood", "", "", "drawer"]
 
 

@@ -9,7 +9,6 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.articulation import motion_classifier
-from anymesh.config import SegmentationConfig
 from anymesh.scoring.by_hand import CUT_SCORE
 from anymesh.scoring.classifier import Classifier
 from anymesh.segmentation import part_classifier
@@ -89,7 +88,7 @@ def test_a_part_that_is_cut_out_of_a_surface_scores_more(monkeypatch: pytest.Mon
     features = [dict.fromkeys(names, 0.0) | {part_classifier.CUT: cut} for cut in (0.0, 1.0, 0.0)]
     mesh = mesh_of([box((2 * k, 0, 0), (2 * k + 1, 1, 1)) for k in range(4)])[0]
     whole = object_shape(mesh)
-    tree = PartCandidates(whole, find_contacts(whole, SegmentationConfig()), np.eye(4, dtype=bool)[1:], ("",) * 4)
+    tree = PartCandidates(whole, find_contacts(whole), np.eye(4, dtype=bool)[1:], ("",) * 4)
     score, _ = part_classifier.score_parts(tree, np.zeros((3, 12)), features)
     assert score == pytest.approx([0.25, 0.25 + CUT_SCORE, 0.25])
 

@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 
-from anymesh.config import Config
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.part_candidates import part_candidates
@@ -20,12 +19,11 @@ KNOB = box((0.85, -0.03, 0.47), (0.89, 0.01, 0.51))
 
 
 def features(mesh: Mesh, solids: set[int]) -> dict[str, float]:
-    config = Config()
     whole = object_shape(mesh)
-    contacts = find_contacts(whole, config.segmentation)
-    tree = part_candidates(mesh, whole, contacts, 0.004, 150)
+    contacts = find_contacts(whole)
+    tree = part_candidates(mesh, whole, contacts)
     candidate = next(k for k, m in enumerate(tree.members) if set(np.flatnonzero(m).tolist()) == solids)
-    inputs = FeatureInputs.of(mesh, tree, config)
+    inputs = FeatureInputs.of(mesh, tree)
     context = candidate_context(inputs, candidate)
     assert context is not None
     return part_features(inputs, candidate, context)

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 
-from anymesh.config import SegmentationConfig
 from anymesh.geometry.patches import ObjectShape
 from anymesh.segmentation.contacts import Contacts, find_contacts
 from anymesh.segmentation.divide import object_shape
@@ -22,7 +21,7 @@ BLOCK = box((0, 0, 0), (1, 1, 1))
 def made(*boxes) -> tuple[Mesh, ObjectShape, Contacts]:
     mesh = mesh_of(boxes)[0]
     whole = object_shape(mesh)
-    return mesh, whole, find_contacts(whole, SegmentationConfig())
+    return mesh, whole, find_contacts(whole)
 
 
 def clearances(*boxes) -> list[list[int]]:
@@ -88,7 +87,7 @@ def test_the_patches_of_a_node_with_a_recognized_name_are_one_group() -> None:
 
 def candidates(*boxes) -> set[frozenset[int]]:
     mesh, whole, contacts = made(*boxes)
-    found = part_candidates(mesh, whole, contacts, 0.004, 100)
+    found = part_candidates(mesh, whole, contacts)
     return {frozenset(np.flatnonzero(m).tolist()) for m in found.members}
 
 

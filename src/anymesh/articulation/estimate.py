@@ -11,21 +11,23 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.articulation.candidate_motions import BOX_RIM_ROLES, Candidate, CandidateMotions, MotionChoice
-from anymesh.articulation.evidence import sweep_candidates, swept, unswept
+from anymesh.articulation.evidence import SWEEP_STEPS, sweep_candidates, swept, unswept
 from anymesh.articulation.hypotheses import propose
-from anymesh.articulation.limits import away_from_closed, limits
+from anymesh.articulation.limits import MAX_DOOR_DEG, away_from_closed, limits
 from anymesh.articulation.motion_classifier import PartMotionScores, likeliest
 from anymesh.articulation.motion_features import swept_features, unswept_features
 from anymesh.articulation.part_contexts import context_by_gaps, parents, part_context
 from anymesh.articulation.rank_motions import rank_motions, reason
 from anymesh.articulation.repeated_parts import in_a_row, same_size, share_opening_directions
-from anymesh.config import SAME_AXIS_COSINE, ArticulationConfig, Config
+from anymesh.config import SAME_AXIS_COSINE
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
 from anymesh.runtime import JOINTS, Deadline
 from anymesh.types import Joint, JointType, Motion, Segmentation
 
+MAX_SWEPT = 8  # motions of a part that are swept, the likeliest of the part at rest; more choose no better
+MAX_LATE_SWEPT = 2  # the same when most of the time limit is spent
 MIN_RIM_THICKNESS_RATIO = 0.01  # of the tolerance length: minimum thickness of a rim
 MAX_RIM_THICKNESSES = 1.5  # hinge lines within this multiple of the rim's thickness are at one rim
 TIGHT_PENETRATION_SCALE = 0.2  # penetration scale for the clearance to neighbours, which is a few millimetres
@@ -56,19 +58,16 @@ def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions]) 
 
 
 def part_motions(
-    whole: ObjectShape, segmentation: Segmentation, config: Config, deadline: Deadline | None = None
+    whole: ObjectShape, segmentation: Segmentation, deadline: Deadline | None = None, most_swept: int = MAX_SWEPT
 ) -> Iterator[PartMotions]:
     """Yield the motions of each part but the root, copies together. Only the likeliest motions are swept and offered."""
     label, parts = segmentation.face_part[whole.source], segmentation.parts
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(parts))]
     parent = parents(shapes, whole.diagonal)
     for numbers in same_size(shapes, parent):
-        contexts = share_opening_directions(
-            [part_context(whole, label, shapes, parent, i, config.articulation) for i in numbers]
-        )
+        contexts = share_opening_directions([part_context(whole, label, shapes, parent, i) for i in numbers])
         scored = [
-            score_motions(a, parts[i].label, _most_swept(config.articulation, deadline))
-            for i, a in zip(numbers, contexts, strict=True)
+            score_motions(a, parts[i].label, _most_swept(most_swept, deadline)) for i, a in zip(numbers, contexts, strict=True)
         ]
         for i, context, motions in zip(numbers, contexts, scored, strict=True):
             row = (m for m, a in zip(scored, contexts, strict=True) if a is not context and in_a_row(context, a))
@@ -106,11 +105,11 @@ def score_motions(context: PartContext, label: str, most: int) -> PartMotionScor
     return PartMotionScores(context, label, candidates, features)
 
 
-def _most_swept(config: ArticulationConfig, deadline: Deadline | None) -> int:
+def _most_swept(most: int, deadline: Deadline | None) -> int:
     if deadline is None or not deadline.late(JOINTS):
-        return config.most_swept
+        return most
     deadline.leave_out("joints: only the most likely motions were swept")
-    return config.late_swept
+    return MAX_LATE_SWEPT
 
 
 def _clear_of_others(context: PartContext, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:
@@ -118,11 +117,11 @@ def _clear_of_others(context: PartContext, best: Candidate, candidates: tuple[Ca
     if best.role not in BOX_RIM_ROLES or not context.other_parts:
         return best
     near = replace(context.obstacles_with_others, tolerance=TIGHT_PENETRATION_SCALE * context.penetration)
-    widest = float(np.deg2rad(context.config.door_most))
+    widest = float(np.deg2rad(MAX_DOOR_DEG))
     thickness = max(2 * float(context.body_obb.half[2]), MIN_RIM_THICKNESS_RATIO * context.tolerance_length)
 
     def opens(c: Candidate) -> float:
-        return free_amount(near, c.opening_motion, 1, min(c.opening, widest), context.config.sweep_steps)[0]
+        return free_amount(near, c.opening_motion, 1, min(c.opening, widest), SWEEP_STEPS)[0]
 
     alike = [c for c in candidates if c is best or (c.role in BOX_RIM_ROLES and c.outward * best.outward > 0)]
     alternatives = [c for c in alike if _at_one_rim(best, c, thickness)]
@@ -184,7 +183,6 @@ def _on_part(motion: Motion, context: PartContext) -> np.ndarray:
 
 def stays_free(
     whole: ObjectShape,
-    config: ArticulationConfig,
     without: Int[np.ndarray, " F"],
     joined: Int[np.ndarray, " F"],
     part: int,
@@ -195,7 +193,7 @@ def stays_free(
     without, joined: part index of each face of `whole`, without and with these patches; moves: the recognized motion of the
     part, if known.
     """
-    alone, gained = context_by_gaps(whole, without, part, config), context_by_gaps(whole, joined, part, config)
+    alone, gained = context_by_gaps(whole, without, part), context_by_gaps(whole, joined, part)
     motions = all_motions(alone, "part")
     best: dict[int, Candidate] = {}  # the better one of the two directions along each axis
     for k in rank_motions(motions).ranking:

@@ -15,6 +15,8 @@ from anymesh.geometry.sweep import free_amounts, sweep_all
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion, Sweep
 
+SUPPORT_RATIO = 0.02  # of the tolerance length: maximum distance between a hinge line and the parent that supports it
+SWEEP_STEPS = 36  # steps of a sweep in each direction: 5 degrees each over half a turn
 LINE_POINTS = 21  # sample points along a hinge line
 MAX_RETENTION_POINTS = 120  # sample points of the contact that are followed during a motion
 WATCHED_ANGLE_RAD = np.deg2rad(30)  # [rad] opening of a hinge at which contact is measured
@@ -74,7 +76,7 @@ def hinge_support(context: PartContext, motions: list[Motion]) -> np.ndarray:
         arm = context.body_obb.center - motion.origin
         lines += [line, line + 2 * (arm - (arm @ motion.axis) * motion.axis)]
     probe = np.concatenate(lines)
-    reach = context.config.support * context.tolerance_length
+    reach = SUPPORT_RATIO * context.tolerance_length
     parent = (context.parent.tree.distance(probe) < reach).reshape(len(motions), 2, LINE_POINTS).mean(2)
     other = np.zeros(len(motions))
     if context.other_surface is not None:
@@ -106,7 +108,7 @@ def swept(context: PartContext, candidates: Sequence[Candidate]) -> tuple[Candid
     A circular outline takes up no new space when it turns about its axis. So a part that has one is not stopped there: what
     would stop it is mostly how it is modelled, such as a wheel that reaches into its axle or its arch.
     """
-    motions, steps = [c.motion for c in candidates], context.config.sweep_steps
+    motions, steps = [c.motion for c in candidates], SWEEP_STEPS
     slides = [m for m in motions if m.kind is JointType.PRISMATIC]
     guided = iter(_guided_share(context, slides))
     circular = context.outline.roundness > MIN_CIRCLE_ROUNDNESS

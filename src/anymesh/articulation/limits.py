@@ -21,6 +21,11 @@ from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 from anymesh.types.motion import RecognizedLabel
 
+FINE_STEPS = 30  # for the limits: three times as many over the range of a hinge, twice as many of a slide
+MAX_DOOR_DEG = 110.0  # [deg] upper limit of an unobstructed hinge with an upright axis (common cup hinges)
+MAX_FLAP_DEG = 90.0  # [deg] upper limit of an unobstructed hinge with a horizontal axis
+HIDDEN_TRAVEL_RATIO = 0.6  # of the parent's depth: travel of a panel whose box is hidden
+KEPT_INSIDE_RATIO = 0.1  # of a drawer's depth: what stays inside when it is open
 CLOSABLE_ROLES = (*BOX_RIM_ROLES, "barrel", "asked")  # hinges that may be at a rim
 MAX_CLOSED_GAP_RATIO = 0.02  # of the tolerance length: a closed part is this near its parent
 END_FRACTION, MIN_NEAR_SHARE = 0.8, 0.2  # position where an end of a part begins, and the least share of it near the parent
@@ -176,7 +181,7 @@ def _answered_revolute(context: PartContext, c: Candidate, answered: Range) -> R
     lower, upper = -answered[0], answered[1]
     if max(c.opening, c.closing) < MIN_FREE_ANGLE_RAD:
         return (0.0 - lower, upper)
-    ahead, back = _free_within(context, c, lower, upper, 3 * context.config.fine_steps)
+    ahead, back = _free_within(context, c, lower, upper, 3 * FINE_STEPS)
     if ahead + back < MIN_HINGE_RANGE_RAD:
         return (0.0 - lower, upper)
     return (0.0 - back, ahead)
@@ -195,7 +200,7 @@ def _answered_prismatic(context: PartContext, c: Candidate, answered: Range) -> 
     depth = context.depth_in_parent(motion.axis)
     if c.slide_direction is SlideDirection.OUTWARDS and depth > MIN_DEPTH_IN_PARENT_RATIO * upper:
         upper = min(upper, depth)
-    ahead, back = _free_within(context, c, lower, upper, 2 * context.config.fine_steps)
+    ahead, back = _free_within(context, c, lower, upper, 2 * FINE_STEPS)
     if upper < lower and c.slide_direction is SlideDirection.OUTWARDS:
         back = min(lower, extent)
     if ahead + back < MIN_SLIDE_FREE_RATIO * (lower + upper):
@@ -213,8 +218,8 @@ def _free_within(context: PartContext, c: Candidate, lower: float, upper: float,
 
 
 def _revolute(context: PartContext, c: Candidate) -> tuple[float, float]:
-    config, motion = context.config, c.opening_motion
-    most = np.deg2rad(config.door_most if c.vertical > ALONG_COSINE else config.flap_most)
+    motion = c.opening_motion
+    most = np.deg2rad(MAX_DOOR_DEG if c.vertical > ALONG_COSINE else MAX_FLAP_DEG)
     closing = closing_angle(context, c)
     blocked = max(c.opening, c.closing) < MIN_FREE_ANGLE_RAD
     ajar = closing is not None and closing > 0 and c.opening < MIN_FREE_ANGLE_RAD
@@ -234,7 +239,7 @@ def _free_angle(context: PartContext, motion: Motion, sign: int, most: float, sw
     noticed, so they only shorten it.
     """
     far = min(most, swept)
-    angle, clear = free_amount(context.obstacles_of(motion), motion, sign, far, 3 * context.config.fine_steps)
+    angle, clear = free_amount(context.obstacles_of(motion), motion, sign, far, 3 * FINE_STEPS)
     return angle if clear and far == most else _whole_degrees(angle)
 
 
@@ -251,14 +256,14 @@ def _prismatic(context: PartContext, c: Candidate) -> tuple[float, float]:
     closing = closing_travel(context, c) if outward else 0.0
     depth = context.depth_in_parent(motion.axis) + closing
     extent = float(np.ptp(context.part.corners @ motion.axis))
-    most = max((1 - context.config.slide_keep) * (depth if outward else extent), least)
+    most = max((1 - KEPT_INSIDE_RATIO) * (depth if outward else extent), least)
     if c.captured:
         most = 2 * context.part.box.diagonal
     behind = float(np.ptp(context.parent.samples.points @ motion.axis))
     if outward and extent < MIN_DRAWER_DEPTH_RATIO * behind:
         # a panel whose box is not in the mesh; a knob comes out no further than it is large
-        most = min(context.config.slide_hidden * behind, context.part.box.diagonal)
-    steps = context.config.fine_steps * 2
+        most = min(HIDDEN_TRAVEL_RATIO * behind, context.part.box.diagonal)
+    steps = FINE_STEPS * 2
     obstacles = context.obstacles_of(motion)
     upper, _ = free_amount(obstacles, motion, 1, max(most - closing, 0.0), steps)
     lower = 0.0
@@ -278,5 +283,5 @@ def _stroke(context: PartContext, c: Candidate) -> float:
     """
     motion = c.opening_motion
     extent = max(float(np.ptp(context.part.corners @ motion.axis)), MIN_FREE_TRAVEL_RATIO * context.tolerance_length)
-    free, _ = free_amount(context.obstacles, motion, 1, extent, 2 * context.config.fine_steps)
+    free, _ = free_amount(context.obstacles, motion, 1, extent, 2 * FINE_STEPS)
     return free if free > MIN_STROKE_RATIO * extent else STROKE_RATIO * extent

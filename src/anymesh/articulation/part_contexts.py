@@ -8,7 +8,6 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
 
-from anymesh.config import ArticulationConfig
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.part_context import MAX_PART_DIAGONALS, MIN_SCALE_RATIO, PartContext
@@ -143,7 +142,6 @@ def part_context(
     shapes: list[TriangleSet],
     parent: list[int],
     i: int,
-    config: ArticulationConfig,
 ) -> PartContext:
     """Build the context of part i with its descendants; the root and its ancestors are static."""
     carried = [i, *descendants(parent, i)]
@@ -163,15 +161,14 @@ def part_context(
         barrel_candidates=find_barrel_candidates(whole, shapes[i], shapes[parent[i]]),
         diagonal=whole.diagonal,
         center=whole.shape.bounds.mean(0),
-        config=config,
         other_parts=tuple(shapes[k] for k in range(1, len(shapes)) if k not in carried and k not in ancestors),
         link=shapes[i] if len(carried) > 1 else None,
     )
 
 
-def context_by_gaps(whole: ObjectShape, label: Int[np.ndarray, " F"], part: int, config: ArticulationConfig) -> PartContext:
+def context_by_gaps(whole: ObjectShape, label: Int[np.ndarray, " F"], part: int) -> PartContext:
     """Build the context of a part where parents are not known yet. label: part index of each face; not all need to occur."""
     numbers, rank = np.unique(label, return_inverse=True)
     shapes = [whole.of(np.flatnonzero(label == k)) for k in numbers]
     number = int(np.searchsorted(numbers, part))
-    return part_context(whole, rank, shapes, parents(shapes, whole.diagonal), number, config)
+    return part_context(whole, rank, shapes, parents(shapes, whole.diagonal), number)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Float, Int
@@ -10,7 +10,6 @@ from jaxtyping import Float, Int
 from anymesh.articulation.estimate import all_motions, joint_of
 from anymesh.articulation.part_contexts import part_context
 from anymesh.articulation.rank_motions import joint_type, motion_scores, reason
-from anymesh.config import Config
 from anymesh.correcting.corrections import ChooseMotion, vector
 from anymesh.correcting.edits import joint_of_part, part_number
 from anymesh.geometry.boxes import straight_mesh, turned_back
@@ -38,15 +37,13 @@ class Ready:
     T_straight: Float[np.ndarray, "4 4"]
 
 
-def made_ready(asset: Asset, config: Config | None = None) -> Ready:
+def made_ready(asset: Asset) -> Ready:
     """Prepare all current parts for `ranked_motions`, which is the slow step. Dense parts are simplified first."""
-    settings = config or Config()
     mesh, T_straight = straight_mesh(asset.mesh)
-    label, patches = asset.segmentation.face_part, settings.patches
-    if len(mesh.faces) > DENSE:
+    label, dense = asset.segmentation.face_part, len(mesh.faces) > DENSE
+    if dense:
         mesh, label = _lighter(mesh, label)
-        patches = replace(patches, soft_faces=len(mesh.faces))  # parts are known: soft creases are not searched again
-    whole = object_shape(mesh, settings.seed, patches, label)
+    whole = object_shape(mesh, labels=label, soft=not dense)  # parts are known: soft creases need not be searched again
     return Ready(whole, label[whole.source], T_straight)
 
 
@@ -60,24 +57,21 @@ def _lighter(mesh: Mesh, label: np.ndarray) -> tuple[Mesh, np.ndarray]:
     return light, np.repeat(np.arange(len(few)), [len(t) for t in few])
 
 
-def ranked_motions(
-    asset: Asset, part: str, *, ready: Ready | None = None, most: int = MAX_MOTIONS, config: Config | None = None
-) -> tuple[ChooseMotion, ...]:
+def ranked_motions(asset: Asset, part: str, *, ready: Ready | None = None, most: int = MAX_MOTIONS) -> tuple[ChooseMotion, ...]:
     """Return the free motions of a part, most likely first, as corrections.
 
     They are swept against the other parts in the current tree. confidence: share of the likelihood of all free motions; limits:
     from the sweep; reason: the evidence in words. Motions that a user could not distinguish are returned once.
     Raise CorrectionError for the root.
     """
-    settings = config or Config()
     joint_of_part(asset, part)
-    ready = ready or made_ready(asset, settings)
+    ready = ready or made_ready(asset)
     names = [p.name for p in asset.segmentation.parts]
     hangs = {j.child: names.index(j.parent) for j in asset.joints}
     whole, label = ready.whole, ready.part
     shapes = [whole.of(np.flatnonzero(label == k)) for k in range(len(names))]
     number = part_number(asset, part)
-    context = part_context(whole, label, shapes, [hangs.get(n, -1) for n in names], number, settings.articulation)
+    context = part_context(whole, label, shapes, [hangs.get(n, -1) for n in names], number)
     scored = all_motions(context, asset.segmentation.parts[number].label)
     scores = motion_scores(scored)
     free = [k for k in np.argsort(-scores, kind="stable") if scored.candidates[k].is_free]

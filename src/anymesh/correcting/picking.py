@@ -20,7 +20,7 @@ ON_LINE = 0.002  # share of the diagonal: maximum distance of a line's edges fro
 ROUND = 0.4  # minimum roundness of an outline with an axis
 BENT = 0.05  # minimum spread of the normals of a round surface, 0 flat .. 0.5
 DENSE = 40_000  # number of a part's faces above which patches end only at creases
-STRENGTH = 0.05  # strength of l0 cut pursuit on normals (config.PatchConfig.superpoint_strength)
+STRENGTH = 0.05  # strength of l0 cut pursuit on normals (`creases.CREASE_STRENGTH`)
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,12 +9,12 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.config import ArticulationConfig
 from anymesh.geometry.kinematics import joint_motion, link_transforms
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.sweep import Obstacles, free_amount
 from anymesh.geometry.topology import triangle_set_of
 from anymesh.geometry.triangle_set import SurfacePoints, sample_surface, spread_directions
+from anymesh.motion.part_context import PENETRATION_RATIO
 from anymesh.types import Asset, Joint, JointType, Mesh
 from anymesh.types.triangles import unshared
 
@@ -212,7 +212,7 @@ def moves_freely(
     scenes = growing.scenes
     carried = [k for k in scenes.order if k == part or part in scenes.carriers(k)]
     others = [k for k in scenes.order if k not in carried]
-    tolerance = ArticulationConfig().penetration * scenes.diagonal
+    tolerance = PENETRATION_RATIO * scenes.diagonal
     own, rest = (np.concatenate([growing.triangles(*k), new]) for k, new in ((carried, added), (others, beside)))
     after = Obstacles(triangle_set_of(own), triangle_set_of(rest), tolerance)
     motion = joint_motion(joint)

@@ -8,13 +8,16 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.spatial import KDTree
 
-from anymesh.config import PatchConfig
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.superpoints import superpoints
 from anymesh.geometry.topology import edge_pairs, label_connected
 from anymesh.types.triangles import normals_and_areas, unshared
 
-BOX_MARGIN = 1.01  # of `reach`: faces outside this margin around a border's box are farther away than `reach`
+MAX_CREASE_FACES = 40_000  # denser components are simplified before they are cut into superpoints
+CREASE_STRENGTH = 0.05  # of l0 cut pursuit on normals (the paper's implementation)
+MIN_CREASE_DEG = 25.0  # [deg] minimum angle of a concave edge that may bound a part on a fused surface
+REACH_RATIO = 0.01  # of the diagonal: distance from a soft crease within which the surface defines its angle
+BOX_MARGIN = 1.01  # of this reach: faces outside this margin around a border's box are farther away
 AROUND = 32  # points around a point, over which positions and normals are averaged
 NEIGHBOURS = 8  # points that a point is connected to
 MAX_CREASE_COSINE = 0.97  # cosine to the mean normal around a point (14 degrees) below which it may lie on a crease
@@ -25,27 +28,27 @@ CLOSE = 2.0  # [spacings] greatest distance of this share from the border
 MIN_REGION_SHARE = 0.02  # share of the points below which a region joins the nearest
 
 
-def convex_regions(triangles: Float[np.ndarray, "F 3 3"], diagonal: float, config: PatchConfig) -> Int[np.ndarray, " F"]:
+def convex_regions(triangles: Float[np.ndarray, "F 3 3"], diagonal: float) -> Int[np.ndarray, " F"]:
     """Return a region index per face.
 
     Regions are superpoints joined across their borders, except for concave creases (locally convex patches, Stein et al. 2014).
     Long creases outweigh short gaps in them (multicut by greedy contraction, Keuper et al. 2015). A crease is judged by the
-    surface within `reach` of it, so that the inside of a bowl is not split.
+    surface within REACH_RATIO of it, so that the inside of a bowl is not split.
     """
-    few = simplify(triangles, config.superpoint_faces)
+    few = simplify(triangles, MAX_CREASE_FACES)
     corners, faces = unshared(few)
     edges = edge_pairs(corners, faces)
     normals, areas = normals_and_areas(few)
     areas = np.maximum(areas, 1e-300)
     middle = corners[edges.vertices].mean(1)
     length = np.linalg.norm(corners[edges.vertices[:, 0]] - corners[edges.vertices[:, 1]], axis=1)
-    label = superpoints(normals, areas, edges.faces, length, config.superpoint_strength)
+    label = superpoints(normals, areas, edges.faces, length, CREASE_STRENGTH)
     count = int(label.max()) + 1
     pairs = np.sort(label[edges.faces], 1)
     border = np.flatnonzero(pairs[:, 0] != pairs[:, 1])
     key, where = np.unique(pairs[border] @ np.array([count, 1]), return_inverse=True)
     pull = np.bincount(where.reshape(-1), length[border], len(key))
-    pull[_folds_inwards(few.mean(1), normals, areas, label, key, where.reshape(-1), middle[border], diagonal, config)] *= -1
+    pull[_folds_inwards(few.mean(1), normals, areas, label, key, where.reshape(-1), middle[border], diagonal)] *= -1
     region = _contract(count, {divmod(int(k), count): float(p) for k, p in zip(key, pull, strict=True)})[label]
     if len(few) == len(triangles):
         return region
@@ -54,13 +57,13 @@ def convex_regions(triangles: Float[np.ndarray, "F 3 3"], diagonal: float, confi
 
 def _folds_inwards(
     centers: np.ndarray, normals: np.ndarray, weight: np.ndarray, label: np.ndarray, key: np.ndarray, where: np.ndarray,
-    middle: np.ndarray, diagonal: float, config: PatchConfig,
+    middle: np.ndarray, diagonal: float,
 ) -> np.ndarray:  # fmt: skip
-    """Return which borders (pairs of superpoints, by key) fold inwards by more than `config.crease`.
+    """Return which borders (pairs of superpoints, by key) fold inwards by more than MIN_CREASE_DEG.
 
     middle: centers of the edges on the borders.
     """
-    count, reach = int(label.max()) + 1, config.reach * diagonal
+    count, reach = int(label.max()) + 1, REACH_RATIO * diagonal
     order = np.argsort(label, kind="stable")
     start = np.searchsorted(label[order], np.arange(count + 1))
     ordered = centers[order]
@@ -83,7 +86,7 @@ def _folds_inwards(
             ends.append(((centers[near] * share).sum(0) / total, (normals[near] * share).sum(0) / total))
         (a, n), (b, m) = ends
         cosine = float(n @ m) / max(float(np.linalg.norm(n) * np.linalg.norm(m)), 1e-300)
-        inwards[k] = (b - a) @ (n - m) > 0 and cosine < np.cos(np.deg2rad(config.crease))
+        inwards[k] = (b - a) @ (n - m) > 0 and cosine < np.cos(np.deg2rad(MIN_CREASE_DEG))
     return inwards
 
 

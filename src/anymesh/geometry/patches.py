@@ -8,14 +8,15 @@ from itertools import pairwise
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.config import PatchConfig
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types.triangles import normals_and_areas
 
+MAX_FACES = 8000  # denser meshes are simplified for questions of shape and motion, never in the output
 # maximum number of faces added for small patches, relative to the number of faces kept of a dense mesh
 SMALL_PATCH_FACES_RATIO = 3
-MIN_PATCH_FACES = 20  # minimum number of faces of a patch if there are very many patches
+KEPT_PATCH_FACES = 60  # minimum number of faces kept of a patch
+MIN_PATCH_FACES = 20  # the same if there are very many patches
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +53,7 @@ class DividedSurface:
     shared: Int[np.ndarray, "k 2"]
     diagonal: float
 
-    def simplified(self, config: PatchConfig, labels: Int[np.ndarray, " F"] | None = None) -> ObjectShape:
+    def simplified(self, labels: Int[np.ndarray, " F"] | None = None) -> ObjectShape:
         """Leave out copies of faces and simplify each patch.
 
         labels: (F,) parts that are kept apart, each with its own copy of a face.
@@ -60,25 +61,23 @@ class DividedSurface:
         label = np.zeros(len(self.patch), np.int64) if labels is None else labels
         rows = np.flatnonzero((self.copy == np.arange(len(self.copy))) | (label != label[self.copy]))
         group = self.patch * (int(label.max()) + 1) + label
-        shape, source = _simplified(self.shape.take(rows), group[rows], config)
+        shape, source = _simplified(self.shape.take(rows), group[rows])
         source = rows[source]
         return ObjectShape(shape.prepared(), self.patch[source], source, self.patch, self.shared, self.diagonal)
 
 
-def _simplified(
-    shape: TriangleSet, group: Int[np.ndarray, " F"], config: PatchConfig
-) -> tuple[TriangleSet, Int[np.ndarray, " R"]]:
+def _simplified(shape: TriangleSet, group: Int[np.ndarray, " F"]) -> tuple[TriangleSet, Int[np.ndarray, " R"]]:
     """Simplify each group in proportion to its faces; small groups are left unchanged."""
     count = len(group)
-    if count <= config.most_faces:
+    if count <= MAX_FACES:
         return replace(shape, faces=np.arange(count)), np.arange(count)
     order = np.argsort(group, kind="stable")
     bounds = np.flatnonzero(np.r_[True, np.diff(group[order]) != 0, True])
-    least = int(np.clip(SMALL_PATCH_FACES_RATIO * config.most_faces / (len(bounds) - 1), MIN_PATCH_FACES, config.least_faces))
+    least = int(np.clip(SMALL_PATCH_FACES_RATIO * MAX_FACES / (len(bounds) - 1), MIN_PATCH_FACES, KEPT_PATCH_FACES))
     kept, source = [], []
     for a, b in pairwise(bounds):
         mine = order[a:b]
-        few = simplify(shape.triangles[mine], max(least, int(config.most_faces * len(mine) / count)))
+        few = simplify(shape.triangles[mine], max(least, int(MAX_FACES * len(mine) / count)))
         kept.append(few)
         source.append(mine if len(few) == len(mine) else np.full(len(few), mine[0]))
     reduced, where = np.concatenate(kept), np.concatenate(source)

@@ -12,7 +12,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.config import ALONG_COSINE, FACING_COSINE, ArticulationConfig
+from anymesh.config import ALONG_COSINE, FACING_COSINE
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import Outline, outline_about, roundest
 from anymesh.geometry.sweep import Obstacles
@@ -20,6 +20,9 @@ from anymesh.geometry.triangle_set import SurfacePoints, TriangleSet, body_obb
 from anymesh.motion.handle import face_axes, find_handle
 from anymesh.types import Handle, JointType, Motion
 
+# of the tolerance length: threshold of the connecting area; 0.01 for a diagonal of 2 (the paper's implementation)
+CONNECTING_RATIO = 0.005
+PENETRATION_RATIO = 0.003  # of the tolerance length: depth behind a surface at which a path is stopped
 MIN_LEAD = 0.03  # of the score of a direction over that of the opposite one; less is chance
 CENTRAL_RATIO = 1e-3  # of the diagonal: a part that is nearer to the object's middle along a direction is in the middle
 DOWNWARD_PENALTY = 0.4  # subtracted from the score of a downward direction, since most objects stand on something
@@ -79,7 +82,6 @@ class PartContext:
     barrel_candidates: tuple[TriangleSet, ...]  # long thin patches that may be hinge barrels
     diagonal: float
     center: Float[np.ndarray, " 3"]
-    config: ArticulationConfig
     other_parts: tuple[TriangleSet, ...] = ()  # the other movable parts, one each
     shared_opening_direction: Float[np.ndarray, " 3"] | None = None  # common to a row of repeated parts
     link: TriangleSet | None = None  # the part without what hangs on it; None if nothing does
@@ -155,7 +157,7 @@ class PartContext:
     @cached_property
     def penetration(self) -> float:
         """Return the penetration at which a path is stopped [m]."""
-        return self.config.penetration * self.tolerance_length
+        return PENETRATION_RATIO * self.tolerance_length
 
     @cached_property
     def obstacles_with_others(self) -> Obstacles:
@@ -203,7 +205,7 @@ class PartContext:
         """
         theirs = self.parent.samples.points
         off = self.part.tree.distance(theirs)
-        near, far, _ = connecting_area(self.gap, off, self.config.connecting * max(self.tolerance_length, 1e-3 * self.diagonal))
+        near, far, _ = connecting_area(self.gap, off, CONNECTING_RATIO * max(self.tolerance_length, 1e-3 * self.diagonal))
         return np.concatenate([self.part.samples.points[near], theirs[far]])
 
     @cached_property

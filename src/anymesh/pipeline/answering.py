@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cache
 from hashlib import sha256
 from importlib.resources import files
 from pathlib import Path
 from threading import Event
 
-from anymesh.config import Config, SegmentationConfig
+from anymesh.config import Config
 from anymesh.entry_points import OPEN_ANSWERER, resolve
 from anymesh.errors import OptionError
 from anymesh.pipeline.options import GEOMETRY, AnswererOptions, Answering
@@ -69,9 +69,9 @@ def choose_answerer(
         category=chosen.category,
         proposer=chosen.proposer,
         verify=chosen.verify,
-        segmentation=SegmentationConfig(at_least=chosen.at_least),
+        viewpoints=chosen.viewpoints,
+        at_least=chosen.at_least,
     )
-    config = replace(config, views=replace(config.views, around=chosen.viewpoints))
     if chosen.answerer != GEOMETRY:
         return resolve(OPEN_ANSWERER)(chosen, config, about, deadline or Deadline(), stop)
     if chosen.parts_list:

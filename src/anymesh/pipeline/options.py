@@ -113,7 +113,7 @@ class AnswererOptions:
     """Who answers the questions of both stages, and what limits it. The help texts below are the documentation of the fields.
 
     parts_list: labels, which a model is then not asked for; at_least: minimum number of parts that geometry selects;
-    viewpoints: see `ViewsConfig`; max_calls, max_cost [USD]: limits that no call may exceed; timeout [s]; suggest: write
+    viewpoints: see `Config`; max_calls, max_cost [USD]: limits that no call may exceed; timeout [s]; suggest: write
     geometry's answer beside each question in files that is waited for; spent: calls and cost counted towards max_calls and
     max_cost, shared by several runs; limiter: delays calls above a provider's rate limit.
     """

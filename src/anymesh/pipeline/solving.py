@@ -38,19 +38,19 @@ class GeometryStages:
     name = GEOMETRY
     recognizes = False
 
-    def __init__(self, mesh: Mesh, config: Config, deadline: Deadline) -> None:
-        self.mesh, self.config, self.deadline = mesh, config, deadline
+    def __init__(self, mesh: Mesh, config: Config, deadline: Deadline, *, seams: bool = False) -> None:
+        self.mesh, self.config, self.deadline, self._seams = mesh, config, deadline, seams
         self._by_itself: Segmentation | None = None
         self._swept: tuple[bytes, list[PartMotions]] | None = None  # faces of parts, and their motions
 
     @cached_property
     def whole(self) -> ObjectShape:
         """Return the object as both stages use it."""
-        return self._divided.simplified(self.config.patches)
+        return self._divided.simplified()
 
     @cached_property
     def _divided(self) -> DividedSurface:
-        return divide_surface(self.mesh, self.config.seed, self.config.patches)
+        return divide_surface(self.mesh, self.config.seed, seams=self._seams)
 
     @cached_property
     def _ground(self) -> Bool[np.ndarray, " F"]:
@@ -81,13 +81,13 @@ class GeometryStages:
         if self._by_itself is None:
             above = self._parts_above_ground(progress) if self._ground.any() else None
             if above is None or len(above.parts) == 1:
-                above = segment_parts(self.mesh, self.whole, self._labels, self.config, progress, self.deadline)
+                above = segment_parts(self.mesh, self.whole, self._labels, self.config.at_least, progress, self.deadline)
             self._by_itself = above
         return self._by_itself
 
     def _parts_above_ground(self, progress: Progress) -> Segmentation:
         object_ = self.mesh.subset(~self._ground)
-        whole = object_shape(object_, self.config.seed, self.config.patches)
+        whole = object_shape(object_, self.config.seed, seams=self._seams)
 
         def with_ground(segmentation: Segmentation) -> Segmentation:
             face_part = np.zeros(len(self.mesh.faces), np.int64)
@@ -97,7 +97,7 @@ class GeometryStages:
         def labels(segmentation: Segmentation) -> list[str]:
             return self._labels(with_ground(segmentation))
 
-        return with_ground(segment_parts(object_, whole, labels, self.config, progress, self.deadline))
+        return with_ground(segment_parts(object_, whole, labels, self.config.at_least, progress, self.deadline))
 
     def _labels(self, segmentation: Segmentation) -> list[str]:
         """Return a label of each part but the base from its motion by geometry; "" for a part that cannot move."""
@@ -111,7 +111,7 @@ class GeometryStages:
         """Sweep the motions of all parts; the last result is cached."""
         faces = segmentation.face_part.tobytes()
         if self._swept is None or self._swept[0] != faces:
-            motions = part_motions(self.shape_for(segmentation), segmentation, self.config, self.deadline)
+            motions = part_motions(self.shape_for(segmentation), segmentation, self.deadline)
             self._swept = faces, list(_with_progress(motions, segmentation, progress))
             return self._swept[1]
         return list(_with_progress(with_labels_of(segmentation, self._swept[1]), segmentation, progress))
@@ -121,7 +121,7 @@ class GeometryStages:
         label, whole = segmentation.face_part, self.whole
         if (label == label[whole.source][np.unique(whole.patch, return_index=True)[1]][whole.mesh_patch]).all():
             return whole
-        return self._divided.simplified(self.config.patches, label)
+        return self._divided.simplified(label)
 
 
 def _with_progress(swept: Iterable[PartMotions], segmentation: Segmentation, progress: Progress) -> Iterator[PartMotions]:
@@ -175,12 +175,10 @@ class Solver:
         answerer_factory: AnswererFactory | None = None,
         deadline: Deadline | None = None,
     ) -> None:
-        config = config or Config()
-        if answerer_factory is not None:  # the geometry answerer finds no more with finer patches (docs/decisions/0010)
-            config = replace(config, patches=replace(config.patches, seams=True))
         self.mesh = mesh
         straight, self._T_straight = straight_mesh(mesh) if answerer_factory is None else (mesh, np.eye(4))
-        self.geometry = GeometryStages(straight, config, deadline or Deadline())
+        seams = answerer_factory is not None  # the geometry answerer finds no more with finer patches (docs/decisions/0010)
+        self.geometry = GeometryStages(straight, config or Config(), deadline or Deadline(), seams=seams)
         self.answers: StageAnswerer = (
             self.geometry if answerer_factory is None else resolve(PROMPTED_STAGES)(self.geometry, answerer_factory)
         )

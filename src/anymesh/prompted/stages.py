@@ -66,7 +66,7 @@ class PromptedStages:
         """
         _ = self._ground  # report unusable weights before anything is asked
         answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._reference_parts))
-        azimuths = [azimuth for azimuth, _ in self.config.views.directions]
+        azimuths = [azimuth for azimuth, _ in self.config.directions]
         recognition = ask_recognition(self._view_pictures, answerer, self.config.category, self.config.parts_list, azimuths)
         scale, note, doubt = (
             answered_scale(recognition, float(self.mesh.extents.max()), metric=metric) if sized else (1.0, "", ())
@@ -96,7 +96,7 @@ class PromptedStages:
             recognition,
             self._ground,
             self._geometry.parts,
-            partial(stays_free, self._geometry.whole, self.config.articulation),
+            partial(stays_free, self._geometry.whole),
             progress,
         )
         return segmentation_result(

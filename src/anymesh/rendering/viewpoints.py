@@ -8,43 +8,47 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
 
-from anymesh.config import ViewsConfig
+from anymesh.config import REFERENCE_PX
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.drawing import Window, draw, first_hits, headlight_on, material_colors, render_target, sample
 from anymesh.rendering.render import BACKGROUND, View
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
+PICTURE_PX = 640  # [px] width and height of a picture
+EYE_RATIO = 1.0  # of the diagonal: distance of a camera from the object's center; 2 for a diagonal of 2 (the paper's)
+FOV_DEG = 60.0  # [deg] vertical, before the camera is zoomed (the paper's implementation)
+AIR = 0.04  # margin around the object on each side, as a share of its box in the picture
+MIN_PART_PIXELS = 5000  # a part that covers less of the best view, were it of REFERENCE_PX, is shown in a close-up
+ZOOM_MARGIN = 0.3  # margin of a close-up on each side, as a share of the part's box in the picture
 SIDES = ("front", "front right", "right", "back right", "back", "back left", "left", "front left")
 SKETCH = 64  # [px] size of the pictures used to choose a view
 MAX_LEVEL_DEG = 0.5  # elevation below which a view is level
 MIN_STEEP_DEG = 30.0  # elevation from which it is described as from above or below
 
 
-def views(mesh: Mesh, config: ViewsConfig, *, size: int | None = None, scene: RayScene | None = None) -> list[View]:
-    """Render the views around the object, in the order of `config.directions`.
+def views(
+    mesh: Mesh, directions: Sequence[tuple[float, float]], *, size: int | None = None, scene: RayScene | None = None
+) -> list[View]:
+    """Render views of the object, one for each azimuth and elevation [deg] of its camera.
 
-    size: [px] per side, `config.size` if None; scene: the ray scene of this mesh, if it already exists.
+    size: [px] per side, PICTURE_PX if None; scene: the ray scene of this mesh, if it already exists.
     """
     scene = scene or RayScene(mesh.vertices, mesh.faces)
-    return [shown(mesh, camera, scene) for camera in cameras(mesh, config, size or config.size)]
+    return [shown(mesh, camera, scene) for camera in cameras(mesh, directions, size)]
 
 
-def cameras(
-    mesh: Mesh, config: ViewsConfig, size: int, directions: Sequence[tuple[float, float]] | None = None
-) -> list[Camera]:
-    """Return the cameras of `views`: at the paper's distance, each turned and zoomed until the object fills its picture.
-
-    directions: azimuth and elevation of each [deg], `config.directions` if None.
-    """
-    center, distance = mesh.bounds.mean(0), config.distance * float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
+def cameras(mesh: Mesh, directions: Sequence[tuple[float, float]], size: int | None = None) -> list[Camera]:
+    """Return the cameras of `views`: at the paper's distance, each turned and zoomed until the object fills its picture."""
+    size = size or PICTURE_PX
+    center, distance = mesh.bounds.mean(0), EYE_RATIO * float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
     used = mesh.vertices[np.unique(mesh.faces)]
     cameras = []
-    for azimuth, elevation in config.directions if directions is None else directions:
+    for azimuth, elevation in directions:
         eye = center + distance * away(np.deg2rad(azimuth), np.deg2rad(elevation))
-        camera = Camera.looking_at(eye, center, float(np.deg2rad(config.fov)), size, size)
+        camera = Camera.looking_at(eye, center, float(np.deg2rad(FOV_DEG)), size, size)
         for _ in range(2):  # turning the camera changes the object's outline slightly
-            camera = framed(camera, used, config.air, size)
+            camera = framed(camera, used, AIR, size)
         cameras.append(camera)
     return cameras
 
@@ -151,15 +155,10 @@ def framed(camera: Camera, points: Float[np.ndarray, "n 3"], margin: float, size
     return zoom(camera, np.concatenate([pixels.min(0), pixels.max(0)]), margin, size)
 
 
-def close_up(
-    mesh: Mesh, view: View, face_part: Int[np.ndarray, " F"], part: int, config: ViewsConfig, scene: RayScene
-) -> View | None:
-    """Return a close-up of a part that covers too few pixels of a view; None if it covers enough, or none.
-
-    `config.zoom_below` counts pixels of a picture of `config.size`.
-    """
+def close_up(mesh: Mesh, view: View, face_part: Int[np.ndarray, " F"], part: int, scene: RayScene) -> View | None:
+    """Return a close-up of a part that covers too few pixels of a view; None if it covers enough, or none."""
     mask = part_pixels(view, face_part, part)
-    least = config.zoom_below * (view.camera.height / config.size) ** 2
+    least = MIN_PART_PIXELS * (view.camera.height / REFERENCE_PX) ** 2
     if not 0 < mask.sum() < least:
         return None
-    return shown(mesh, zoom(view.camera, box_of(mask), config.zoom_margin, view.camera.height), scene)
+    return shown(mesh, zoom(view.camera, box_of(mask), ZOOM_MARGIN, view.camera.height), scene)

@@ -11,7 +11,6 @@ from jaxtyping import Float, Float32, Int
 from networkx import DiGraph, immediate_dominators
 from scipy.spatial.distance import cdist
 
-from anymesh.config import SegmentationConfig
 from anymesh.geometry.boxes import box_pairs, within
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import label_connected
@@ -19,6 +18,8 @@ from anymesh.geometry.triangle_set import TriangleSet, spread_points
 from anymesh.runtime import CONTACTS, Deadline
 from anymesh.types.triangles import meet_box, normals_and_areas, quartered
 
+TOUCH_RATIO = 0.0004  # of the object's diagonal: patches closer than this touch; clearances of real fits are wider
+NEAR_RATIO = 0.02  # of it: components closer than this, but not touching, have a clearance
 PROBES = 160  # sample points per patch for the distance to another patch
 COARSE = 6  # every how many of these points are measured first
 AREA_POINTS = 500  # sample points of a patch near another one, for the area in contact
@@ -117,14 +118,14 @@ class Contacts:
         return np.array([s.area for s in self.shapes])
 
 
-def find_contacts(whole: ObjectShape, config: SegmentationConfig, deadline: Deadline | None = None) -> Contacts:
+def find_contacts(whole: ObjectShape, deadline: Deadline | None = None) -> Contacts:
     """Measure all pairs of patches whose boxes are near each other; after the deadline further ones have no contact."""
     deadline = deadline or Deadline()
     order = np.argsort(whole.patch, kind="stable")
     start = np.searchsorted(whole.patch[order], np.arange(int(whole.patch.max()) + 2))
     shapes = tuple(whole.of(order[a:b]) for a, b in itertools.pairwise(start))
     shared = {(int(a), int(b)) for a, b in whole.shared}
-    tolerance, reach = config.touch * whole.diagonal, config.near * whole.diagonal
+    tolerance, reach = TOUCH_RATIO * whole.diagonal, NEAR_RATIO * whole.diagonal
     low, high = np.array([s.bounds for s in shapes]).transpose(1, 0, 2)
     near = [pair for pair in box_pairs(low, high, reach) if pair not in shared]
     i, j = np.array(near, np.int64).reshape(-1, 2).T

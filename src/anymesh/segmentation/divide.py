@@ -6,8 +6,8 @@ import numpy as np
 from jaxtyping import Bool, Int
 from scipy.spatial import KDTree
 
-from anymesh.config import SAME_SIZE, PatchConfig
-from anymesh.geometry.creases import convex_regions, divide_at_seams
+from anymesh.config import SAME_SIZE
+from anymesh.geometry.creases import MIN_CREASE_DEG, convex_regions, divide_at_seams
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.patches import DividedSurface, ObjectShape
 from anymesh.geometry.surface import MeshSurface, mesh_surface
@@ -18,61 +18,66 @@ from anymesh.segmentation.panels import split_panels
 from anymesh.types import Mesh
 from anymesh.types.triangles import boxes_meet
 
+# lengths are relative to the object's diagonal
+FUSED_SIZE_RATIO = 0.35  # smaller components are not cut along their creases
+MAX_SHARP_FACES = 3000  # components with at most this many faces have sharp creases only
+CRUMB_RATIO = 0.02  # regions smaller than this, left by a cut, join their neighbour
+MAX_PATCHES = 1500  # number of patches above which small ones join their nearest larger one
+MAX_MEETING_PAIRS = 20_000  # number of pairs of patches with meeting boxes above which they do so too
 SEAM_POINTS = 40_000  # samples of the dense components for their seams
 MIN_SEAM_POINTS = 500  # of these, below which a region is not divided
 
 
 def object_shape(
-    mesh: Mesh, seed: int = 0, config: PatchConfig | None = None, labels: Int[np.ndarray, " F"] | None = None
+    mesh: Mesh, seed: int = 0, labels: Int[np.ndarray, " F"] | None = None, *, seams: bool = False, soft: bool = True
 ) -> ObjectShape:
     """Orient, split and simplify a mesh; the mesh is not modified.
 
-    labels: (F,) parts that are kept apart.
+    labels: (F,) parts that are kept apart; seams, soft: as in `split_patches`.
     """
-    config = config or PatchConfig()
-    return divide_surface(mesh, seed, config).simplified(config, labels)
+    return divide_surface(mesh, seed, seams=seams, soft=soft).simplified(labels)
 
 
-def divide_surface(mesh: Mesh, seed: int, config: PatchConfig) -> DividedSurface:
-    """Orient a mesh and divide it into patches; the mesh is not modified."""
+def divide_surface(mesh: Mesh, seed: int, *, seams: bool = False, soft: bool = True) -> DividedSurface:
+    """Orient a mesh and divide it into patches, as `split_patches` does; the mesh is not modified."""
     surface = mesh_surface(mesh, seed)
-    patch = split_patches(surface, config)
+    patch = split_patches(surface, seams=seams, soft=soft)
     pairs = np.sort(patch[surface.components.edges.faces], 1)
     shared = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
     return DividedSurface(surface.shape.take(surface.row), surface.copy, patch[surface.row], shared, surface.diagonal)
 
 
-def split_patches(surface: MeshSurface, config: PatchConfig) -> Int[np.ndarray, " F"]:
+def split_patches(surface: MeshSurface, *, seams: bool, soft: bool) -> Int[np.ndarray, " F"]:
     """Return a patch index per face, from 0.
 
-    Components that are large enough to contain a fused part are cut along their concave creases, sharp or soft, and with
-    `config.seams` at creases that are closed in places. Crumbs left by the cut join the neighbour with the longest common edge.
+    Components that are large enough to contain a fused part are cut along their concave creases, sharp or (soft) rounded, and
+    (seams) at creases that are closed in places. Crumbs left by the cut join the neighbour with the longest common edge.
     """
     component = surface.components.label
-    large = region_sizes(surface, component) > config.fused_size * surface.diagonal
+    large = region_sizes(surface, component) > FUSED_SIZE_RATIO * surface.diagonal
     edges = surface.components.edges
     pairs = edges.faces
-    concave = _concave(surface, config.crease)
-    soft = _soft_regions(surface, component, large, config)
-    cut = (concave & edges.aligned & large[component[pairs[:, 0]]]) | (soft[pairs[:, 0]] != soft[pairs[:, 1]])
+    concave = _concave(surface, MIN_CREASE_DEG)
+    convex = _soft_regions(surface, component, large) if soft else component
+    cut = (concave & edges.aligned & large[component[pairs[:, 0]]]) | (convex[pairs[:, 0]] != convex[pairs[:, 1]])
     region = split_panels(surface, label_connected(len(component), pairs[~cut]))
-    if config.seams:
-        region = _split_at_seams(surface, region, large & (np.bincount(component) > config.soft_faces))
+    if seams:
+        region = _split_at_seams(surface, region, large & (np.bincount(component) > MAX_SHARP_FACES))
     cut |= region[pairs[:, 0]] != region[pairs[:, 1]]
     length = np.linalg.norm(_ends(surface, 0) - _ends(surface, 1), axis=1)
-    region = _absorb_crumbs(surface, region, pairs[cut], length[cut], config)
+    region = _absorb_crumbs(surface, region, pairs[cut], length[cut])
     region = _fill_voids(surface, region)
-    region = _limit_count(surface, region, config.most_patches)
-    return _limit_pairs(surface, region, config.most_pairs)
+    region = _limit_count(surface, region, MAX_PATCHES)
+    return _limit_pairs(surface, region, MAX_MEETING_PAIRS)
 
 
-def _soft_regions(surface: MeshSurface, component: np.ndarray, large: np.ndarray, config: PatchConfig) -> np.ndarray:
+def _soft_regions(surface: MeshSurface, component: np.ndarray, large: np.ndarray) -> np.ndarray:
     """Return regions bounded by soft concave creases on large and dense components; other components are one region each."""
     region = component.copy()
     count = np.bincount(component)
-    for c in np.flatnonzero(large & (count > config.soft_faces)):
+    for c in np.flatnonzero(large & (count > MAX_SHARP_FACES)):
         mine = np.flatnonzero(component == c)
-        convex_region = convex_regions(surface.shape.triangles[mine], surface.diagonal, config)
+        convex_region = convex_regions(surface.shape.triangles[mine], surface.diagonal)
         region[mine] = np.where(convex_region > 0, int(region.max()) + convex_region, c)
     return region
 
@@ -115,13 +120,11 @@ def _concave(surface: MeshSurface, min_angle: float) -> np.ndarray:
     return (inward > 0) & (cosine < np.cos(np.deg2rad(min_angle)))
 
 
-def _absorb_crumbs(
-    surface: MeshSurface, region: np.ndarray, pairs: np.ndarray, length: np.ndarray, config: PatchConfig
-) -> np.ndarray:
+def _absorb_crumbs(surface: MeshSurface, region: np.ndarray, pairs: np.ndarray, length: np.ndarray) -> np.ndarray:
     """Join regions that are too small to the neighbour with the longest common border; three rounds resolve chains."""
     for _ in range(3):
-        small = region_sizes(surface, region) < config.crumb * surface.diagonal
-        small |= np.bincount(region, surface.shape.areas) < (config.crumb * surface.diagonal) ** 2  # slivers along a groove
+        small = region_sizes(surface, region) < CRUMB_RATIO * surface.diagonal
+        small |= np.bincount(region, surface.shape.areas) < (CRUMB_RATIO * surface.diagonal) ** 2  # slivers along a groove
         a, b = region[pairs[:, 0]], region[pairs[:, 1]]
         source, target = np.r_[a, b], np.r_[b, a]
         weight = np.r_[length, length]

@@ -24,6 +24,8 @@ from anymesh.segmentation.contacts import Contacts, dominated_by
 from anymesh.types import Mesh
 from anymesh.vocabulary import is_fixed_name, recognize, words_of
 
+MIN_PART_RATIO = 0.004  # of the object's diagonal: patches with a smaller one never move on their own
+MAX_CANDIDATES = 600  # largest groups of patches that are examined as parts
 MIN_AREA_RATIO = 1e-12  # of the surface: area of patches without area, and contact of pairs that have none
 BASES = 3  # number of the largest patches that may be the base
 MIN_NESTED_SHARE = 0.98  # minimum shared part of the smaller candidate for it to lie within the larger one
@@ -186,18 +188,14 @@ class PartCandidates:
         return Overlap(self.spread, (self.members * self.contacts.patch_area) @ self.members.T.astype(float))
 
 
-def part_candidates(mesh: Mesh, whole: ObjectShape, contacts: Contacts, min_size: float, max_candidates: int) -> PartCandidates:
-    """Return the groups of a mesh that may be parts, without duplicates.
-
-    min_size: minimum diagonal of a group, as a share of the object's; max_candidates: maximum number of groups, of which the
-    largest are kept.
-    """
+def part_candidates(mesh: Mesh, whole: ObjectShape, contacts: Contacts) -> PartCandidates:
+    """Return the groups of a mesh that may be parts, without duplicates: the largest MAX_CANDIDATES."""
     bases = np.argsort(-contacts.patch_area, kind="stable")[:BASES]
     group, names = named_groups(mesh, whole)
     attached = (below for base in bases for below in dominated_by(contacts, group, int(group[base])).values())
     single = ([u] for u in range(int(group.max()) + 1))
     masks = (np.isin(group, chosen) for chosen in itertools.chain(single, attached, merged_groups(contacts, group)))
-    return PartCandidates(whole, contacts, _largest(whole, contacts, _distinct(masks), min_size, max_candidates), names)
+    return PartCandidates(whole, contacts, _largest(whole, contacts, _distinct(masks)), names)
 
 
 def _distinct(masks: Iterable[Bool[np.ndarray, " P"]]) -> list[Bool[np.ndarray, " P"]]:
@@ -205,15 +203,15 @@ def _distinct(masks: Iterable[Bool[np.ndarray, " P"]]) -> list[Bool[np.ndarray, 
     return list({np.packbits(mask).tobytes(): mask for mask in masks if not mask.all()}.values())
 
 
-def _largest(
-    whole: ObjectShape, contacts: Contacts, masks: list[np.ndarray], min_size: float, max_candidates: int
-) -> Bool[np.ndarray, "n P"]:
+def _largest(whole: ObjectShape, contacts: Contacts, masks: list[np.ndarray]) -> Bool[np.ndarray, "n P"]:
     """Return the groups with the largest diagonals."""
     bounds = contacts.patch_bounds
     size = np.array([float(np.linalg.norm(np.ptp(_bounds(bounds, m), axis=0))) for m in masks]) / whole.diagonal
     area = contacts.patch_area
-    order = [int(k) for k in np.lexsort((np.arange(len(masks)), -size)) if size[k] >= min_size and area[masks[k]].sum() > 0]
-    return np.array([masks[k] for k in order[:max_candidates]], bool).reshape(-1, len(bounds))
+    order = [
+        int(k) for k in np.lexsort((np.arange(len(masks)), -size)) if size[k] >= MIN_PART_RATIO and area[masks[k]].sum() > 0
+    ]
+    return np.array([masks[k] for k in order[:MAX_CANDIDATES]], bool).reshape(-1, len(bounds))
 
 
 def _bounds(patches: Float[np.ndarray, "P 2 3"], members: Bool[np.ndarray, " P"]) -> Float[np.ndarray, "2 3"]:

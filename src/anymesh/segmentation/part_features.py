@@ -7,9 +7,10 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float
 
-from anymesh.config import ALONG_COSINE, FACING_COSINE, Config, SegmentationConfig
+from anymesh.config import ALONG_COSINE, FACING_COSINE
 from anymesh.motion.handle import outward_axis
 from anymesh.motion.part_context import MAX_LENGTH_RATIO, PartContext, shape_features
+from anymesh.segmentation.contacts import NEAR_RATIO, TOUCH_RATIO
 from anymesh.segmentation.part_candidates import PartCandidates
 from anymesh.types import Mesh
 
@@ -23,12 +24,12 @@ AT_BORDER = 0.02  # of the diagonal: what is this close to a side of the object'
 MIN_OFFSET = 0.1  # of the half extent: below this offset from the middle of the face, the side of a contact is chance
 
 
-def blocked_shares(context: PartContext, config: SegmentationConfig) -> dict[str, float]:
+def blocked_shares(context: PartContext) -> dict[str, float]:
     """Return the share of the part's surface that meets the rest when it moves by its own extent, along its box axes.
 
     Surface that faces along the way counts, on sheets without an inside both sides.
     """
-    points, touch = context.part.samples.points[::STRIDE], config.touch * context.diagonal
+    points, touch = context.part.samples.points[::STRIDE], TOUCH_RATIO * context.diagonal
     axes, extents, opening = context.body_obb.axes, 2 * context.body_obb.half, context.opening_direction
     deep = extents[outward_axis(context.body_obb, opening)]
     ways = [(opening, deep), (-opening, deep), *((sign * axes[k], extents[k]) for k in context.face_axes for sign in (1, -1))]
@@ -49,14 +50,14 @@ def blocked_shares(context: PartContext, config: SegmentationConfig) -> dict[str
     }
 
 
-def exposure(context: PartContext, config: SegmentationConfig) -> dict[str, float]:
+def exposure(context: PartContext) -> dict[str, float]:
     """Return which shares of the part's surface see the outside along their normal, face outward, and face up.
 
     Open sheets count with either side.
     """
     samples, off = (
         context.part.samples.take(np.arange(0, len(context.part.samples), STRIDE)),
-        2 * config.touch * context.diagonal,
+        2 * TOUCH_RATIO * context.diagonal,
     )
     sheet = ~context.part.solid[samples.faces]
 
@@ -116,13 +117,13 @@ def touching(context: PartContext, tolerance: float) -> tuple[np.ndarray, np.nda
     return gap < tolerance, context.parent.normals[face]
 
 
-def fit_of_rim(context: PartContext, config: SegmentationConfig) -> tuple[int, float]:
+def fit_of_rim(context: PartContext) -> tuple[int, float]:
     """Return how many of the four rims have a clearance to the surface opposite, and the share of the rim that touches it."""
     core = context.body_obb
     samples = context.part.samples
     local = core.local(samples.points) / np.maximum(core.half, 1e-12)
     facing = samples.normals @ core.axes.T
-    touch, reach = config.touch * context.diagonal, config.near * context.diagonal
+    touch, reach = TOUCH_RATIO * context.diagonal, NEAR_RATIO * context.diagonal
     # start slightly inside, since a ray that starts on a surface would miss it
     start = samples.points - samples.normals * 2 * touch
     hits = context.without_part.scene.first_hit(start, samples.normals * reach, 1.0)
@@ -180,16 +181,15 @@ class FeatureInputs:
     """
 
     candidates: PartCandidates
-    config: Config
     material: Float[np.ndarray, "P M"]
 
     @classmethod
-    def of(cls, mesh: Mesh, candidates: PartCandidates, config: Config) -> FeatureInputs:
+    def of(cls, mesh: Mesh, candidates: PartCandidates) -> FeatureInputs:
         """Build the data of a mesh and its candidates."""
         patch, material = candidates.whole.mesh_patch, mesh.face_material + 1
         shape = int(patch.max()) + 1, int(material.max()) + 1
         area = np.bincount(patch * shape[1] + material, mesh.face_areas, shape[0] * shape[1])
-        return cls(candidates, config, area.reshape(shape))
+        return cls(candidates, area.reshape(shape))
 
 
 def candidate_context(inputs: FeatureInputs, candidate: int) -> PartContext | None:
@@ -201,7 +201,7 @@ def candidate_context(inputs: FeatureInputs, candidate: int) -> PartContext | No
     rest = whole.of(np.flatnonzero(~moving))
     return PartContext(
         part=whole.of(np.flatnonzero(moving)), parent=rest, rest=rest, other_surface=None, without_part=rest,
-        barrel_candidates=(), diagonal=whole.diagonal, center=whole.shape.bounds.mean(0), config=inputs.config.articulation,
+        barrel_candidates=(), diagonal=whole.diagonal, center=whole.shape.bounds.mean(0),
     )  # fmt: skip
 
 
@@ -211,12 +211,12 @@ def part_features(inputs: FeatureInputs, candidate: int, context: PartContext) -
         **shape_features(context),
         **_extent(inputs, candidate, context),
         **_place(context),
-        **_fit(inputs, context),
+        **_fit(context),
         **_neighbours(inputs, candidate),
         **_copies(inputs, candidate, context),
         **_material(inputs, candidate, context),
-        **blocked_shares(context, inputs.config.segmentation),
-        **exposure(context, inputs.config.segmentation),
+        **blocked_shares(context),
+        **exposure(context),
         **space_behind(context),
     }
 
@@ -249,10 +249,9 @@ def _place(context: PartContext) -> dict[str, float]:
     }
 
 
-def _fit(inputs: FeatureInputs, context: PartContext) -> dict[str, float]:
-    settings = inputs.config.segmentation
-    near, normals = touching(context, 2 * settings.touch * context.diagonal)
-    sides, flush = fit_of_rim(context, settings)
+def _fit(context: PartContext) -> dict[str, float]:
+    near, normals = touching(context, 2 * TOUCH_RATIO * context.diagonal)
+    sides, flush = fit_of_rim(context)
     gaps = np.quantile(context.gap, [0.05, 0.5]) / context.diagonal
     outer = context.part.samples.normals @ context.opening_direction
     back = outer < -FACING_COSINE

@@ -13,7 +13,6 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.runtime import SEGMENT, Deadline, Progress, silent, usable_cores
 from anymesh.scoring import by_hand
@@ -31,22 +30,22 @@ MAX_ASSIGNMENTS = 3  # maximum number of assignments, each without the candidate
 
 
 def segment_parts(
-    mesh: Mesh, whole: ObjectShape, label_parts: LabelParts, config: Config, progress: Progress = silent,
+    mesh: Mesh, whole: ObjectShape, label_parts: LabelParts, at_least: int = 0, progress: Progress = silent,
     deadline: Deadline | None = None,
 ) -> Segmentation:  # fmt: skip
     """Return the movable parts of a mesh and its base, which is the rest.
 
-    label_parts: stage B's test of how parts move, with "" for a part that cannot.
+    label_parts: stage B's test of how parts move, with "" for a part that cannot; at_least: minimum number of parts, even with
+    weak evidence, for objects that are known to move.
 
     After the deadline no further contact is measured and no further candidate examined.
     """
     progress("segment", "contacts", 0, 2)
-    settings = config.segmentation
     deadline = deadline or Deadline()
-    contacts = find_contacts(whole, settings, deadline)
-    candidates = part_candidates(mesh, whole, contacts, settings.smallest, settings.most_candidates)
+    contacts = find_contacts(whole, deadline)
+    candidates = part_candidates(mesh, whole, contacts)
     progress("segment", "candidates", 1, 2)
-    examined, place, features = examine_candidates(mesh, candidates, config, progress, deadline)
+    examined, place, features = examine_candidates(mesh, candidates, progress, deadline)
     score, reasons = score_parts(examined, place, features)
     words = [shared_name(examined, k) for k in range(len(score))]
     score = score + np.array([by_hand.NAME_SCORE.get(name_class(word), 0.0) for word in words])
@@ -63,25 +62,25 @@ def segment_parts(
     free = probability.copy()  # 0 for candidates that turned out to be fixed
     for _ in range(MAX_ASSIGNMENTS):
         likely = assign_parts(examined.overlap, free)
-        face_part, order = _face_part(mesh, examined, _filled(examined, free, likely, settings.at_least))
+        face_part, order = _face_part(mesh, examined, _filled(examined, free, likely, at_least))
         labels = list(label_parts(segmentation(face_part, order, ["part"] * len(order), likely)))
         fixed = [k for k, label in zip(order, labels, strict=True) if not label]
         if not fixed or deadline.late(SEGMENT):
             break
         free[fixed] = 0  # the same part with its handle, or another one, may move
     moving = {k: label for k, label in zip(order, labels, strict=True) if label}
-    if len(moving) < settings.at_least:
-        face_part, order = _face_part(mesh, examined, _filled(examined, probability, list(moving), settings.at_least))
+    if len(moving) < at_least:
+        face_part, order = _face_part(mesh, examined, _filled(examined, probability, list(moving), at_least))
         labels = [moving.get(k, "part") for k in order]
     still = [n for n, label in enumerate(labels, start=1) if not label]
     return segmentation(np.where(np.isin(face_part, still), 0, face_part), order, labels, likely)
 
 
 def examine_candidates(
-    mesh: Mesh, candidates: PartCandidates, config: Config, progress: Progress = silent, deadline: Deadline | None = None
+    mesh: Mesh, candidates: PartCandidates, progress: Progress = silent, deadline: Deadline | None = None
 ) -> tuple[PartCandidates, Float[np.ndarray, "n 12"], list[dict[str, float]]]:
     """Return the examined candidates, and the place and the features of each."""
-    inputs, limit = FeatureInputs.of(mesh, candidates, config), deadline or Deadline()
+    inputs, limit = FeatureInputs.of(mesh, candidates), deadline or Deadline()
 
     def measure(k: int) -> tuple[Float[np.ndarray, " 12"], dict[str, float]] | None:
         if limit.late(SEGMENT):

@@ -6,21 +6,20 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 
-from anymesh.config import GroundingConfig
 from anymesh.geometry.triangle_set import SurfacePoints
-from anymesh.prompted.grounding.cloud import Cloud, _nearest_alike, sample_cloud, seen_points, sight
+from anymesh.prompted.grounding.cloud import MIN_SUPERPOINT_POINTS, Cloud, _nearest_alike, sample_cloud, seen_points, sight
 from anymesh.rendering.render import render
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Material, Mesh, Texture
 from anymesh.types.camera import Camera
 
-FEW = GroundingConfig(points=20_000)
+FEW = 20_000  # points
 BODY, FRONT, KNOB = box((0, 0, 0), (1, 1, 1)), box((0, -0.1, 0), (1, -0.01, 1)), box((0.45, -0.15, 0.45), (0.55, -0.1, 0.55))
 MESH, PIECE = mesh_of([BODY, FRONT, KNOB])
 
 
-def cloud_of(mesh: Mesh, config: GroundingConfig = FEW) -> Cloud:
-    return sample_cloud(mesh, object_shape(mesh), config)
+def cloud_of(mesh: Mesh, count: int = FEW) -> Cloud:
+    return sample_cloud(mesh, object_shape(mesh), count)
 
 
 def camera(eye, size: int = 200) -> Camera:
@@ -51,7 +50,7 @@ def test_no_superpoint_spans_two_pieces_and_small_ones_are_merged() -> None:
     piece = object_shape(MESH).mesh_patch[cloud.faces]
     spans = [len(np.unique(piece[cloud.superpoint == s])) for s in range(cloud.count)]
     assert max(spans) == 1
-    assert np.bincount(cloud.superpoint).min() >= FEW.least_points
+    assert np.bincount(cloud.superpoint).min() >= MIN_SUPERPOINT_POINTS
 
 
 @pytest.mark.parametrize(("away", "nearest"), [(3, 0), (5, 0), (6, 1), (8, 1)])

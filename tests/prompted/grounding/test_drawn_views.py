@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
 
@@ -9,9 +10,10 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 from drawn_views import blocks, drawn_view
+from made import smaller
 from rows import counts_of, row_cloud
 
-from anymesh.config import Config, GroundingConfig, ViewsConfig
+from anymesh.config import Config
 from anymesh.prompted.grounding import mark_questions as ask_marks
 from anymesh.prompted.grounding import regions
 from anymesh.prompted.grounding.fuse import Proposal, fuse_masks, masks_to_labels, propose_masks
@@ -25,70 +27,14 @@ from anymesh.prompted.grounding.mark_questions import (
     ask_masks,
     choose_pictures,
 )
-from anymesh.prompted.grounding.regions import Marks, min_pixels, number_regions
+from anymesh.prompted.grounding.regions import Marks
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.rendering.render import View
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
-LEAST = GroundingConfig(least_mask=1600)  # in views of 64 px: 16 px for masks, 4 px for exact regions
-FEW = GroundingConfig(points=10_000)
 CUBE = mesh_of([box((0, 0, 0), (1, 1, 1))])[0]
-
-
-def marks_of(region: list[int], *faces: np.ndarray, depth: np.ndarray | float = 1.0) -> list[int]:
-    """Return the mark of each region of an object with a diagonal of 1 m."""
-    found = number_regions(np.array(region), [drawn_view(f, depth) for f in faces], 1.0, LEAST)
-    return found.face_mark.tolist()
-
-
-def test_a_mask_has_the_same_minimum_size_at_every_resolution() -> None:
-    assert min_pixels(drawn_view(blocks(64)), LEAST) == 16
-    assert min_pixels(drawn_view(blocks(128)), LEAST) == 64
-
-
-def test_the_most_visible_regions_over_all_views_are_numbered_first() -> None:
-    one, two = blocks(64, (0, 0, 10, 10), (20, 20, 12, 10)), blocks(64, (0, 0, 10, 10), (20, 20, 0, 0), (40, 40, 11, 10))
-    assert marks_of([0, 1, 2], one, two) == [1, 2, 3]
-    assert marks_of([0, 1, 2], one) == [2, 1, -1]  # the third is not visible
-    assert marks_of([0, -1, 1], one, two) == [1, -1, 2]  # no region
-    assert marks_of([0, 1, 0], one, two) == [1, 2, 1]  # two faces of one region
-
-
-@pytest.mark.parametrize(("width", "own"), [(3, False), (4, True)])
-def test_a_region_of_fewer_than_four_pixels_joins_the_one_that_it_touches_most(width: int, own: bool) -> None:
-    """It lies on the border between two larger ones, with two pixels less on the first."""
-    face = blocks(64, (0, 0, 20, 30), (20, 0, 20, 20), (19, 10, width, 1))
-    found = marks_of([0, 1, 2], face)
-    assert found[2] == (3 if own else 2)
-    seen_well = blocks(64, (0, 0, 0, 0), (0, 0, 0, 0), (0, 0, 2, 2))
-    assert marks_of([0, 1, 2], face, seen_well)[2] == 3  # one view shows it well enough
-
-
-@pytest.mark.parametrize(("step", "joins"), [(0.019, True), (0.021, False)])
-def test_regions_that_are_behind_each_other_do_not_touch(step: float, joins: bool) -> None:
-    """Depths differ by up to 2 % of the diagonal where things touch."""
-    face = blocks(64, (0, 0, 20, 20), (20, 0, 3, 1))
-    assert marks_of([0, 1], face, depth=1 + step * (face == 1)) == [1, 1 if joins else -1]
-    assert marks_of([0, 1], face.T.copy(), depth=1 + step * (face.T == 1)) == [1, 1 if joins else -1]
-
-
-def test_small_regions_in_a_chain_join_what_the_last_of_them_touches() -> None:
-    face = blocks(64, (0, 0, 20, 20), (20, 0, 2, 1), (22, 0, 1, 1))
-    assert marks_of([0, 1, 2], face) == [1, 1, 1]
-    alone = blocks(64, (0, 0, 20, 20), (30, 0, 2, 1), (32, 0, 2, 1))  # together they are large enough
-    assert marks_of([0, 1, 2], alone) == [1, 2, 2]
-
-
-@pytest.mark.parametrize(("most", "found", "crowded"), [(3, [1, 2, 3], 0), (2, [1, 2, 2], 1), (1, [1, 1, 1], 2)])
-def test_the_smallest_regions_join_others_where_there_are_too_many(
-    monkeypatch: pytest.MonkeyPatch, most: int, found: list[int], crowded: int
-) -> None:
-    monkeypatch.setattr(regions, "MAX_MARKS", most)
-    view = drawn_view(blocks(64, (0, 0, 30, 20), (30, 0, 18, 20), (48, 0, 10, 20)))
-    marks = number_regions(np.arange(3), [view], 1.0, LEAST)
-    assert (marks.face_mark.tolist(), marks.crowded) == (found, crowded)
 
 
 def renders(camera: Camera) -> View:
@@ -159,14 +105,14 @@ def test_a_crowded_picture_shows_the_new_marks_only() -> None:
 @pytest.mark.parametrize(("covered", "kept"), [(5, True), (4, False)])
 def test_a_superpoint_has_the_label_of_masks_that_cover_half_of_it(covered: int, kept: bool) -> None:
     counts = counts_of([[covered, 10 - covered]], ["door"])
-    assert fuse_masks(row_cloud([0.0]), [counts], FEW).number.tolist() == [int(kept)]
+    assert fuse_masks(row_cloud([0.0]), [counts]).number.tolist() == [int(kept)]
 
 
 @pytest.mark.parametrize(("others", "kept"), [(1, True), (2, False)])
 def test_an_instance_needs_a_mask_of_its_place_and_size(others: int, kept: bool) -> None:
     """Two neighbours are one instance; the mask also covers a few points of one or two others: an IoU of 2/3 or 1/2."""
     top = [[10, 0], [10, 0], *[[1, 9]] * others]
-    found = fuse_masks(row_cloud([0.0, 0.045, 0.2, 0.4][: 2 + others]), [counts_of(top, ["door"])], FEW)
+    found = fuse_masks(row_cloud([0.0, 0.045, 0.2, 0.4][: 2 + others]), [counts_of(top, ["door"])])
     assert found.number.tolist() == [int(kept), int(kept), *[0] * others]
 
 
@@ -174,22 +120,23 @@ def test_an_instance_needs_a_mask_of_its_place_and_size(others: int, kept: bool)
 def test_neighbours_are_within_a_hundredth_of_the_diagonal(second: float, one: bool) -> None:
     """Each superpoint extends 2 cm to both sides of its place."""
     counts = counts_of([[10, 0], [10, 0]], ["door"])
-    number = fuse_masks(row_cloud([0.0, second]), [replace(counts, box=np.tile([0.0, 0, 19, 9], (2, 1)))], FEW).number
+    number = fuse_masks(row_cloud([0.0, second]), [replace(counts, box=np.tile([0.0, 0, 19, 9], (2, 1)))]).number
     assert (number[0] == number[1]) == one
 
 
 @pytest.mark.parametrize(("inside", "one"), [(9, True), (7, False)])
 def test_neighbours_that_a_mask_covers_to_different_degrees_are_two(inside: int, one: bool) -> None:
     """One is covered wholly; the other by nine or seven of ten points, and the limit is a fifth."""
-    number = fuse_masks(row_cloud([0.0, 0.045]), [counts_of([[10, 0], [inside, 10 - inside]], ["door"])], FEW).number
+    number = fuse_masks(row_cloud([0.0, 0.045]), [counts_of([[10, 0], [inside, 10 - inside]], ["door"])]).number
     assert (number[0] == number[1] > 0) == one
 
 
-def test_regions_large_enough_for_a_mark_are_listed() -> None:
+def test_regions_large_enough_for_a_mark_are_listed(monkeypatch: pytest.MonkeyPatch) -> None:
     view = drawn_view(np.zeros((64, 64), int))
     masks = np.zeros((2, 64, 64), bool)
     masks[0, 10:20, 10:20] = masks[1, 40:46, 40:46] = True
-    (found,) = propose_masks([masks], [view], replace(LEAST, least_mask=1200))  # 12 px
+    monkeypatch.setattr(regions, "MIN_MASK_PIXELS", 1200)  # 12 px
+    (found,) = propose_masks([masks], [view])
     assert found.numbers == (1, 2)
     assert (found.labels[15, 15], found.labels[42, 42]) == (1, 2)
     assert masks_to_labels(masks, 50.0).max() == 1
@@ -250,13 +197,20 @@ def test_pictures_may_leave_out_marks() -> None:
     assert picture.only(np.array([2])).marks.tolist() == [[-1, 2], [-1, -1]]
 
 
-VIEWS = ViewsConfig(size=320)
 BODY = box((0, 0, 0), (1, 1, 1))
+
+
+@pytest.fixture(autouse=True, scope="module")
+def quick() -> Iterator[None]:
+    with smaller(320, 20_000):
+        yield
+
+
 KEYS = [box((x, -0.2, z), (x + 0.08, 0, z + 0.08)) for x in np.arange(0, 1, 0.125) for z in np.arange(0, 1, 0.125)]
 
 
 def prompts_of(mesh: Mesh) -> VisualPrompts:
-    return VisualPrompts(mesh, Config(views=VIEWS, grounding=GroundingConfig(points=20_000)))
+    return VisualPrompts(mesh, Config())
 
 
 def drawn_in(regions: tuple[np.ndarray, ...]) -> set[int]:
@@ -313,7 +267,7 @@ class Points:
 def test_many_pictures_are_asked_about_in_several_calls_and_no_mark_twice(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ask_marks, "MAX_MARK_PICTURES", 1)
     (prompts, piece), who = keyboard(), Points()
-    asked = MarkQuestioner(who, prompts, ("key",), "keyboard", Config(views=VIEWS))
+    asked = MarkQuestioner(who, prompts, ("key",), "keyboard", Config())
     found = ask_exact(asked, Marks(piece + 1), prompts.views, prompts.names(11), lambda marks, some: marks)
     assert {p.marks for p in found.parts} == {(n,) for n in range(2, 66)}
     assert len(who.asked) > 1
@@ -332,7 +286,7 @@ def test_a_split_is_asked_about_once_with_the_new_marks_alone() -> None:
         assert tuple(some) == (2,)
         return Marks(np.where(marks.face_mark == 2, 4 + right, marks.face_mark))
 
-    asked = MarkQuestioner(who, prompts, ("key",), None, Config(views=VIEWS))
+    asked = MarkQuestioner(who, prompts, ("key",), None, Config())
     found = ask_exact(asked, Marks(piece + 1), prompts.views, prompts.names(11), split)
     first, second = who.asked
     assert (first.splittable, second.splittable) == (True, False)
@@ -354,7 +308,7 @@ def test_views_of_masks_are_numbered_as_the_pictures_are() -> None:
     labels = [np.where(v.face >= 0, piece[np.maximum(v.face, 0)] + 1, -1) for v in prompts.views]
     proposals = [Proposal(k, label, (1, 2)) for k, label in enumerate(labels)]
     names = prompts.names(11, 0.0)
-    found = ask_masks(MarkQuestioner(Two(), prompts, ("key",), None, Config(views=VIEWS)), proposals, prompts.views, names)
+    found = ask_masks(MarkQuestioner(Two(), prompts, ("key",), None, Config()), proposals, prompts.views, names)
     assert found == (MarkedPart("key", 1, 7, (2,)),)  # the second picture is the eighth view
     captions = [p.caption for p in asked[1].pictures]
     assert captions == [f"picture 1: {names[1]}", f"picture 2: {names[7]}"]
@@ -373,7 +327,7 @@ def test_regions_too_small_for_a_mark_are_none_in_a_question() -> None:
 
     label = np.where(prompts.views[0].face >= 0, piece[np.maximum(prompts.views[0].face, 0)] + 1, -1)
     assert np.unique(label).tolist() == [-1, 1, 2]
-    asking = MarkQuestioner(Silent(), prompts, ("key",), None, Config(views=VIEWS))
+    asking = MarkQuestioner(Silent(), prompts, ("key",), None, Config())
     assert ask_masks(asking, [Proposal(0, label, (2,))], prompts.views[:1], ["front"]) == ()
     assert np.unique(asked[1].regions[0]).tolist() == [-1, 2]
 
@@ -392,6 +346,6 @@ def test_more_pictures_of_masks_than_fit_are_asked_about_in_several_calls(monkey
 
     labels = [np.where(v.face >= 0, piece[np.maximum(v.face, 0)] + 1, -1) for v in prompts.views]
     proposals = [Proposal(k, label, (1, 2)) for k, label in enumerate(labels)]
-    asked = MarkQuestioner(All(), prompts, ("key",), None, Config(views=VIEWS))
+    asked = MarkQuestioner(All(), prompts, ("key",), None, Config())
     found = ask_masks(asked, proposals, prompts.views, prompts.names(11))
     assert [(p.view, p.instance) for p in found] == [(0, 1), (2, 1), (4, 1), (6, 1), (8, 2), (10, 2)]

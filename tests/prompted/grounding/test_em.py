@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from rows import counts_of, row_cloud
 
-from anymesh.config import GroundingConfig
+from anymesh.prompted.grounding import em
 from anymesh.prompted.grounding.em import loss_and_gradient, match, maximise, near_superpoints, probabilities, refine_instances
 from anymesh.prompted.grounding.fuse import Counts, Instances
 
-CONFIG = GroundingConfig()
 # Four superpoints: two of part A, one of part B, one of the rest.
 CLEAN = counts_of([[9, 0, 0], [9, 0, 0], [0, 9, 0], [0, 0, 9]], ["door", "lid"])
 NOISY = counts_of([[9, 0, 0], [0, 9, 0], [0, 9, 0], [0, 9, 0]], ["door", "lid"])  # assigns half of A and the rest to B
@@ -19,7 +18,7 @@ START = np.array([1, 1, 2, 0])
 
 
 def run(counts: list[Counts], start=START, seed: int = 0) -> np.ndarray:
-    return maximise(counts, np.asarray(start), int(np.max(start)), np.random.default_rng(seed), CONFIG)
+    return maximise(counts, np.asarray(start), int(np.max(start)), np.random.default_rng(seed))
 
 
 def same_partition(a, b) -> bool:
@@ -109,7 +108,7 @@ def test_instances_are_labelled_by_majority_and_what_is_unmasked_is_no_part() ->
     row = row_cloud([0.0, 0.05, 0.1, 0.2])
     start = Instances(np.array([1, 1, 2, 0]), ("door", "lid"))
     wrong = replace(CLEAN, labels=("lid", "lid"))
-    found = refine_instances(row, [CLEAN, CLEAN, wrong], start, np.random.default_rng(0), CONFIG)
+    found = refine_instances(row, [CLEAN, CLEAN, wrong], start, np.random.default_rng(0))
     assert [found.labels[n - 1] if n > 0 else "" for n in found.number] == ["door", "door", "lid", ""]
 
 
@@ -119,7 +118,7 @@ def test_an_instance_is_split_where_it_is_not_connected_and_unseen_stays_unseen(
     number = []
     for second in (0.05, 0.5):
         cloud = row_cloud([0.0, second, 0.8, 0.9])
-        number.append(refine_instances(cloud, [view] * 3, start, np.random.default_rng(0), CONFIG).number.tolist())
+        number.append(refine_instances(cloud, [view] * 3, start, np.random.default_rng(0)).number.tolist())
     assert number == [[1, 1, 0, -1], [1, 2, 0, -1]]
 
 
@@ -127,13 +126,13 @@ def test_same_seed_same_result_and_no_masks_no_change() -> None:
     assert (run([CLEAN, NOISY], START, 4) == run([CLEAN, NOISY], START, 4)).all()
     start = Instances(np.array([0, 0, 0, -1]), ())
     bare = counts_of([[9], [9], [9], [0]], [])
-    assert refine_instances(row_cloud([0, 1, 2, 3]), [bare], start, np.random.default_rng(0), CONFIG) is start
+    assert refine_instances(row_cloud([0, 1, 2, 3]), [bare], start, np.random.default_rng(0)) is start
 
 
-def test_no_initial_instance_is_dropped_where_there_are_more_than_the_most() -> None:
-    few = replace(CONFIG, em_most=2)
+def test_no_initial_instance_is_dropped_where_there_are_more_than_the_most(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(em, "MAX_INSTANCES", 2)
     view = counts_of([[90, 0, 0, 0], [0, 5, 0, 0], [0, 0, 40, 0], [0, 0, 0, 9]], ["a", "b", "c"])
-    found = maximise([view] * 3, np.array([1, 2, 3, 0]), 3, np.random.default_rng(0), few)
+    found = maximise([view] * 3, np.array([1, 2, 3, 0]), 3, np.random.default_rng(0))
     assert same_partition(found, [1, 2, 3, 0])
 
 

@@ -7,7 +7,6 @@ import pytest
 import trimesh
 from assets import box, mesh_of
 
-from anymesh.config import Config, GroundingConfig
 from anymesh.evaluation.ground_truth import GroundTruth, example_truths
 from anymesh.evaluation.score import match_parts, part_ious
 from anymesh.loading import load_mesh, place_mesh
@@ -22,7 +21,7 @@ from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.naming import named_parts
 from anymesh.types.camera import Camera
 
-FEW = GroundingConfig(points=20_000)
+FEW = 20_000  # points
 # A base, a drawer's panel in front of it, the drawer's box behind the panel and inside the base, a loose block in there.
 SHELL = [box((0, 0, 0), (1, 1, 0.02)), box((0, 0, 0.98), (1, 1, 1)), box((0, 0, 0.02), (0.02, 1, 0.98)),
          box((0.98, 0, 0.02), (1, 1, 0.98)), box((0.02, 0.98, 0.02), (0.98, 1, 0.98))]  # fmt: skip
@@ -39,7 +38,7 @@ def parts_of(pieces, told: dict[int, int]) -> tuple[np.ndarray, np.ndarray]:
     whole = object_shape(mesh)
     cloud = sample_cloud(mesh, whole, FEW)
     point = np.array([told.get(int(p), -1) for p in piece[cloud.faces]])
-    return face_parts(mesh, whole, cloud, point, Config()), piece
+    return face_parts(mesh, whole, cloud, point), piece
 
 
 def test_a_box_that_no_view_sees_joins_the_front_that_it_hangs_on() -> None:
@@ -61,7 +60,7 @@ def test_a_small_component_goes_to_the_part_of_most_of_its_points() -> None:
     whole = object_shape(mesh)
     cloud = sample_cloud(mesh, whole, FEW)
     point = np.where(piece[cloud.faces] == 1, (cloud.points[:, 0] > 1.04).astype(int), 0)
-    found = face_parts(mesh, whole, cloud, point, Config())
+    found = face_parts(mesh, whole, cloud, point)
     assert (found == piece).all()
 
 
@@ -76,7 +75,7 @@ def test_a_piece_of_two_parts_is_cut_along_its_superpoints_without_speckles() ->
     point = np.where(rng.random(len(cloud)) < 0.25, ~top, top).astype(int)
     point[rng.random(len(cloud)) < 0.3] = -1
     point[cloud.normals[:, 0] > 0.9] = -1  # a side that no view shows
-    found = face_parts(mesh, whole, cloud, point, Config())
+    found = face_parts(mesh, whole, cloud, point)
     known = mesh.face_normals[:, 0] < 0.9
     assert (found[known] == (mesh.face_normals[known, 2] > 0.9)).all()
     assert set(found[~known]) <= {0, 1}
@@ -89,7 +88,7 @@ def test_what_shows_through_a_gap_tells_nothing() -> None:
     own = piece[cloud.faces]
     point = np.where(own == 5, 1, np.where(own < 5, 0, -1))
     point[np.flatnonzero(own == 6)[::200]] = 0
-    assert (face_parts(mesh, whole, cloud, point, Config())[piece == 6] == 1).all()
+    assert (face_parts(mesh, whole, cloud, point)[piece == 6] == 1).all()
 
 
 def test_nothing_told_is_all_base() -> None:
@@ -121,18 +120,18 @@ def grounded(truth: GroundTruth, exact: bool) -> tuple[float, float]:
     """Return the mean IoU of the movable parts and the IoU of the base for perfect labels of the regions."""
     mesh = place_mesh(load_mesh(truth.mesh)).mesh
     whole = object_shape(mesh)
-    cloud = sample_cloud(mesh, whole, GroundingConfig(points=30_000))
+    cloud = sample_cloud(mesh, whole, 30_000)
     middle, turns = mesh.bounds.mean(0), np.deg2rad(np.arange(0, 360, 45))
     eyes = [middle + mesh.diagonal * np.array([0.97 * np.cos(a), 0.97 * np.sin(a), 0.26]) for a in turns]
     views = [render(mesh, Camera.looking_at(e, middle, np.deg2rad(60.0), 320, 320)) for e in eyes]
-    marks = number_regions(face_regions(whole, cloud), views, whole.diagonal, GroundingConfig())
+    marks = number_regions(face_regions(whole, cloud), views, whole.diagonal)
     shown = seen_points(cloud, views)
     if exact:
         part = [np.bincount(truth.labels[marks.face_mark == n]).argmax() for n in range(1, int(marks.face_mark.max()) + 1)]
         named = [[n for n, p in enumerate(part, 1) if p == k] for k in range(1, len(truth.parts))]
-        found = mark_parts(mesh, whole, marks.face_mark, named, unseen_patches(whole, cloud, shown), Config())
+        found = mark_parts(mesh, whole, marks.face_mark, named, unseen_patches(whole, cloud, shown))
     else:
-        found = face_parts(mesh, whole, cloud, point_parts(cloud, by_masks(truth, marks, cloud, views), shown), Config())
+        found = face_parts(mesh, whole, cloud, point_parts(cloud, by_masks(truth, marks, cloud, views), shown))
     ious = part_ious(found, truth.labels, mesh.face_areas)
     return sum(iou for _, _, iou in match_parts(ious)) / (len(truth.parts) - 1), float(ious[0, 0])
 
@@ -148,8 +147,8 @@ def by_masks(truth: GroundTruth, marks: Marks, cloud: Cloud, views: list[View]) 
             Mask(np.isin(label, [n for n, p in part.items() if p == k]), truth.parts[k].label, int(rng.integers(1, 9)))
             for k in sorted(set(part.values()) - {0})
         ]
-        counts.append(count_points(cloud, view, masks, GroundingConfig()))
-    return refine_instances(cloud, counts, fuse_masks(cloud, counts, GroundingConfig()), rng, GroundingConfig())
+        counts.append(count_points(cloud, view, masks))
+    return refine_instances(cloud, counts, fuse_masks(cloud, counts), rng)
 
 
 ONLY_SLOW = [pytest.param(name, marks=pytest.mark.slow) for name in ("cabinet", "stove_fused", "toy_car")]

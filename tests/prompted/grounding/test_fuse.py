@@ -5,7 +5,6 @@ import pytest
 from assets import box, mesh_of
 from rows import counts_of, row_cloud
 
-from anymesh.config import GroundingConfig
 from anymesh.prompted.grounding.cloud import sample_cloud, sight
 from anymesh.prompted.grounding.fuse import (
     Instances,
@@ -25,10 +24,9 @@ from anymesh.rendering.render import render
 from anymesh.segmentation.divide import object_shape
 from anymesh.types.camera import Camera
 
-FEW = GroundingConfig(points=10_000)
 MESH, PIECE = mesh_of([box((0, 0, 0), (1, 1, 1)), box((0, -0.2, 0), (0.48, -0.1, 1)), box((0.52, -0.2, 0), (1, -0.1, 1))])
 WHOLE = object_shape(MESH)
-CLOUD = sample_cloud(MESH, WHOLE, FEW)
+CLOUD = sample_cloud(MESH, WHOLE, 10_000)
 VIEWS = [
     render(MESH, Camera.looking_at(np.array(e), np.array([0.5, 0.4, 0.5]), 1.0, 200, 200))
     for e in ((0.5, -2.0, 0.6), (1.8, -1.4, 0.8), (-0.8, -1.4, 0.8))
@@ -41,7 +39,7 @@ def masks_of(view, instances=(1, 2)) -> list[Mask]:
 
 
 def test_counts_add_up() -> None:
-    c = count_points(CLOUD, VIEWS[0], masks_of(VIEWS[0]), FEW)
+    c = count_points(CLOUD, VIEWS[0], masks_of(VIEWS[0]))
     assert (c.top.sum(1) == c.seen).all()
     assert (c.inside == c.top[:, :-1]).all()  # these masks do not overlap
     assert c.seen.sum() == len(sight(CLOUD, VIEWS[0]).points)
@@ -50,7 +48,7 @@ def test_counts_add_up() -> None:
 def test_a_smaller_mask_owns_the_pixels_of_both() -> None:
     large, small = masks_of(VIEWS[1])
     both = Mask(large.pixels | small.pixels, "front")
-    c = count_points(CLOUD, VIEWS[1], [small, both], FEW)
+    c = count_points(CLOUD, VIEWS[1], [small, both])
     assert c.labels == ("front", "door")
     assert (c.inside[:, 0] >= c.inside[:, 1]).all()
     assert ((c.top[:, 0] + c.top[:, 1]) == c.inside[:, 0]).all()
@@ -60,14 +58,14 @@ def test_a_smaller_mask_owns_the_pixels_of_both() -> None:
 def test_masks_of_nearly_all_the_object_and_empty_ones_are_ignored() -> None:
     everything = Mask(VIEWS[0].face >= 0, "cabinet")
     nothing = Mask(np.zeros_like(VIEWS[0].face, dtype=bool), "door")
-    c = count_points(CLOUD, VIEWS[0], [everything, nothing], FEW)
+    c = count_points(CLOUD, VIEWS[0], [everything, nothing])
     assert c.labels == ()
     assert c.top.shape[1] == 1
 
 
 def test_two_doors() -> None:
-    counts = [count_points(CLOUD, v, masks_of(v), FEW) for v in VIEWS]
-    found = fuse_masks(CLOUD, counts, FEW)
+    counts = [count_points(CLOUD, v, masks_of(v)) for v in VIEWS]
+    found = fuse_masks(CLOUD, counts)
     assert found.labels == ("door", "door")
     own = np.zeros(CLOUD.count, int)
     own[CLOUD.superpoint] = PIECE[CLOUD.faces]
@@ -78,20 +76,20 @@ def test_two_doors() -> None:
 
 
 def test_instances_need_not_be_numbered_alike_in_all_views() -> None:
-    same = fuse_masks(CLOUD, [count_points(CLOUD, v, masks_of(v), FEW) for v in VIEWS], FEW)
+    same = fuse_masks(CLOUD, [count_points(CLOUD, v, masks_of(v)) for v in VIEWS])
     orders = ((1, 2), (2, 1), (7, 3))
-    mixed = [count_points(CLOUD, v, masks_of(v, o), FEW) for v, o in zip(VIEWS, orders, strict=True)]
-    assert (fuse_masks(CLOUD, mixed, FEW).number == same.number).all()
+    mixed = [count_points(CLOUD, v, masks_of(v, o)) for v, o in zip(VIEWS, orders, strict=True)]
+    assert (fuse_masks(CLOUD, mixed).number == same.number).all()
 
 
 def test_half_covered_is_enough_over_all_views_that_see_it() -> None:
     one, two = counts_of([[6, 4]], ["lid"]), counts_of([[4, 6]], ["lid"])
-    assert label_superpoints([one, two], FEW)[1].tolist() == [0]
-    assert label_superpoints([one, two, counts_of([[0, 1]], ["lid"])], FEW)[1].tolist() == [-1]
+    assert label_superpoints([one, two])[1].tolist() == [0]
+    assert label_superpoints([one, two, counts_of([[0, 1]], ["lid"])])[1].tolist() == [-1]
 
 
 def test_the_larger_coverage_wins() -> None:
-    names, label = label_superpoints([counts_of([[6, 4, 0], [5, 5, 0], [4, 6, 0]], ["lid", "door"])], FEW)
+    names, label = label_superpoints([counts_of([[6, 4, 0], [5, 5, 0], [4, 6, 0]], ["lid", "door"])])
     assert names == ["door", "lid"]
     assert label.tolist() == [1, 0, 0]
 
@@ -99,22 +97,22 @@ def test_the_larger_coverage_wins() -> None:
 def test_neighbours_of_one_label_are_one_part_unless_a_mask_tells_them_apart() -> None:
     near, far = row_cloud([0.0, 0.045]), row_cloud([0.0, 0.2])
     joint, apart = counts_of([[10, 0], [10, 0]], ["door"]), counts_of([[10, 0, 0], [0, 10, 0]], ["door", "door"])
-    assert fuse_masks(near, [joint], FEW).number.tolist() == [1, 1]
-    assert sorted(fuse_masks(near, [joint, apart], FEW).number) == [1, 2]
-    assert sorted(fuse_masks(far, [apart], FEW).number) == [1, 2]
+    assert fuse_masks(near, [joint]).number.tolist() == [1, 1]
+    assert sorted(fuse_masks(near, [joint, apart]).number) == [1, 2]
+    assert sorted(fuse_masks(far, [apart]).number) == [1, 2]
 
 
 def test_what_hardly_any_view_sees_joins_no_two_parts() -> None:
     row = row_cloud([0.0, 0.045, 0.09])
     told = counts_of([[10, 0, 0], [0, 0, 0], [0, 10, 0]], ["door", "door"])
     middle = counts_of([[0, 0], [10, 0], [0, 0]], ["door"])
-    number = fuse_masks(row, [told, middle], FEW).number
+    number = fuse_masks(row, [told, middle]).number
     assert number[0] != number[2]
 
 
 def test_an_instance_without_a_mask_of_its_size_is_dropped() -> None:
     wide = counts_of([[10, 0], [0, 10], [0, 10], [10, 0]], ["door"])
-    assert fuse_masks(row_cloud([0, 0.2, 0.4, 0.6]), [wide], FEW).number.tolist() == [0, 0, 0, 0]
+    assert fuse_masks(row_cloud([0, 0.2, 0.4, 0.6]), [wide]).number.tolist() == [0, 0, 0, 0]
 
 
 def test_instances_out_of_range_are_refused() -> None:
@@ -174,7 +172,7 @@ def test_marked_parts_that_became_no_part_of_their_own_are_told() -> None:
     assert lost_parts([masks, again], [face, face], np.array([1, 2, 3]), ["knob"] * 3) == ()
 
 
-SAMPLED = GroundingConfig(points=20_000)
+SAMPLED = 20_000  # points
 BODY, FRONT = box((0, 0, 0), (1, 1, 1)), box((0, -0.1, 0), (1, -0.01, 1))
 
 
@@ -210,8 +208,8 @@ def test_masks_of_a_view_stay_on_the_object() -> None:
     mesh, _ = mesh_of([BODY, FRONT])
     views = views_of(mesh)
     masks = [np.ones((1, 300, 300), bool) for _ in views]
-    found = propose_masks(masks, views, SAMPLED)
+    found = propose_masks(masks, views)
     for p, v in zip(found, views, strict=True):
         assert ((p.labels > 0) == (v.face >= 0)).all()
         assert p.numbers == (1,)
-    assert propose_masks([np.zeros((0, 300, 300), bool)] * 3, views, SAMPLED)[0].numbers == ()
+    assert propose_masks([np.zeros((0, 300, 300), bool)] * 3, views)[0].numbers == ()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 from types import SimpleNamespace
@@ -9,8 +10,9 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from assets import box, mesh_of
+from made import smaller
 
-from anymesh.config import Config, GroundingConfig, ViewsConfig
+from anymesh.config import Config
 from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepared
 from anymesh.evaluation.oracle import oracle
 from anymesh.evaluation.score import match_parts, part_ious
@@ -28,16 +30,18 @@ from anymesh.types import JointType, KnownJoint, Mesh, Segmentation
 from anymesh.types.motion import Recognition, RecognizedLabel
 
 TRUTHS = {t.name: t for t in example_truths(Path(__file__).parents[3] / "examples")}
-FEW, VIEWS = GroundingConfig(points=20_000), ViewsConfig(size=320)
-MORE = GroundingConfig(points=80_000)  # masks are fused on the points themselves
 
 
-def found_in(
-    name: str, proposer: str = "exact", grounding: GroundingConfig = FEW
-) -> tuple[GroundTruth, Mesh, SegmentationResult]:
+@pytest.fixture(autouse=True, scope="module")
+def quick() -> Iterator[None]:
+    with smaller(320, 20_000, 80_000):  # masks are fused on the points themselves
+        yield
+
+
+def found_in(name: str, proposer: str = "exact") -> tuple[GroundTruth, Mesh, SegmentationResult]:
     truth = TRUTHS[name]
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = Solver(placed.mesh, Config(grounding=grounding, views=VIEWS, proposer=proposer), lambda _: oracle(prepared(truth)))
+    solver = Solver(placed.mesh, Config(proposer=proposer), lambda _: oracle(prepared(truth)))
     return truth, placed.mesh, solver.parts("auto", solver.answers.recognize().recognition)
 
 
@@ -58,7 +62,7 @@ def test_marks_become_parts_those_inside_too() -> None:
 def test_parts_inside_come_from_geometry_without_an_answer() -> None:
     truth = TRUTHS["microwave"]
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: oracle(prepared(truth)))
+    solver = Solver(placed.mesh, Config(), lambda _: oracle(prepared(truth)))
     asked = [label for label in solver.answers.recognize().recognition.labels if label.label != "wheel"]
     found = solver.parts("auto", Recognition("microwave", None, tuple(asked)))
     assert "wheel" in ious(truth, placed.mesh, found.segmentation) or len(found.segmentation.parts) == len(truth.parts)
@@ -95,7 +99,7 @@ def test_ideal_masks_lose_no_part_and_divide_none(name: str, monkeypatch: pytest
     monkeypatch.setattr(prompted_stages, "load_sam", lambda spec: Masker())
     monkeypatch.setattr(ground_masks, "automatic_masks", masks)
     monkeypatch.setattr(ground_masks, "propose_in_views", propose)
-    truth, mesh, found = found_in(name, "sam:some", MORE)
+    truth, mesh, found = found_in(name, "sam:some")
     got = ious(truth, mesh, found.segmentation)
     assert set(got) == {p.name for p in truth.parts[1:]}
     assert len(found.segmentation.parts) == len(truth.parts)
@@ -119,7 +123,7 @@ def test_marks_take_one_question_whose_captions_name_sides_by_the_recognized_fro
                 return replace(found, unsure=found.parts[0].marks)
             return replace(found, front=90.0)
 
-    solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: Watched())
+    solver = Solver(placed.mesh, Config(), lambda _: Watched())
     recognition = solver.answers.recognize().recognition
     found = solver.parts("auto", recognition)
     assert [q.kind for q in asked] == ["recognize", "marks"]  # which views show a label is asked about masks alone
@@ -127,7 +131,7 @@ def test_marks_take_one_question_whose_captions_name_sides_by_the_recognized_fro
     captions = [p.caption.partition(": ")[2] for p in asked[1].pictures]
     sides = {"from the left, 15 degrees up": 0.0, "from the front, 15 degrees up": 90.0, "from the back, 15 degrees up": 270.0}
     seen = dict(zip(captions, asked[1].faces, strict=True))
-    views = dict(zip([azimuth for azimuth, _ in VIEWS.directions], solver.answers.visual_prompts.views, strict=False))
+    views = dict(zip([azimuth for azimuth, _ in Config().directions], solver.answers.visual_prompts.views, strict=False))
     assert all("turned" not in caption for caption in captions)
     assert any((seen[side] == views[azimuth].face).all() for side, azimuth in sides.items() if side in seen)
     (part,) = found.segmentation.parts[1:]
@@ -138,7 +142,7 @@ def test_marks_take_one_question_whose_captions_name_sides_by_the_recognized_fro
 def test_what_is_expected_and_not_there_is_told() -> None:
     truth = TRUTHS["tilted_drawer"]
     placed = place_mesh(load_mesh(truth.mesh))
-    solver = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: oracle(prepared(truth)))
+    solver = Solver(placed.mesh, Config(), lambda _: oracle(prepared(truth)))
     asked = [RecognizedLabel(label, None, None, None) for label in ("drawer", "trapdoor")]
     found = solver.parts("auto", Recognition("cabinet", None, tuple(asked)))
     assert [p.label for p in found.segmentation.parts] == ["base", "drawer"]
@@ -154,9 +158,7 @@ def test_where_nothing_moves_nothing_is_asked() -> None:
         def ask(self, question):
             raise AssertionError(f"asked {question.kind}")
 
-    found = Solver(placed.mesh, Config(grounding=FEW, views=VIEWS), lambda _: Silent()).parts(
-        "auto", Recognition("table", None, ())
-    )
+    found = Solver(placed.mesh, Config(), lambda _: Silent()).parts("auto", Recognition("table", None, ()))
     assert [p.name for p in found.segmentation.parts] == ["base"]
     assert "no moving part was found" in found.warnings
 
@@ -164,7 +166,7 @@ def test_where_nothing_moves_nothing_is_asked() -> None:
 CASE = [box((0, 0, 0), (0.6, 0.4, 0.6))]
 DOORS = [box((0.0, -0.03, 0.0), (0.29, 0.0, 0.6)), box((0.31, -0.03, 0.0), (0.6, 0.0, 0.6))]
 KNOBS = [box((0.24, -0.06, 0.28), (0.27, -0.03, 0.34)), box((0.33, -0.06, 0.28), (0.36, -0.03, 0.34))]
-QUICK = Config(views=ViewsConfig(around="4@15+30,1@50+30", size=240), grounding=GroundingConfig(points=8_000))
+QUICK = Config(viewpoints="4@15+30,1@50+30")
 
 
 class Scripted:

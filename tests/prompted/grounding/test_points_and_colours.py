@@ -11,9 +11,11 @@ from assets import box, mesh_of
 from drawn_views import blocks, drawn_view
 from rows import counts_of, row_cloud
 
-from anymesh.config import Config, GroundingConfig
+from anymesh.config import Config
+from anymesh.prompted.grounding import cloud as cloud_module
+from anymesh.prompted.grounding import em, regions
 from anymesh.prompted.grounding import ground as ground_masks
-from anymesh.prompted.grounding.cloud import Cloud, sample_cloud, seen_points, sight
+from anymesh.prompted.grounding.cloud import MIN_SUPERPOINT_POINTS, Cloud, sample_cloud, seen_points, sight
 from anymesh.prompted.grounding.em import maximise, near_superpoints, refine_instances
 from anymesh.prompted.grounding.fuse import Instances, Mask, count_points
 from anymesh.prompted.grounding.regions import face_regions
@@ -21,7 +23,7 @@ from anymesh.prompted.grounding.sam import ProposedMask
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Material, Mesh
 
-FEW = GroundingConfig(points=10_000)
+FEW = 10_000  # points
 SIZE = 64
 FOCAL = SIZE / 2 / np.tan(np.deg2rad(30))  # [px]; the camera of a drawn view is at (0, -1, 0) and looks along +y
 BACK = np.array([0.0, -1, 0])
@@ -75,7 +77,7 @@ def test_masks_and_superpoints_have_their_pixels_as_boxes() -> None:
     view = drawn_view(blocks(SIZE, (0, 0, SIZE, SIZE)))
     cloud = cloud_at([at(10.5, 20.5), at(30.5, 25.5), at(12.5, 40.5)], [0, 0, 0])
     pixels = blocks(SIZE, (8, 18, 10, 40)) == 0
-    found = count_points(cloud, view, [Mask(pixels, "door", 3)], FEW)
+    found = count_points(cloud, view, [Mask(pixels, "door", 3)])
     assert found.box.tolist() == [[10, 20, 30, 40]]
     assert found.mask_box.tolist() == [[8, 18, 17, 57]]
     assert (found.seen.tolist(), found.inside.tolist(), found.top.tolist()) == ([3], [[2]], [[2, 1]])
@@ -86,7 +88,7 @@ def test_masks_and_superpoints_have_their_pixels_as_boxes() -> None:
 def test_a_mask_of_more_than_95_percent_of_the_object_is_left_out(columns: int, kept: bool) -> None:
     view = drawn_view(np.zeros((SIZE, SIZE), int))
     mask = Mask(blocks(SIZE, (0, 0, columns, SIZE)) == 0, "door")
-    assert count_points(cloud_at([at(5, 5)], [0]), view, [mask], FEW).labels == (("door",) if kept else ())
+    assert count_points(cloud_at([at(5, 5)], [0]), view, [mask]).labels == (("door",) if kept else ())
 
 
 def two_coloured(difference: float, side: float) -> tuple[Mesh, np.ndarray]:
@@ -101,11 +103,14 @@ def two_coloured(difference: float, side: float) -> tuple[Mesh, np.ndarray]:
 
 
 @pytest.mark.parametrize(("difference", "side", "count"), [(0.1, 0.8, 1), (0.14, 0.8, 2), (0.14, 0.15, 1)])
-def test_colours_divide_a_large_patch_from_a_difference_of_an_eighth(difference: float, side: float, count: int) -> None:
+def test_colours_divide_a_large_patch_from_a_difference_of_an_eighth(
+    monkeypatch: pytest.MonkeyPatch, difference: float, side: float, count: int
+) -> None:
     """The smallest board is below 2 % of the surface."""
     mesh, piece = two_coloured(difference, side)
     whole = object_shape(mesh)
-    region = face_regions(whole, sample_cloud(mesh, whole, replace(FEW, color_weight=3.0)))
+    monkeypatch.setattr(cloud_module, "COLOR_WEIGHT", 3.0)
+    region = face_regions(whole, sample_cloud(mesh, whole, FEW))
     assert len(set(region[piece == 1])) == count
     assert set(region[piece == 0]).isdisjoint(region[piece == 1])
 
@@ -130,7 +135,7 @@ def test_a_superpoint_of_few_points_joins_its_neighbour_with_the_longest_border(
     painted = replace(mesh, face_material=piece, materials=materials)
     cloud = sample_cloud(painted, object_shape(painted), FEW)
     assert cloud.count == count
-    assert np.bincount(cloud.superpoint).min() >= FEW.least_points
+    assert np.bincount(cloud.superpoint).min() >= MIN_SUPERPOINT_POINTS
 
 
 def test_borders_are_pairs_of_superpoints_of_one_patch() -> None:
@@ -154,21 +159,26 @@ def test_superpoints_are_near_by_their_closest_points(gap: float, near: bool) ->
     assert near_superpoints(borders, 0.02).tolist() == [[0, 1]]
 
 
-def test_an_instance_has_the_label_of_most_of_its_points_and_none_if_most_are_in_no_mask() -> None:
+def test_an_instance_has_the_label_of_most_of_its_points_and_none_if_most_are_in_no_mask(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
     row, start = row_cloud([0.0, 0.05]), Instances(np.array([1, 1]), ("door",))
-    once = replace(GroundingConfig(), em_epochs=0)
+    monkeypatch.setattr(em, "EPOCHS", 0)
     for top, labels in (([[5, 4, 0], [5, 5, 1]], ("door",)), ([[3, 4, 0], [5, 5, 1]], ("lid",)), ([[5, 4, 6], [0, 0, 5]], ())):
         counts = counts_of(top, ["door", "lid"])
-        found = refine_instances(row, [counts], start, np.random.default_rng(0), once)
+        found = refine_instances(row, [counts], start, np.random.default_rng(0))
         assert found.labels == labels
         assert found.number.tolist() == [len(labels)] * 2
 
 
 @pytest.mark.parametrize(("initial", "extra", "most", "number"), [(1, 5, 28, 2), (1, 0, 28, 2), (3, 5, 4, 4)])
-def test_superpoints_of_no_part_start_in_an_instance_of_their_own(initial: int, extra: int, most: int, number: int) -> None:
-    config = replace(GroundingConfig(), em_extra=extra, em_most=most, em_epochs=0)
+def test_superpoints_of_no_part_start_in_an_instance_of_their_own(
+    monkeypatch: pytest.MonkeyPatch, initial: int, extra: int, most: int, number: int
+) -> None:
+    for name, value in {"EXTRA_INSTANCES": extra, "MAX_INSTANCES": most, "EPOCHS": 0}.items():
+        monkeypatch.setattr(em, name, value)
     start = np.array([*range(1, initial + 1), 0, -1])
-    found = maximise([], start, initial, np.random.default_rng(0), config)
+    found = maximise([], start, initial, np.random.default_rng(0))
     assert found.tolist() == [*range(initial), initial, initial]
     assert len(set(found.tolist())) == number
 
@@ -195,9 +205,8 @@ def test_masks_of_both_pictures_of_a_view_are_proposed_and_exact_regions_on_requ
         return [ProposedMask(np.packbits(shown), shown.shape, 0.9, 0.9, (0, 0, 1, 1))] if shown.any() else []
 
     monkeypatch.setattr(ground_masks, "automatic_masks", masks)
-    few = replace(GroundingConfig(), least_mask=1600)
+    monkeypatch.setattr(regions, "MIN_MASK_PIXELS", 1600)
     for proposer, count in (("sam:x", 1), ("exact+sam:x", 3)):
-        config = Config(proposer=proposer, grounding=few)
-        (found,) = ground_masks.propose_in_views(np.array([0, 1]), 1.0, [view], Model(), config)
+        (found,) = ground_masks.propose_in_views(np.array([0, 1]), 1.0, [view], Model(), Config(proposer=proposer))
         assert len(found.numbers) == count
     assert len(images) == 4

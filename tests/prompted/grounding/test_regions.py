@@ -3,24 +3,26 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from unittest.mock import patch
 
 import numpy as np
 import pytest
 import trimesh
 from assets import box, mesh_of
+from drawn_views import blocks, drawn_view
 from rows import row_cloud
 
-from anymesh.config import GroundingConfig, ViewsConfig
 from anymesh.prompted.grounding import regions
+from anymesh.prompted.grounding import views as views_module
 from anymesh.prompted.grounding.cloud import sample_cloud
-from anymesh.prompted.grounding.regions import face_regions, number_regions, split_marks
+from anymesh.prompted.grounding.regions import face_regions, min_pixels, number_regions, split_marks
 from anymesh.prompted.grounding.views import close_ups
 from anymesh.rendering.render import render
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Material, Mesh
 from anymesh.types.camera import Camera
 
-FEW = GroundingConfig(points=20_000)
+FEW = 20_000  # points
 BODY, FRONT = box((0, 0, 0), (1, 1, 1)), box((0, -0.1, 0), (1, -0.01, 1))
 KNOB, DOT = box((0.4, -0.15, 0.4), (0.6, -0.1, 0.6)), box((0.2, -0.105, 0.2), (0.207, -0.1, 0.207))
 INNER = box((0.3, 0.3, 0.3), (0.6, 0.6, 0.6))
@@ -36,7 +38,7 @@ def shown(mesh: Mesh, size: int = 300):
 
 def marks_of(mesh: Mesh, size: int = 300):
     whole, cloud, views = shown(mesh, size)
-    return number_regions(face_regions(whole, cloud), views, whole.diagonal, FEW), cloud, views
+    return number_regions(face_regions(whole, cloud), views, whole.diagonal), cloud, views
 
 
 def test_a_mark_is_a_patch_and_what_no_view_shows_has_none() -> None:
@@ -49,16 +51,17 @@ def test_a_mark_is_a_patch_and_what_no_view_shows_has_none() -> None:
         assert ((marks.in_view(view) > 0) == (view.face >= 0)).all()
 
 
-def test_what_is_too_small_joins_what_it_touches_and_a_close_up_shows_it() -> None:
+def test_what_is_too_small_joins_what_it_touches_and_a_close_up_shows_it(monkeypatch: pytest.MonkeyPatch) -> None:
     mesh, piece = mesh_of([BODY, FRONT, KNOB, DOT])
     whole, cloud, views = shown(mesh)
     region = face_regions(whole, cloud)
-    joined = number_regions(region, views, whole.diagonal, FEW).face_mark
+    joined = number_regions(region, views, whole.diagonal).face_mark
     assert set(joined[piece == 3]) == set(joined[piece == 1])
-    cameras = close_ups(region, cloud, views, replace(ViewsConfig(), size=300, zoom_size=6000))
+    monkeypatch.setattr(views_module, "MAX_ZOOM", 20.0)
+    cameras = close_ups(region, cloud, views)
     assert 1 <= len(cameras) <= 2
     views += [render(mesh, camera) for camera in cameras]
-    own = number_regions(region, views, whole.diagonal, FEW).face_mark
+    own = number_regions(region, views, whole.diagonal).face_mark
     assert len(set(own[piece == 3])) == 1
     assert not set(own[piece == 3]) & (set(own[piece == 1]) | {-1})
 
@@ -83,7 +86,7 @@ def test_a_piece_without_area_is_no_region() -> None:
     region = face_regions(whole, cloud)
     assert all(len(np.unique(region[piece == k])) == 1 for k in (2, 4))
     assert not np.isin(region[piece == 2], region[piece == 4]).any()
-    assert set(number_regions(region, views, whole.diagonal, FEW).face_mark) >= {1, 2, 3}
+    assert set(number_regions(region, views, whole.diagonal).face_mark) >= {1, 2, 3}
 
 
 def test_a_large_piece_of_two_colours_is_two_regions() -> None:
@@ -131,7 +134,7 @@ def test_a_mark_is_split_at_its_edges_and_no_other_is_touched() -> None:
     marks, cloud, views = marks_of(mesh)
     (first,) = set(marks.face_mark[piece == 0])
     (second,) = set(marks.face_mark[piece == 1])
-    found = split_marks(marks, [int(first)], mesh, cloud, views, FEW)
+    found = split_marks(marks, [int(first)], mesh, cloud, views)
     assert (found.face_mark[piece == 1] == second).all()
     sides = {}
     for normal in ((0, -1, 0), (0, 0, 1), (-1, 0, 0)):  # the views are from the front, slightly above
@@ -162,7 +165,7 @@ def test_a_mark_is_split_at_a_seam_that_is_closed_in_places(closed: float, divid
     x, front = mesh.triangles[:, :, 0], (mesh.triangles[:, :, 1] == 0).all(1)
     left, right = front & (x < 0.4).all(1), front & (x > 0.6).all(1)
     (whole,) = set(marks.face_mark[left | right])
-    found = split_marks(marks, [int(whole)], mesh, cloud, views, FEW).face_mark
+    found = split_marks(marks, [int(whole)], mesh, cloud, views).face_mark
     assert len(set(found[left])) == len(set(found[right])) == 1
     assert (set(found[left]) != set(found[right])) == divided
 
@@ -195,3 +198,62 @@ def test_at_a_tie_the_first_region_is_used(face: int) -> None:
     found = regions_of([0, 1, face, face, 2], [0, 1, 0, 1, 1], [0.0, 1, 0, 1, 1], [(0, 1)])
     assert found[2] == 1
     assert found[1 - face] == [1, 0][face]
+
+
+MIN_MASK = 1600  # in views of 64 px: 16 px for masks, 4 px for exact regions
+
+
+def region_marks(region: list[int], *faces: np.ndarray, depth: np.ndarray | float = 1.0) -> list[int]:
+    """Return the mark of each region of an object with a diagonal of 1 m."""
+    with patch.object(regions, "MIN_MASK_PIXELS", MIN_MASK):
+        found = number_regions(np.array(region), [drawn_view(f, depth) for f in faces], 1.0)
+    return found.face_mark.tolist()
+
+
+def test_a_mask_has_the_same_minimum_size_at_every_resolution() -> None:
+    assert min_pixels(drawn_view(blocks(64))) == 2
+    assert min_pixels(drawn_view(blocks(128))) == 8
+
+
+def test_the_most_visible_regions_over_all_views_are_numbered_first() -> None:
+    one, two = blocks(64, (0, 0, 10, 10), (20, 20, 12, 10)), blocks(64, (0, 0, 10, 10), (20, 20, 0, 0), (40, 40, 11, 10))
+    assert region_marks([0, 1, 2], one, two) == [1, 2, 3]
+    assert region_marks([0, 1, 2], one) == [2, 1, -1]  # the third is not visible
+    assert region_marks([0, -1, 1], one, two) == [1, -1, 2]  # no region
+    assert region_marks([0, 1, 0], one, two) == [1, 2, 1]  # two faces of one region
+
+
+@pytest.mark.parametrize(("width", "own"), [(3, False), (4, True)])
+def test_a_region_of_fewer_than_four_pixels_joins_the_one_that_it_touches_most(width: int, own: bool) -> None:
+    """It lies on the border between two larger ones, with two pixels less on the first."""
+    face = blocks(64, (0, 0, 20, 30), (20, 0, 20, 20), (19, 10, width, 1))
+    found = region_marks([0, 1, 2], face)
+    assert found[2] == (3 if own else 2)
+    seen_well = blocks(64, (0, 0, 0, 0), (0, 0, 0, 0), (0, 0, 2, 2))
+    assert region_marks([0, 1, 2], face, seen_well)[2] == 3  # one view shows it well enough
+
+
+@pytest.mark.parametrize(("step", "joins"), [(0.019, True), (0.021, False)])
+def test_regions_that_are_behind_each_other_do_not_touch(step: float, joins: bool) -> None:
+    """Depths differ by up to 2 % of the diagonal where things touch."""
+    face = blocks(64, (0, 0, 20, 20), (20, 0, 3, 1))
+    assert region_marks([0, 1], face, depth=1 + step * (face == 1)) == [1, 1 if joins else -1]
+    assert region_marks([0, 1], face.T.copy(), depth=1 + step * (face.T == 1)) == [1, 1 if joins else -1]
+
+
+def test_small_regions_in_a_chain_join_what_the_last_of_them_touches() -> None:
+    face = blocks(64, (0, 0, 20, 20), (20, 0, 2, 1), (22, 0, 1, 1))
+    assert region_marks([0, 1, 2], face) == [1, 1, 1]
+    alone = blocks(64, (0, 0, 20, 20), (30, 0, 2, 1), (32, 0, 2, 1))  # together they are large enough
+    assert region_marks([0, 1, 2], alone) == [1, 2, 2]
+
+
+@pytest.mark.parametrize(("most", "found", "crowded"), [(3, [1, 2, 3], 0), (2, [1, 2, 2], 1), (1, [1, 1, 1], 2)])
+def test_the_smallest_regions_join_others_where_there_are_too_many(
+    monkeypatch: pytest.MonkeyPatch, most: int, found: list[int], crowded: int
+) -> None:
+    monkeypatch.setattr(regions, "MAX_MARKS", most)
+    view = drawn_view(blocks(64, (0, 0, 30, 20), (30, 0, 18, 20), (48, 0, 10, 20)))
+    with patch.object(regions, "MIN_MASK_PIXELS", MIN_MASK):
+        marks = number_regions(np.arange(3), [view], 1.0)
+    assert (marks.face_mark.tolist(), marks.crowded) == (found, crowded)

@@ -10,7 +10,6 @@ from assets import box, mesh_of
 from trimesh.remesh import subdivide_to_size
 
 from anymesh.articulation.estimate import stays_free
-from anymesh.config import Config, GroundingConfig, ViewsConfig
 from anymesh.geometry.patches import ObjectShape
 from anymesh.pipeline.solving import Solver
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud
@@ -23,7 +22,7 @@ from anymesh.segmentation.handles import patch_sizes
 from anymesh.types import JointType, Mesh, Part, Segmentation
 from anymesh.types.camera import Camera
 
-FEW = GroundingConfig(points=20_000)
+FEW = 20_000  # points
 BASE = box((0, 0, 0), (3, 3, 0.2))
 
 
@@ -35,7 +34,7 @@ def shape(*pieces) -> tuple[Mesh, ObjectShape, np.ndarray]:
 
 
 def joined(part: list[int], *pieces) -> list[int]:
-    return join_unseen(shape(*pieces)[1], np.array(part), Config()).tolist()
+    return join_unseen(shape(*pieces)[1], np.array(part)).tolist()
 
 
 POST, ARM = box((1, 1, 0.2), (1.2, 1.2, 2)), box((1.2, 1, 1.85), (2, 1.2, 2))
@@ -90,7 +89,7 @@ def voted(pieces: list, share: float) -> list[set[int]]:
         mine = np.flatnonzero(piece[cloud.faces] == k)
         rank[mine[np.argsort(cloud.points[mine, 2], kind="stable")]] = np.linspace(0, 1, len(mine))
     point = np.where(piece[cloud.faces] == 0, 0, (rank > 1 - share).astype(int))
-    found = face_parts(mesh, whole, cloud, point, Config())
+    found = face_parts(mesh, whole, cloud, point)
     return [set(found[piece == k].tolist()) for k in range(len(pieces))]
 
 
@@ -110,7 +109,7 @@ def test_faces_without_a_mark_follow_their_patch(marks: list[int], expected: lis
         box((0, 0, 0), (1, 1, 1)), box((0, 0, 1), (0.5, 0.5, 1.5)), box((4, 0, 0), (5, 1, 1)), box((0, -9, 0), (9, -3, 1))
     )
     mark = np.where(np.arange(48) % 2 == 0, np.array([*marks, 3])[piece], -1)
-    found = mark_parts(mesh, whole, mark, [(1,), (2,)], np.zeros(4, bool), Config())
+    found = mark_parts(mesh, whole, mark, [(1,), (2,)], np.zeros(4, bool))
     assert [set(found[piece == k].tolist()) for k in range(4)] == [*({k} for k in expected), {0}]
 
 
@@ -118,8 +117,8 @@ def test_patches_that_views_hardly_show_are_not_of_the_base() -> None:
     mesh, whole, piece = shape(BASE, POST, ARM)
     mark = np.array([3, 1, 2])[piece]
     shown, hidden = np.zeros(3, bool), np.array([False, False, True])
-    assert mark_parts(mesh, whole, mark, [(1,)], shown, Config())[piece == 2].tolist() == [0] * 12
-    assert mark_parts(mesh, whole, mark, [(1,)], hidden, Config())[piece == 2].tolist() == [1] * 12
+    assert mark_parts(mesh, whole, mark, [(1,)], shown)[piece == 2].tolist() == [0] * 12
+    assert mark_parts(mesh, whole, mark, [(1,)], hidden)[piece == 2].tolist() == [1] * 12
 
 
 def sampled(*pieces) -> tuple[Mesh, ObjectShape, Cloud, np.ndarray]:
@@ -177,7 +176,7 @@ def cameras(*squares: tuple[float, float, float, float]) -> tuple[Camera, ...]:
     mesh, piece = mesh_of([wall, *plates])
     view = render(mesh, Camera.looking_at(np.array([0.0, -1, 0]), np.zeros(3), np.deg2rad(60.0), SIZE, SIZE))
     cloud = sample_cloud(mesh, object_shape(mesh), FEW)
-    return close_ups(piece, replace(cloud, diagonal=1.0), [view], ViewsConfig())
+    return close_ups(piece, replace(cloud, diagonal=1.0), [view])
 
 
 def looks_at(camera: Camera) -> np.ndarray:
@@ -234,17 +233,16 @@ def test_a_part_gains_what_it_holds_unless_it_is_less_free_with_it() -> None:
         return len(asked) == 1
 
     for expected in (1, 0):
-        found = join_unseen(whole, part, Config(), stays_free)
+        found = join_unseen(whole, part, stays_free)
         assert found[part < 0].tolist() == [expected]
         assert (found[part >= 0] == part[part >= 0]).all()
     assert asked == [(1, {0}, {1})] * 2
-    assert join_unseen(whole, part, Config())[part < 0].tolist() == [1]
+    assert join_unseen(whole, part)[part < 0].tolist() == [1]
 
 
 def test_a_drawer_slides_as_far_with_its_box_and_a_door_does_not_turn_with_it() -> None:
     whole, part = pieces(BIN)
-    config = Config().articulation
     joined, alone = np.where(part < 0, 1, part)[whole.patch], np.maximum(part, 0)[whole.patch]
-    assert stays_free(whole, config, alone, joined, 1, JointType.PRISMATIC)
-    assert not stays_free(whole, config, alone, joined, 1, JointType.REVOLUTE)
-    assert stays_free(whole, config, alone, joined, 1)  # without a recognized motion it may be a drawer
+    assert stays_free(whole, alone, joined, 1, JointType.PRISMATIC)
+    assert not stays_free(whole, alone, joined, 1, JointType.REVOLUTE)
+    assert stays_free(whole, alone, joined, 1)  # without a recognized motion it may be a drawer

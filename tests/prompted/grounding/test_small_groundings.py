@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 
 import numpy as np
 import pytest
 from assets import box, mesh_of
+from made import smaller
 
-from anymesh.config import Config, GroundingConfig, ViewsConfig
+from anymesh.config import Config
 from anymesh.prompted.grounding.ground import ground_exactly, ground_parts
 from anymesh.prompted.grounding.mark_questions import MarkQuestioner
 from anymesh.prompted.grounding.regrounding import ground_again
@@ -22,7 +23,7 @@ from anymesh.segmentation.divide import object_shape
 from anymesh.types import Exchange, Mesh, Part, Segmentation
 from anymesh.types.motion import Recognition, RecognizedLabel
 
-QUICK = Config(views=ViewsConfig(around="4@15+30,1@50+30", size=160), grounding=GroundingConfig(points=8_000))
+QUICK = Config(viewpoints="4@15+30,1@50+30")
 CASE = [
     box((0, 0, 0), (1, 1, 0.05)), box((0, 0, 0.95), (1, 1, 1)), box((0, 0, 0.05), (0.05, 1, 0.95)),
     box((0.95, 0, 0.05), (1, 1, 0.95)), box((0.05, 0.95, 0.05), (0.95, 1, 0.95)),
@@ -30,6 +31,12 @@ CASE = [
 DOOR, KNOB = box((0, -0.05, 0), (1, -0.001, 1)), box((0.8, -0.15, 0.4), (0.9, -0.05, 0.6))
 TRAY, PLATE = box((0.2, -0.001, 0.2), (0.8, 0.4, 0.3)), box((0.2, -0.001, 0.6), (0.8, 0.4, 0.7))  # both on the door's back
 DOOR_NUMBER, KNOB_NUMBER, TRAY_NUMBER, PLATE_NUMBER = 5, 6, 7, 8
+
+
+@pytest.fixture(autouse=True, scope="module")
+def quick() -> Iterator[None]:
+    with smaller(160, 8_000):
+        yield
 
 
 @cache

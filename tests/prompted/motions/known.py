@@ -11,7 +11,7 @@ from assets import box
 from scenes import Scene, built, case, door, drawer, lid, slider, wheel
 
 from anymesh.articulation.candidate_motions import CandidateMotions
-from anymesh.config import Config, PromptConfig, ViewsConfig
+from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer
 from anymesh.prompted.motions.cases import PartCase, make_cases
@@ -25,7 +25,7 @@ from anymesh.types.questions import VisualAnswerer
 
 X, Y, Z = np.eye(3)
 # half the resolution
-QUICK = Config(views=ViewsConfig(size=320, zoom_size=2048, zoom_below=1250), prompts=PromptConfig(label_apart=17.5))
+QUICK = Config()
 
 
 def known(kind: str, axis, origin=(0.0, 0, 0), limits: tuple[float, float] | None = (0.0, 1.9)) -> KnownJoint:
@@ -105,7 +105,7 @@ def cases_once(
     whole: ObjectShape, segmentation: Segmentation, recognition: Recognition | None, config: Config
 ) -> list[PartCase]:
     """Return `make_cases`, computed once for the same parts of the same shape."""
-    told = repr((segmentation.parts, recognition, config.articulation, config.prompts, config.seed))
+    told = repr((segmentation.parts, recognition, config.seed))
     key = whole, segmentation.face_part.tobytes(), told
     return list(once(lambda: make_cases(whole, segmentation, recognition, config), *key))
 

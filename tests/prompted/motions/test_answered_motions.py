@@ -12,8 +12,8 @@ from known import KNOWN, QUICK, ready, the_case
 from made import EDGE, PULL, X, Y, Z, slide, turn
 from scenes import door, prism
 
-from anymesh.articulation.estimate import part_motions, stays_free
-from anymesh.config import Config, PromptConfig
+from anymesh.articulation.estimate import MAX_LATE_SWEPT, MAX_SWEPT, part_motions, stays_free
+from anymesh.prompted.motions import lines
 from anymesh.prompted.motions.cases import PartCase, labels_by_name, make_cases, relabelled, unlabelled
 from anymesh.prompted.motions.joints import _joint, as_answered, normal_outwards
 from anymesh.prompted.motions.lines import (
@@ -161,31 +161,31 @@ def across(scale: float):
     return lambda points: points[:, [0, 2]] * scale
 
 
-def test_points_are_added_in_their_order_where_there_is_room_for_their_numbers() -> None:
-    config = PromptConfig(label_apart=10.0, most_candidates=4)
+def test_points_are_added_in_their_order_where_there_is_room_for_their_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(lines, "MIN_LABEL_DISTANCE", 10.0)
     first = np.array([[0.0, 0, 0], [1, 0, 0]])
     more = np.array([[0.05, 0, 0], [2, 0, 0], [3, 0, 0], [4, 0, 0]])
-    assert followed(first, more, across(100), config)[:, 0].tolist() == [0, 1, 2, 3]
+    assert followed(first, more, across(100), 4)[:, 0].tolist() == [0, 1, 2, 3]
     many = np.c_[np.arange(6.0), np.zeros((6, 2))]
-    assert sorted(with_more(many, more + 0.5 * X, across(100), config)[:, 0].tolist()) == [0, 0.55, 2.5, 5]
-    assert followed(first, more[:1], across(300), config)[:, 0].tolist() == [0, 1, 0.05]
+    assert sorted(with_more(many, more + 0.5 * X, across(100), 4)[:, 0].tolist()) == [0, 0.55, 2.5, 5]
+    assert followed(first, more[:1], across(300), 4)[:, 0].tolist() == [0, 1, 0.05]
 
 
 def test_two_clusters_of_a_contact_are_two_points() -> None:
     contact = np.concatenate([np.linspace(0, 0.01, 30), np.linspace(0.99, 1, 10)])[:, None] * X
-    found = cluster_points(contact, across(100), PromptConfig(most_candidates=2))
+    found = cluster_points(contact, across(100), 2)
     assert sorted(found[:, 0].tolist()) == pytest.approx([0.005, 0.995])
-    assert cluster_points(contact, across(10), PromptConfig()) == pytest.approx(contact.mean(0)[None])
+    assert cluster_points(contact, across(10)) == pytest.approx(contact.mean(0)[None])
 
 
 def test_at_most_half_of_the_points_stand_for_axes() -> None:
     context = case_of("wheel").context
     lines = [turn(Y, (0.02 * k, 0, 0.2)) for k in range(6)]
-    points, directions = axis_points(context, lines, across(4000), PromptConfig(most_candidates=6))
+    points, directions = axis_points(context, lines, across(4000), 6)
     assert points[:, 0] == pytest.approx([0, 0.02, 0.04])
     assert len(directions) == 3
     tilted = [turn(np.array([np.sin(a), np.cos(a), 0]), (0, 0, 0.2)) for a in np.deg2rad([44, 47])]
-    assert len(axis_points(context, tilted, across(4000), PromptConfig())[0]) == 1  # up to 45 degrees off the surface's normal
+    assert len(axis_points(context, tilted, across(4000))[0]) == 1  # up to 45 degrees off the surface's normal
 
 
 def test_a_plane_is_that_of_most_points() -> None:
@@ -226,16 +226,16 @@ def test_shares_of_the_offers_sum_to_one_and_the_answer_is_among_them() -> None:
     assert len(found.amounts) == len(found.motions) == len(found.shares)
     motions = scored_motions(case).candidates
     assert motions[0].role == "asked"
-    assert len({id(c.motion) for c in motions}) > 2 * Config().articulation.most_swept  # a model is offered all
+    assert len({id(c.motion) for c in motions}) > 2 * MAX_SWEPT  # a model is offered all
 
 
 def test_after_the_deadline_the_likeliest_motions_are_swept_alone() -> None:
     _, whole, segmentation = ready(door("left"))
     late = Deadline(1e-9)
-    ((_, _, _, motions),) = part_motions(whole, segmentation, Config(), late)
-    assert len(motions.candidates) == 2 * Config().articulation.late_swept
-    ((_, _, _, full),) = part_motions(whole, segmentation, Config())
-    assert len(full.candidates) == 2 * Config().articulation.most_swept
+    ((_, _, _, motions),) = part_motions(whole, segmentation, late)
+    assert len(motions.candidates) == 2 * MAX_LATE_SWEPT
+    ((_, _, _, full),) = part_motions(whole, segmentation)
+    assert len(full.candidates) == 2 * MAX_SWEPT
     assert {c.motion.source for c in motions.candidates} <= {c.motion.source for c in full.candidates}
 
 
@@ -245,6 +245,6 @@ def test_after_the_deadline_the_likeliest_motions_are_swept_alone() -> None:
 def test_a_part_stays_free_with_what_does_not_stop_it(low: tuple, high: tuple, free: bool) -> None:
     """A door gains a piece that reaches into its case, or one on its front."""
     _, whole, segmentation = ready({**door("left"), "gained": [box(low, high)]})
-    label, config = segmentation.face_part[whole.source], Config().articulation
+    label = segmentation.face_part[whole.source]
     without, joined = np.where(label == 2, 0, label), np.where(label == 2, 1, label)
-    assert stays_free(whole, config, without, joined, 1, JointType.REVOLUTE) == free
+    assert stays_free(whole, without, joined, 1, JointType.REVOLUTE) == free

@@ -125,7 +125,7 @@ def chosen(monkeypatch: pytest.MonkeyPatch, offers: MotionOffers, *picks: int | 
     who = Picks(list(picks), offers, fit)
     monkeypatch.setattr("anymesh.prompted.motions.verify.make_offers", lambda *_: offers)
     asking = MotionQuestioner(VisualPrompts(CUBE, QUICK), np.array([0, 1] * 6), who, "object", ask_fit=True)
-    (found,) = choose_motions([offers.case], asking, 7, 0).values()
+    (found,) = choose_motions([offers.case], asking, 0).values()
     assert [q.ask_fit for q in who.asked] == [True, False, False][: len(who.asked)]
     assert all(q.tables[0].moving.tolist() == [1, 3, 5, 7, 9, 11] for q in who.asked)
     return found, who.shown

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from unittest.mock import patch
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from trimesh.creation import annulus
 
 from anymesh.articulation.candidate_motions import PartFacts
 from anymesh.articulation.motion_features import part_values
+from anymesh.prompted.motions import lines
 from anymesh.prompted.motions.joints import PromptedJoints, Questions, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, PointTable
@@ -22,14 +24,13 @@ from anymesh.types import JointType
 from anymesh.types.motion import Recognition, RecognizedLabel
 
 INTO, HIDDEN, ALONG = JointAppearance.HINGE_INTO, JointAppearance.HINGE_HIDDEN, JointAppearance.HINGE_ALONG
-CLOSE = replace(QUICK.prompts, label_apart=2.0)  # numbers may be beside each other
 
 
 @cache
 def asked(name: str, kind: JointAppearance, verify: str = "free") -> tuple[PointTable, PromptedJoints, tuple]:
     """Return the points that were shown, the joints, and the steps of the progress."""
     mesh, whole, segmentation = ready(KNOWN[name].scene)
-    config, steps = replace(QUICK, prompts=CLOSE, verify=verify), []
+    config, steps = replace(QUICK, verify=verify), []
     picks = {"kinds": lambda _: (KindAnswer(kind),), "points": lambda q: ((0,) if kind is INTO else (0, 1),)}
     watched = Watched(true_answers(mesh, segmentation, (KNOWN[name].joint,)), changed=picks)
 
@@ -37,7 +38,8 @@ def asked(name: str, kind: JointAppearance, verify: str = "free") -> tuple[Point
         steps.append((stage, step, count))
 
     questions = Questions(VisualPrompts(mesh, config), watched, config, None, progress)
-    found = prompt_joints(questions, lambda _: whole, segmentation)
+    with patch.object(lines, "MIN_LABEL_DISTANCE", 2.0):  # numbers may be beside each other
+        found = prompt_joints(questions, lambda _: whole, segmentation)
     return next(q for q in watched.asked if q.kind == "points").tables[0], found, tuple(steps)
 
 
@@ -64,7 +66,7 @@ def test_the_paper_shows_more_points_and_no_axes() -> None:
 def test_a_hidden_hinge_has_points_all_over_the_part_too() -> None:
     along, hidden = asked("left", ALONG)[0], asked("left", HIDDEN)[0]
     assert along.axes is None
-    assert len(hidden.points) <= CLOSE.most_candidates
+    assert len(hidden.points) <= lines.MAX_POINTS
     assert along.points[:, 1].min() > -0.02 > hidden.points[:, 1].min()  # also on its front
 
 

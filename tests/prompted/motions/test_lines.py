@@ -13,10 +13,11 @@ from scipy.spatial import KDTree
 from scipy.spatial.distance import pdist
 from scipy.spatial.transform import Rotation
 
-from anymesh.config import GroundingConfig, PromptConfig
 from anymesh.geometry.triangle_set import sample_surface
 from anymesh.prompted.motions.joints import opening_slide
 from anymesh.prompted.motions.lines import (
+    MAX_POINTS,
+    MIN_LABEL_DISTANCE,
     axis_points,
     cluster_points,
     hinge,
@@ -144,10 +145,6 @@ def test_parts_far_apart_have_a_connecting_area_too() -> None:
     assert case.shown.contact[:, 0].max() >= 3.0
 
 
-CONFIG = PromptConfig()
-GROUNDING = GroundingConfig()
-
-
 def across(scale: float):
     """Return a picture of x and z with this many pixels per metre."""
     return lambda points: points[:, [0, 2]] * scale
@@ -167,19 +164,24 @@ def cloud(seed: int, count: int) -> np.ndarray:
     return rng.uniform(-0.5, 0.5, (count, 3)) * rng.uniform(0.01, 1, 3)
 
 
+@pytest.fixture(autouse=True, scope="module")
+def quick() -> None:
+    """Keep numbers as far apart as in full pictures."""
+
+
 @settings(max_examples=25, deadline=None)
 @given(st.integers(0, 10**6), st.integers(1, 300))
 def test_numbers_keep_apart_and_points_are_middles_of_the_contact(seed: int, count: int) -> None:
     contact, project = cloud(seed, count), camera(seed)
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        found = cluster_points(contact, project, CONFIG)
-    assert 1 <= len(found) <= CONFIG.most_candidates
+        found = cluster_points(contact, project)
+    assert 1 <= len(found) <= MAX_POINTS
     nearest = KDTree(found).query(contact)[1]
     for k, point in enumerate(found):
         assert point == pytest.approx(contact[nearest == k].mean(0), abs=0.1 * np.ptp(contact))
-    assert pdist(project(found)).min(initial=np.inf) >= CONFIG.label_apart * (1 - 1e-6)
-    assert np.array_equal(found, cluster_points(contact, project, CONFIG))
+    assert pdist(project(found)).min(initial=np.inf) >= MIN_LABEL_DISTANCE * (1 - 1e-6)
+    assert np.array_equal(found, cluster_points(contact, project))
 
 
 @pytest.mark.parametrize(("length", "count"), [(34, 1), (36, 2), (69, 2), (71, 3), (141, 5), (5000, 20)])
@@ -187,24 +189,24 @@ def test_as_many_points_are_kept_as_have_room(length: float, count: int) -> None
     """Clusters of a few pixels are evenly spaced along a line, so that another one would be too close."""
     ends = np.linspace(0, 1, count)
     contact = np.concatenate([np.c_[ends, 0 * ends, d + 0 * ends] for d in (-1e-4, 0, 1e-4)])
-    found = cluster_points(contact, across(length), CONFIG)
+    found = cluster_points(contact, across(length))
     assert np.sort(found[:, 0]) == pytest.approx(ends)
 
 
 def test_of_points_behind_one_another_one_is_kept() -> None:
     contact = np.array([[0, 0, 0], [0, 1, 0], [0, 2, 0]], float)
-    assert len(cluster_points(contact, across(100), CONFIG)) == 1
+    assert len(cluster_points(contact, across(100))) == 1
 
 
 def test_the_picture_that_is_shown_decides() -> None:
     contact = cloud(3, 200)
-    counts = [len(cluster_points(contact, across(scale), CONFIG)) for scale in (10, 200, 2000)]
+    counts = [len(cluster_points(contact, across(scale))) for scale in (10, 200, 2000)]
     assert counts[0] < counts[1] < counts[2]
 
 
 def test_many_contacts_are_thinned_and_still_cover_all() -> None:
     contact = np.c_[np.linspace(0, 1, 20_001), np.zeros((20_001, 2))]
-    found = cluster_points(contact, across(140), CONFIG)[:, 0]
+    found = cluster_points(contact, across(140))[:, 0]
     assert len(found) >= 3
     assert np.ptp(found) > 0.6
 
@@ -215,7 +217,7 @@ CUBE = CORNERS[FACES]
 
 def centres(colors: np.ndarray | None = None, count: int = 1200) -> np.ndarray:
     samples = sample_surface(CUBE, count, 0)
-    return superpoint_centres(samples, np.zeros((count, 3)) if colors is None else colors, GROUNDING)
+    return superpoint_centres(samples, np.zeros((count, 3)) if colors is None else colors)
 
 
 def test_a_box_has_a_superpoint_a_side() -> None:
@@ -247,7 +249,7 @@ def test_few_samples_have_a_centre_too(count: int) -> None:
 def test_more_points_are_added_in_their_order_where_they_have_room() -> None:
     first = np.array([[0.0, 0, 0], [1, 0, 0]])
     more = np.array([[0.1, 0, 0.1], [0.5, 0, 0], [0.6, 0, 0.1], [0.5, 0, 0.5]])
-    found = with_more(first, more, across(100), CONFIG)
+    found = with_more(first, more, across(100))
     assert len(found) == 4
     assert np.array_equal(found[2:], more[[1, 3]])  # the others are too close to earlier ones
 
@@ -256,23 +258,23 @@ def test_more_points_are_added_in_their_order_where_they_have_room() -> None:
 @given(st.integers(0, 10**6))
 def test_the_first_points_take_half_of_the_places_at_most(seed: int) -> None:
     first, more = cloud(seed, 20), cloud(seed + 1, 60)
-    found = with_more(first, more, across(10_000), CONFIG)
-    assert len(found) <= CONFIG.most_candidates
+    found = with_more(first, more, across(10_000))
+    assert len(found) <= MAX_POINTS
     ours = KDTree(first).query(found)[0] == 0
-    assert ours.sum() == CONFIG.most_candidates // 2
+    assert ours.sum() == MAX_POINTS // 2
 
 
 def test_a_ring_of_contact_has_its_middle_as_a_candidate_and_not_a_point_of_the_ring() -> None:
     turn = np.linspace(0, 2 * np.pi, 60, endpoint=False)
     ring = np.c_[np.cos(turn), 0 * turn, np.sin(turn)]
-    assert cluster_points(ring, across(20), CONFIG) == pytest.approx(np.zeros((1, 3)), abs=1e-9)
+    assert cluster_points(ring, across(20)) == pytest.approx(np.zeros((1, 3)), abs=1e-9)
 
 
 def test_axes_into_the_surface_are_points_where_they_come_out() -> None:
     context = the_case(KNOWN["wheel"].scene).context
     hub, off = (Motion(JointType.REVOLUTE, Y, np.array([x, 0.3, 0.2]), "hub") for x in (0.0, 0.05))
     along = Motion(JointType.REVOLUTE, np.array([1.0, 0, 0]), np.zeros(3), "along")
-    points, axes = axis_points(context, [hub, along, off, hub], across(2000), CONFIG)
+    points, axes = axis_points(context, [hub, along, off, hub], across(2000))
     # neither one along the surface, nor a duplicate
     assert points[:, [0, 2]] == pytest.approx(np.array([[0, 0.2], [0.05, 0.2]]))
     assert points[:, 1] == pytest.approx(context.part.bounds[0 if context.opening_direction @ Y < 0 else 1, 1])

@@ -12,6 +12,8 @@ from scenes import Scene
 from anymesh.evaluation.score import angle_error, line_distance, opens_both_ways
 from anymesh.prompted.motions.cases import ask_each
 from anymesh.prompted.motions.joints import Questions, prompt_joints
+from anymesh.prompted.motions.lines import MAX_POINTS
+from anymesh.prompted.motions.verify import MOTIONS_IN_PICTURE
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, MotionPick, WhichMotions
 from anymesh.types import Joint, JointType, KnownJoint, Motion, Part
 from anymesh.types.motion import Recognition, RecognizedLabel
@@ -151,8 +153,8 @@ def test_tables_hold_what_is_drawn() -> None:
     _, points, motions = answered("left")[1].asked
     (table,), (moves,) = points.tables, motions.tables
     assert table.kind is JointAppearance.HINGE_ALONG
-    assert 2 <= len(table.points) <= QUICK.prompts.most_candidates
-    assert 2 <= len(moves.motions) == len(moves.amounts) <= QUICK.prompts.motions
+    assert 2 <= len(table.points) <= MAX_POINTS
+    assert 2 <= len(moves.motions) == len(moves.amounts) <= MOTIONS_IN_PICTURE
     assert min(moves.amounts) > 0
 
 

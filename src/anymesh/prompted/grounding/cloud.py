@@ -9,7 +9,6 @@ import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
 from scipy.spatial import KDTree
 
-from anymesh.config import GroundingConfig
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.superpoints import superpoints
 from anymesh.geometry.topology import label_connected, strongest
@@ -18,6 +17,10 @@ from anymesh.rendering.render import View, face_colors
 from anymesh.types import Mesh
 
 CUT_POINTS = 40_000  # points used for the cut; 800k points would take 20 s and give the same borders
+NEIGHBOURS = 10  # points that each point is connected to
+STRENGTH = 0.05  # of l0 cut pursuit on [normal, COLOR_WEIGHT * colour]
+COLOR_WEIGHT = 0.3
+MIN_SUPERPOINT_POINTS = 10  # smaller superpoints join a neighbour
 FOOTPRINT = 1.5  # [px] a point is visible if its depth is this close to that of its pixel and the normals agree
 MIN_NORMAL_COSINE = 0.7  # minimum cosine between these normals: separates the back of a door from the rim beside it
 SIMILAR = 0.9  # minimum cosine between normals of one surface
@@ -61,14 +64,14 @@ class Sight:
     pixels: Int[np.ndarray, " k"]
 
 
-def sample_cloud(mesh: Mesh, whole: ObjectShape, config: GroundingConfig, seed: int = 0) -> Cloud:
-    """Sample points evenly by area, at least one per face, and cut them into superpoints by normal and colour.
+def sample_cloud(mesh: Mesh, whole: ObjectShape, count: int, seed: int = 0) -> Cloud:
+    """Sample about `count` points evenly by area, at least one per face, and cut them into superpoints by normal and colour.
 
     The superpoints come from l0 cut pursuit.
     """
-    s = sample_surface(mesh.triangles, config.points, seed, at_least=1)
+    s = sample_surface(mesh.triangles, count, seed, at_least=1)
     colors = point_colors(mesh, s)
-    label, borders = find_superpoints(s, colors, whole.mesh_patch[s.faces], config)
+    label, borders = find_superpoints(s, colors, whole.mesh_patch[s.faces])
     boxes = np.stack([np.full((int(label.max()) + 1, 3), np.inf), np.full((int(label.max()) + 1, 3), -np.inf)], 1)
     np.minimum.at(boxes[:, 0], label, s.points)
     np.maximum.at(boxes[:, 1], label, s.points)
@@ -106,7 +109,7 @@ def _barycentric(t: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 
 def find_superpoints(
-    s: SurfacePoints, colors: UInt8[np.ndarray, "n 3"], patch: Int[np.ndarray, " n"], config: GroundingConfig
+    s: SurfacePoints, colors: UInt8[np.ndarray, "n 3"], patch: Int[np.ndarray, " n"]
 ) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, "m 2"]]:
     """Return a superpoint index per point, and the pairs of adjacent superpoints.
 
@@ -118,17 +121,17 @@ def find_superpoints(
     chosen = np.union1d(chosen, first)  # at least one point per patch
     beyond = 10 * float(np.ptp(s.points, axis=0).max())
     own = np.c_[s.points, beyond * patch][chosen]  # a coordinate that keeps neighbours within a patch, however thin a gap is
-    near = KDTree(own).query(own, k=min(config.neighbours + 1, len(chosen)), workers=-1)[1]
+    near = KDTree(own).query(own, k=min(NEIGHBOURS + 1, len(chosen)), workers=-1)[1]
     near = near.reshape(len(chosen), -1)
     edges = np.sort(np.stack([np.repeat(np.arange(len(chosen)), near.shape[1]), near.reshape(-1)], 1), 1)
     edges = edges[(edges[:, 0] != edges[:, 1]) & (patch[chosen[edges[:, 0]]] == patch[chosen[edges[:, 1]]])]
     key = np.unique(edges @ np.array([len(chosen), 1]))
     edges = np.stack([key // len(chosen), key % len(chosen)], 1)
-    signal = np.concatenate([s.normals, config.color_weight * colors / 255.0], 1)[chosen]
+    signal = np.concatenate([s.normals, COLOR_WEIGHT * colors / 255.0], 1)[chosen]
     ones = np.ones(len(chosen))
-    label = superpoints(signal, ones, edges, np.ones(len(edges)), config.strength)
+    label = superpoints(signal, ones, edges, np.ones(len(edges)), STRENGTH)
     nearest = _nearest_alike(s, patch, chosen)
-    label = _absorb_small(label, np.bincount(nearest, minlength=len(chosen)), edges, config.least_points)
+    label = _absorb_small(label, np.bincount(nearest, minlength=len(chosen)), edges, MIN_SUPERPOINT_POINTS)
     pairs = np.sort(label[edges], 1)
     return label[nearest], np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
 

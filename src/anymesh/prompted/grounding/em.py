@@ -12,43 +12,45 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy.spatial import KDTree
 
-from anymesh.config import GroundingConfig
 from anymesh.geometry.topology import label_connected
 from anymesh.prompted.grounding.cloud import Cloud
 from anymesh.prompted.grounding.fuse import Counts, Instances
 
+EXTRA_INSTANCES = 5  # instances in addition to the initial ones
+MAX_INSTANCES = 28  # instances up to which these are added; initial ones are never dropped
+EPOCHS = 10
+RATE = 1.0  # learning rate of Adam
+CONNECT_RATIO = 0.025  # of the diagonal: an instance is split at larger distances between its points
 CERTAIN = 3.0  # initial logit of the instance that a superpoint starts in; the others start at 0
 MIN_PROBABILITY = 1e-7  # distance of probabilities from 0 and 1
 ADAM = (0.9, 0.999, 1e-8)  # Kingma and Ba 2015: decay of the gradient's mean, decay of its square's mean, and epsilon
 JOIN_POINTS = 40_000  # points of the cloud used to find neighbouring superpoints
 
 
-def refine_instances(
-    cloud: Cloud, counts: Sequence[Counts], start: Instances, rng: np.random.Generator, config: GroundingConfig
-) -> Instances:
+def refine_instances(cloud: Cloud, counts: Sequence[Counts], start: Instances, rng: np.random.Generator) -> Instances:
     """Refine the initial instances to explain the masks, split unconnected ones, and label each by majority."""
     if not any(c.labels for c in counts):
         return start
-    chosen = maximise(counts, start.number, len(start.labels), rng, config)
+    chosen = maximise(counts, start.number, len(start.labels), rng)
     seen = np.asarray(sum(c.seen for c in counts)) > 0
-    split = _split(chosen, near_superpoints(cloud, config.em_connect * cloud.diagonal))
+    split = _split(chosen, near_superpoints(cloud, CONNECT_RATIO * cloud.diagonal))
     return _labelled(counts, np.where(seen, split, -1))
 
 
 def maximise(
-    counts: Sequence[Counts], start: Int[np.ndarray, " S"], initial: int, rng: np.random.Generator, config: GroundingConfig
+    counts: Sequence[Counts], start: Int[np.ndarray, " S"], initial: int, rng: np.random.Generator
 ) -> Int[np.ndarray, " S"]:
-    """Return the likeliest instance (0..K - 1) of every superpoint after `em_epochs` passes over the views in random order.
+    """Return the likeliest instance (0..K - 1) of every superpoint after EPOCHS passes over the views in random order.
 
     start: as `Instances.number`. Its first `initial` parts become the first instances, the other superpoints start in the one
     after them.
     """
-    number = max(min(initial + config.em_extra, config.em_most), initial + 1)  # at least one instance is for points of no part
+    number = max(min(initial + EXTRA_INSTANCES, MAX_INSTANCES), initial + 1)  # at least one instance is for points of no part
     logits = np.zeros((len(start), number))
     logits[np.arange(len(start)), np.where(start > 0, start - 1, initial)] = CERTAIN
     mean, square = np.zeros_like(logits), np.zeros_like(logits)
     step = 0
-    for _ in range(config.em_epochs):
+    for _ in range(EPOCHS):
         for v in rng.permutation(len(counts)):
             target = counts[v].top
             pairs = match(logits, target)
@@ -57,7 +59,7 @@ def maximise(
             mean = ADAM[0] * mean + (1 - ADAM[0]) * gradient
             square = ADAM[1] * square + (1 - ADAM[1]) * gradient**2
             unbiased, spread = mean / (1 - ADAM[0] ** step), square / (1 - ADAM[1] ** step)
-            logits = logits - config.em_rate * unbiased / (np.sqrt(spread) + ADAM[2])
+            logits = logits - RATE * unbiased / (np.sqrt(spread) + ADAM[2])
     return logits.argmax(1)
 
 

@@ -8,12 +8,12 @@ import numpy as np
 from jaxtyping import Bool, Int
 from scipy.spatial import KDTree
 
-from anymesh.config import Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import label_connected
 from anymesh.prompted.grounding.cloud import Cloud
 from anymesh.prompted.grounding.fuse import Instances
 from anymesh.segmentation.contacts import Contacts, dominated_by, find_contacts
+from anymesh.segmentation.divide import FUSED_SIZE_RATIO
 from anymesh.segmentation.handles import patch_sizes
 from anymesh.types import Mesh
 from anymesh.types.triangles import boxes_meet
@@ -27,19 +27,18 @@ Arguments: the part index per face of the object's shape without and with the un
 
 MIN_COMPONENT_SHARE = 0.5  # a component joins the part of this share of its visible surface (as in the paper's implementation)
 MIN_SEEN_SHARE = 0.02  # minimum visible share of a patch's surface; less is a glimpse through a gap
+JOIN_RATIO = 0.03  # of the diagonal: maximum distance of a component that joins a part
 # minimum share of a patch's visible surface in one part for that part to take the whole patch, if the patch may hold several
 # parts because it is large or was cut out of a fused surface
 MIN_CUTTABLE_PATCH_SHARE = 0.85
 
 
-def join_unseen(
-    whole: ObjectShape, part: Int[np.ndarray, " P"], config: Config, stays_free: StaysFree | None = None
-) -> Int[np.ndarray, " P"]:
+def join_unseen(whole: ObjectShape, part: Int[np.ndarray, " P"], stays_free: StaysFree | None = None) -> Int[np.ndarray, " P"]:
     """Assign unseen patches (part -1) to the parts that support them, the others to the base.
 
     A part does not gain patches that would limit its motion, such as the walls of a cavity behind its door.
     """
-    joined = np.maximum(_joined(whole, part, config), 0)
+    joined = np.maximum(_joined(whole, part), 0)
     gaining = np.unique(joined[(part < 0) & (joined > 0)])
     if stays_free is None:
         return joined
@@ -50,7 +49,7 @@ def join_unseen(
     return joined
 
 
-def _joined(whole: ObjectShape, part: Int[np.ndarray, " P"], config: Config) -> Int[np.ndarray, " P"]:
+def _joined(whole: ObjectShape, part: Int[np.ndarray, " P"]) -> Int[np.ndarray, " P"]:
     """Return the part of every patch, including unseen ones.
 
     An unseen patch takes the part of all visible patches that it touches, directly or through others. Otherwise it takes the
@@ -58,8 +57,8 @@ def _joined(whole: ObjectShape, part: Int[np.ndarray, " P"], config: Config) -> 
     """
     if (part >= 0).all() or part.max() <= 0:
         return part
-    contacts = find_contacts(whole, config.segmentation)
-    reach = config.grounding.join_component * whole.diagonal
+    contacts = find_contacts(whole)
+    reach = JOIN_RATIO * whole.diagonal
     part = _single_part_components(contacts.touching_group, part)
     for together in (False, True):  # first one by one, then connected patches (a drawer's box) as one
         part = np.where(_goes_on(whole, part), 0, _supported_by(contacts, part, together, reach))
@@ -141,7 +140,6 @@ def face_parts(
     whole: ObjectShape,
     cloud: Cloud,
     point_part: Int[np.ndarray, " n"],
-    config: Config,
     stays_free: StaysFree | None = None,
 ) -> Int[np.ndarray, " F"]:
     """Return a part index per face, 0 for the base.
@@ -160,8 +158,8 @@ def face_parts(
     seen = total > MIN_SEEN_SHARE * np.bincount(patch, minlength=patches)
     winner = np.where(seen, votes.argmax(1), UNSEEN)
     share = votes.max(1) / np.maximum(total, 1)
-    mixed = seen & (share <= np.where(_cuttable(mesh, whole, config), MIN_CUTTABLE_PATCH_SHARE, MIN_COMPONENT_SHARE))
-    winner = join_unseen(whole, winner, config, stays_free)
+    mixed = seen & (share <= np.where(_cuttable(mesh, whole), MIN_CUTTABLE_PATCH_SHARE, MIN_COMPONENT_SHARE))
+    winner = join_unseen(whole, winner, stays_free)
     face_part = winner[whole.mesh_patch]
     for p in np.flatnonzero(mixed):
         mine = np.flatnonzero(patch == p)
@@ -170,9 +168,9 @@ def face_parts(
     return np.maximum(face_part, 0)
 
 
-def _cuttable(mesh: Mesh, whole: ObjectShape, config: Config) -> Bool[np.ndarray, " P"]:
+def _cuttable(mesh: Mesh, whole: ObjectShape) -> Bool[np.ndarray, " P"]:
     """Return the patches that may hold several parts: those of a fused surface, and large ones."""
-    large = patch_sizes(mesh, whole) > config.patches.fused_size * whole.diagonal
+    large = patch_sizes(mesh, whole) > FUSED_SIZE_RATIO * whole.diagonal
     large[whole.shared.reshape(-1)] = True
     return large
 
@@ -205,7 +203,6 @@ def mark_parts(
     face_mark: Int[np.ndarray, " F"],
     parts: Sequence[Collection[int]],
     little: Bool[np.ndarray, " P"],
-    config: Config,
     stays_free: StaysFree | None = None,
 ) -> Int[np.ndarray, " F"]:
     """Return a part index per face from exact marks, 0 for the base.
@@ -228,7 +225,7 @@ def mark_parts(
     most = len(parts) + 1
     votes = np.bincount(patch[known] * most + face_part[known], weight[known], count * most).reshape(count, most)
     winner = np.where(votes.any(1), votes.argmax(1), UNSEEN)
-    joined = join_unseen(whole, winner, config, stays_free)
+    joined = join_unseen(whole, winner, stays_free)
     mixed = (votes > 0).sum(1) > 1
     lost = np.flatnonzero(~known)
     face_part[lost] = joined[patch[lost]]

@@ -13,12 +13,16 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy import ndimage
 
-from anymesh.config import GroundingConfig
 from anymesh.prompted.grounding.cloud import Cloud, sight
 from anymesh.prompted.grounding.regions import min_pixels
 from anymesh.prompted.questions.grounding import MarkedPart
 from anymesh.rendering.render import View
 
+MAX_MASK_SHARE = 0.95  # masks that cover a larger share of the object are ignored
+MIN_COVERED_SHARE = 0.5  # minimum share of a superpoint's visible points in a mask for the mask's label
+GAP_RATIO = 0.01  # of the diagonal: maximum distance between the boxes of neighbouring superpoints (instances)
+MAX_COVERAGE_DIFFERENCE = 0.2  # maximum difference of their coverage in any mask
+MIN_BOX_IOU = 0.5  # minimum IoU of an instance with a mask in some view
 MAJORITY_PX = 5  # [px] side of the majority filter that smooths masks
 
 
@@ -39,13 +43,11 @@ def _large_enough(labels: np.ndarray, min_pixels: float) -> tuple[int, ...]:
     return tuple(int(n) for n in np.flatnonzero(count >= min_pixels) if n > 0)
 
 
-def propose_masks(
-    masks: Sequence[Bool[np.ndarray, "_ H W"]], views: Sequence[View], config: GroundingConfig
-) -> tuple[Proposal, ...]:
+def propose_masks(masks: Sequence[Bool[np.ndarray, "_ H W"]], views: Sequence[View]) -> tuple[Proposal, ...]:
     """Return regions from a model's masks of every view, of its colour and its normal picture together."""
     proposals = []
     for k, (some, view) in enumerate(zip(masks, views, strict=True)):
-        least = min_pixels(view, config)
+        least = min_pixels(view)
         labels = masks_to_labels(some, least)
         labels[view.face < 0] = -1
         proposals.append(Proposal(k, labels, _large_enough(labels, least)))
@@ -145,7 +147,7 @@ def marked_masks(proposals: Sequence[Proposal], parts: Sequence[MarkedPart]) -> 
     return tuple(view_masks)
 
 
-def count_points(cloud: Cloud, view: View, masks: Sequence[Mask], config: GroundingConfig) -> Counts:
+def count_points(cloud: Cloud, view: View, masks: Sequence[Mask]) -> Counts:
     """Count the visible points of every superpoint in every mask.
 
     Masks that are empty or cover nearly all of the object are left out.
@@ -154,7 +156,7 @@ def count_points(cloud: Cloud, view: View, masks: Sequence[Mask], config: Ground
     label = cloud.superpoint[visible.points]
     height, width = view.face.shape
     drawn = view.face >= 0
-    kept = [m for m in masks if m.pixels.any() and (m.pixels & drawn).sum() <= config.whole * max(int(drawn.sum()), 1)]
+    kept = [m for m in masks if m.pixels.any() and (m.pixels & drawn).sum() <= MAX_MASK_SHARE * max(int(drawn.sum()), 1)]
     kept.sort(key=lambda m: -int(m.pixels.sum()))
     owner = np.full(height * width, len(kept))
     inside = np.zeros((cloud.count, len(kept)), np.int64)
@@ -180,29 +182,29 @@ def _pixel_box(pixels: np.ndarray) -> tuple[float, float, float, float]:
     return float(columns[0]), float(rows[0]), float(columns[-1]), float(rows[-1])
 
 
-def fuse_masks(cloud: Cloud, counts: Sequence[Counts], config: GroundingConfig) -> Instances:
+def fuse_masks(cloud: Cloud, counts: Sequence[Counts]) -> Instances:
     """Return the label and instance of each superpoint.
 
     Labels come from the coverage over the views that see a superpoint. Nearby superpoints of one label that the masks cover
     equally form an instance. Instances without a mask of their label in place in any view are dropped.
     """
     number = np.where(sum(c.seen for c in counts) > 0, 0, -1)
-    names, label = label_superpoints(counts, config)
+    names, label = label_superpoints(counts)
     labels: list[str] = []
     for k, name in enumerate(names):
         mine = np.flatnonzero(label == k)
-        for group in _groups(cloud, counts, mine, config):
-            if _confirmed(counts, group, name, config.box_iou):
+        for group in _groups(cloud, counts, mine):
+            if _confirmed(counts, group, name, MIN_BOX_IOU):
                 labels.append(name)
                 number[group] = len(labels)
     return Instances(number, tuple(labels))
 
 
-def label_superpoints(counts: Sequence[Counts], config: GroundingConfig) -> tuple[list[str], Int[np.ndarray, " S"]]:
+def label_superpoints(counts: Sequence[Counts]) -> tuple[list[str], Int[np.ndarray, " S"]]:
     """Return the sorted labels, and the index of the label of each superpoint (-1 for none).
 
     The label is the one whose masks cover the largest share of the superpoint's visible points over all views, if that share is
-    at least `config.covered`.
+    at least MIN_COVERED_SHARE.
     """
     names = sorted({name for c in counts for name in c.labels})
     seen = np.maximum(sum(c.seen for c in counts), 1)
@@ -214,16 +216,16 @@ def label_superpoints(counts: Sequence[Counts], config: GroundingConfig) -> tupl
             share[:, k] += np.minimum(c.inside[:, which].sum(1), c.seen)
     share /= np.asarray(seen)[:, None]
     best = share.argmax(1)
-    return names, np.where((share.max(1) >= config.covered) & (best < len(names)), best, -1)
+    return names, np.where((share.max(1) >= MIN_COVERED_SHARE) & (best < len(names)), best, -1)
 
 
-def _groups(cloud: Cloud, counts: Sequence[Counts], mine: np.ndarray, config: GroundingConfig) -> list[np.ndarray]:
+def _groups(cloud: Cloud, counts: Sequence[Counts], mine: np.ndarray) -> list[np.ndarray]:
     """Group superpoints whose boxes are near each other and which no mask covers to different degrees.
 
     The most visible pairs are joined first, and whole groups are compared. Otherwise a chain of superpoints that are hardly
     visible would join what the masks separate.
     """
-    low, high = cloud.boxes[mine, 0], cloud.boxes[mine, 1] + config.gap * cloud.diagonal
+    low, high = cloud.boxes[mine, 0], cloud.boxes[mine, 1] + GAP_RATIO * cloud.diagonal
     a, b = np.nonzero(np.triu(((low[:, None] <= high) & (low[None] <= high[:, None])).all(2), 1))
     inside = np.concatenate([c.inside[mine] for c in counts], 1)
     seen = np.concatenate([np.repeat(c.seen[mine, None], c.inside.shape[1], 1) for c in counts], 1)
@@ -234,7 +236,7 @@ def _groups(cloud: Cloud, counts: Sequence[Counts], mine: np.ndarray, config: Gr
         if g == h:
             continue
         both = (seen[g] > 0) & (seen[h] > 0)  # only views that see both can compare them
-        if (np.abs(inside[g, both] / seen[g, both] - inside[h, both] / seen[h, both]) < config.alike).all():
+        if (np.abs(inside[g, both] / seen[g, both] - inside[h, both] / seen[h, both]) < MAX_COVERAGE_DIFFERENCE).all():
             group[group == h] = g
             inside[g] += inside[h]
             seen[g] += seen[h]

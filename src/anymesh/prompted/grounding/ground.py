@@ -142,17 +142,17 @@ def ground_exactly(
     front: azimuth of the front [deg], if known; free: given the labels of the parts, checks whether a part opens as far with
     unseen patches added.
     """
-    mesh, whole, cloud, config = sampled.mesh, sampled.whole, sampled.cloud, questioner.config
+    mesh, whole, cloud = sampled.mesh, sampled.whole, sampled.cloud
     progress("segment", "views", 0, 3)
     region = face_regions(whole, cloud)
     shown = shown_views(sampled, questioner, region, front)
-    marks = number_regions(region, shown.views, whole.diagonal, config.grounding)
+    marks = number_regions(region, shown.views, whole.diagonal)
     progress("segment", "marks", 1, 3)
     answer = MarkAnswers(marks, (), frozenset())
     if questioner.labels:
         answer = ask_exact(
             questioner, marks, shown.views, shown.names,
-            lambda some, chosen: split_marks(some, chosen, mesh, cloud, shown.views, config.grounding),
+            lambda some, chosen: split_marks(some, chosen, mesh, cloud, shown.views),
         )  # fmt: skip
     progress("segment", "parts", 2, 3)
     parts, labels = [p.marks for p in answer.parts], tuple(p.label for p in answer.parts)
@@ -160,7 +160,7 @@ def ground_exactly(
     little = shown.hidden
     if named[shown.hidden[whole.mesh_patch]].any():  # marks inside were assigned, so those left over belong to the base
         little = unseen_patches(whole, cloud, seen_points(cloud, shown.views))
-    face_part = mark_parts(mesh, whole, answer.marks.face_mark, parts, little, config, free(labels))
+    face_part = mark_parts(mesh, whole, answer.marks.face_mark, parts, little, free(labels))
     doubts = [sorted(answer.unsure & set(p.marks)) for p in answer.parts]
     crowded = f"{marks.crowded} small regions have no mark of their own: the object has too many to be shown"
     return GroundedParts(
@@ -201,12 +201,12 @@ def ground_by_masks(
     progress("segment", "fusion", 3, 4)
     masks = marked_masks(proposals, marked)
     voting = [k for k, p in enumerate(proposals) if p.numbers] or range(len(masks))  # a view without masks does not vote
-    counts = [count_points(cloud, shown.views[k], masks[k], config.grounding) for k in voting]
-    start = fuse_masks(cloud, counts, config.grounding)
-    instances = refine_instances(cloud, counts, start, np.random.default_rng(config.seed), config.grounding)
+    counts = [count_points(cloud, shown.views[k], masks[k]) for k in voting]
+    start = fuse_masks(cloud, counts)
+    instances = refine_instances(cloud, counts, start, np.random.default_rng(config.seed))
     instances = join_numbered(counts, instances)
     points = point_parts(cloud, instances, seen_points(cloud, shown.views))
-    face_part = face_parts(mesh, whole, cloud, points, config, free(instances.labels))
+    face_part = face_parts(mesh, whole, cloud, points, free(instances.labels))
     count = len(instances.labels)
     lost = lost_parts(masks, [v.face for v in shown.views], face_part, instances.labels)
     pointed = frozenset(p.label for p in marked)
@@ -219,7 +219,7 @@ def propose_in_views(
     region: Int[np.ndarray, " F"], diagonal: float, seen: Sequence[View], segmenter: PromptedSegmenter, config: Config
 ) -> tuple[Proposal, ...]:
     """Return the segmenter's masks of the colour and normal picture of each view, with exact regions for `exact+sam:...`."""
-    marks = number_regions(region, seen, diagonal, config.grounding) if config.proposer.startswith(EXACT) else None
+    marks = number_regions(region, seen, diagonal) if config.proposer.startswith(EXACT) else None
     masks = []
     for view in seen:
         some = [m.mask for image in (view.color, normal_picture(view)) for m in automatic_masks(segmenter, image)]
@@ -227,4 +227,4 @@ def propose_in_views(
             label = marks.in_view(view)
             some += [label == n for n in np.unique(label[label > 0])]
         masks.append(np.array(some, bool).reshape(len(some), *view.face.shape))
-    return propose_masks(masks, seen, config.grounding)
+    return propose_masks(masks, seen)

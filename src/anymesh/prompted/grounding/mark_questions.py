@@ -28,6 +28,7 @@ from anymesh.types.questions import VisualAnswerer
 MAX_MARKS_PER_PICTURE = 40  # marks that can be distinguished in one picture
 WELL, HALF = 400.0, 0.5  # a view shows a mark well with this many pixels of a 640 px view, or this share of its maximum
 MIN_MARK_PIXELS = 30.0  # [px of a 640 px view] minimum size of a drawn mark
+MARK_OPACITY = 0.1  # of the mask colours over the picture
 MAX_VIEWS_SHOWN_TWICE = 5  # number of views up to which marks are shown a second time
 TILE_AIR = 0.15  # margin around the marks of a close-up, as a share of their box on each side
 TILES = 4  # maximum number of times that a crowded view is halved: 16 close-ups
@@ -163,7 +164,7 @@ class MarkQuestioner:
         """Return the pictures with their marks."""
 
         def draw() -> tuple[Picture, ...]:
-            images = [draw_marks(p.view.color, p.marks, alpha=self.config.grounding.alpha) for p in shown]
+            images = [draw_marks(p.view.color, p.marks, alpha=MARK_OPACITY) for p in shown]
             return self.visual_prompts.pictures(images, [p.name for p in shown])
 
         return DrawnPictures(draw)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.config import GroundingConfig, ViewsConfig
+from anymesh.config import REFERENCE_PX
 from anymesh.geometry.creases import divide_at_seams
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.topology import components, label_connected, strongest
@@ -19,10 +19,11 @@ from anymesh.types import Mesh
 
 MAX_MARKS = 400  # marks per object, over all pictures; above, the smallest regions join their neighbours, with a warning
 MAX_SPLIT_MARKS = 24  # marks that one mark is split into
-# of `least_mask`: regions from geometry contain no noise, so small ones may be marked if the number fits
+# of MIN_MASK_PIXELS: regions from geometry contain no noise, so small ones may be marked if the number fits
 MIN_EXACT_SHARE = 0.25
 COLOR_STEP = 0.12  # distance of mean colours (0..1 per channel) that separates two regions of one patch
 MIN_COLOR_PATCH_SHARE = 0.02  # share of the surface from which a patch is searched for parts that differ in colour only
+MIN_MASK_PIXELS = 200  # [px] of a view of REFERENCE_PX; smaller masks are dropped (1000 in the paper, which loses small parts)
 MIN_MAIN_SHARE = 0.5  # share of a mark from which a superpoint is most of it
 MAX_DEPTH_STEP_RATIO = 0.02  # of the diagonal: maximum depth difference between touching things
 
@@ -42,9 +43,9 @@ class Marks:
         return np.where(view.face >= 0, self.face_mark[np.maximum(view.face, 0)], -1)
 
 
-def min_pixels(view: View, config: GroundingConfig) -> float:
+def min_pixels(view: View) -> float:
     """Return the size below which a mask is dropped [px], for this view's size."""
-    return config.least_mask * view.face.size / ViewsConfig().size ** 2
+    return MIN_MASK_PIXELS * view.face.size / REFERENCE_PX**2
 
 
 def face_regions(whole: ObjectShape, cloud: Cloud) -> Int[np.ndarray, " F"]:
@@ -77,13 +78,13 @@ def _by_majority(label: np.ndarray, faces: np.ndarray, count: int) -> Int[np.nda
     return face_label
 
 
-def number_regions(region: Int[np.ndarray, " F"], views: Sequence[View], diagonal: float, config: GroundingConfig) -> Marks:
+def number_regions(region: Int[np.ndarray, " F"], views: Sequence[View], diagonal: float) -> Marks:
     """Number the regions (-1 for none) that views show, the most visible first.
 
     A region too small for a mark in every view joins the region that it touches most in the pictures, or gets no mark if it
     touches none. The same applies to the smallest regions until MAX_MARKS are left.
     """
-    size, shown = _sizes(region, views, config)
+    size, shown = _sizes(region, views)
     target, crowded = _merged(size, _touching(shown, views, size.shape[1], diagonal), MAX_MARKS)
     return Marks(_numbered(region, size, target, 1), crowded)
 
@@ -94,7 +95,6 @@ def split_marks(
     mesh: Mesh,
     cloud: Cloud,
     views: Sequence[View],
-    config: GroundingConfig,
 ) -> Marks:
     """Divide the chosen marks into their connected components and superpoints, numbered above all others.
 
@@ -107,7 +107,7 @@ def split_marks(
     names, own = np.unique(keys, axis=0, return_inverse=True)
     region = np.full(len(inside), -1)
     region[inside] = own.reshape(-1)
-    size, shown = _sizes(region, views, config)
+    size, shown = _sizes(region, views)
     border = _touching(shown, views, len(names), cloud.diagonal)
     border[names[:, None, 0] != names[None, :, 0]] = 0  # regions of different marks are not merged
     target, crowded = _merged(size, border, MAX_SPLIT_MARKS * len(chosen))
@@ -131,13 +131,11 @@ def _fine_regions(mark: Int[np.ndarray, " n"], chosen: Sequence[int], cloud: Clo
     return fine
 
 
-def _sizes(
-    region: np.ndarray, views: Sequence[View], config: GroundingConfig
-) -> tuple[Float[np.ndarray, "V R"], list[np.ndarray]]:
+def _sizes(region: np.ndarray, views: Sequence[View]) -> tuple[Float[np.ndarray, "V R"], list[np.ndarray]]:
     """Return the size of every region in every view, relative to the smallest that can be marked, and the region per pixel."""
     count = int(region.max(initial=-1)) + 1
     shown = [np.where(v.face >= 0, region[np.maximum(v.face, 0)], -1) for v in views]
-    least = [MIN_EXACT_SHARE * min_pixels(v, config) for v in views]
+    least = [MIN_EXACT_SHARE * min_pixels(v) for v in views]
     return np.stack([np.bincount(s[s >= 0], minlength=count) / few for s, few in zip(shown, least, strict=True)]), shown
 
 

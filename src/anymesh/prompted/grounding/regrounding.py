@@ -44,13 +44,12 @@ def ground_again(
     mesh, whole, cloud = sampled.mesh, sampled.whole, sampled.cloud
     region = face_regions(whole, cloud)
     shown = shown_views(sampled, questioner, region, front)
-    config = questioner.config.grounding
-    marks = number_regions(region, shown.views, whole.diagonal, config)
+    marks = number_regions(region, shown.views, whole.diagonal)
     areas = mesh.face_areas
     owner = _owners(marks, segmentation, areas)
     much = [m for m, part in owner.items() if part and wrong.get(segmentation.parts[part].name) is PartFit.TOO_MUCH]
     if much:
-        marks = split_marks(marks, much, mesh, cloud, shown.views, config)
+        marks = split_marks(marks, much, mesh, cloud, shown.views)
         owner = _owners(marks, segmentation, areas)
     if all(fit is PartFit.TOO_MUCH for fit in wrong.values()):  # no other marks need to be asked about
         owner = {m: part for m, part in owner.items() if part in parts.values()}
@@ -59,7 +58,7 @@ def ground_again(
     )
     answer = ask_exact(
         questioner, marks, shown.views, shown.names,
-        lambda some, chosen: split_marks(some, chosen, mesh, cloud, shown.views, config),
+        lambda some, chosen: split_marks(some, chosen, mesh, cloud, shown.views),
         wanted=owner, again=problems,
     )  # fmt: skip
     given = {parts[p.label, p.instance]: p.marks for p in answer.parts if (p.label, p.instance) in parts}

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.config import REFERENCE_PX, Config, ViewsConfig
+from anymesh.config import REFERENCE_PX, Config
 from anymesh.geometry.patches import ObjectShape
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud, seen_points
 from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE
@@ -25,10 +25,11 @@ MIN_RECOGNITION_PATCH_RATIO = 0.1
 MAX_CLOSE_UPS = 8  # close-ups per object; each adds a picture to a question
 MIN_AREA_PX, MIN_WIDTH_PX = 250.0, 4.0  # [px, px across] in a 640 px view: regions below either are too small to judge
 LEGIBLE_AREA_PX, LEGIBLE_WIDTH_PX = 1500.0, 12.0  # [px, px across] size that a close-up should give such regions
-MIN_ZOOM = 2.0  # minimum magnification of a close-up
+MIN_ZOOM, MAX_ZOOM = 2.0, 6.4  # magnification of a close-up
 MIN_CLOSE_UP_SHARE = 0.1  # share of a region's surface that views must see; less is a glimpse through a gap
 WINDOW = 0.8  # share of the close-up's side that holds the centers of its regions
 EXACT = "exact"
+MASK_POINTS = 800_000  # samples of the surface
 EXACT_POINTS = 120_000  # exact regions use the cloud for superpoints only, which need fewer points
 
 
@@ -54,24 +55,18 @@ def inner_faces(
     return (hidden & (size >= MIN_INNER_PATCH_RATIO))[whole.mesh_patch]
 
 
-def close_ups(
-    region: Int[np.ndarray, " F"],
-    cloud: Cloud,
-    views: Sequence[View],
-    pictures: ViewsConfig | None = None,
-) -> tuple[Camera, ...]:
+def close_ups(region: Int[np.ndarray, " F"], cloud: Cloud, views: Sequence[View]) -> tuple[Camera, ...]:
     """Return at most MAX_CLOSE_UPS cameras for regions that are too small in every view.
 
     The smallest regions come first. Each camera stands where one of the views does and covers as many small regions as fit.
 
     region: index of each face, -1 for none.
     """
-    pictures = pictures or ViewsConfig()
     size, across, middle = _shown(region, views)
     scale = views[0].camera.height / REFERENCE_PX
     zoom = np.sqrt(LEGIBLE_AREA_PX * scale**2 / np.maximum(size, 1))
     zoom = np.maximum(zoom, np.where(across < MIN_WIDTH_PX * scale, LEGIBLE_WIDTH_PX * scale / np.maximum(across, 0.1), 0))
-    zoom = np.clip(zoom, MIN_ZOOM, pictures.zoom_size / pictures.size)
+    zoom = np.clip(zoom, MIN_ZOOM, MAX_ZOOM)
     little = (size < MIN_AREA_PX * scale**2).all(0) | (across < MIN_WIDTH_PX * scale).all(0)
     open_to = little & (size > 0).any(0) & _open(region, cloud, views)
     cameras: list[Camera] = []
@@ -151,8 +146,8 @@ class ShownViews:
 
 def sample_object(mesh: Mesh, whole: ObjectShape, config: Config) -> SampledObject:
     """Sample the points for finding parts; exact regions need fewer of them than masks."""
-    few = min(config.grounding.points, EXACT_POINTS) if config.proposer == EXACT else config.grounding.points
-    return SampledObject(mesh, whole, sample_cloud(mesh, whole, replace(config.grounding, points=few), config.seed))
+    count = EXACT_POINTS if config.proposer == EXACT else MASK_POINTS
+    return SampledObject(mesh, whole, sample_cloud(mesh, whole, count, config.seed))
 
 
 def shown_views(
@@ -162,8 +157,8 @@ def shown_views(
 
     front: azimuth of the front [deg], if known.
     """
-    prompts, config, cloud = questioner.visual_prompts, questioner.config, sampled.cloud
-    small = close_ups(region, cloud, prompts.views, config.views) if questioner.labels else ()
+    prompts, cloud = questioner.visual_prompts, sampled.cloud
+    small = close_ups(region, cloud, prompts.views) if questioner.labels else ()
     seen = [*prompts.views, *(prompts.view(camera) for camera in small)]
     names = prompts.names(len(seen), front)
     shown = seen_points(cloud, seen)

@@ -20,6 +20,7 @@ from anymesh.types.motion import BASE, Recognition, RecognizedLabel
 from anymesh.types.questions import Answer, Question, VisualAnswerer
 from anymesh.vocabulary import words_of
 
+PLANE_RATIO = 0.001  # of the diagonal: tolerance of the connecting area's plane; 0.002 for a diagonal of 2
 MAX_PART_PICTURES = 8  # pictures per call
 TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 
@@ -62,7 +63,7 @@ def make_cases(
     parent = parents(shapes, whole.diagonal, _answered_parents(segmentation, recognized))
     contexts = {}
     for numbers in same_size(shapes, parent):
-        some = [part_context(whole, label, shapes, parent, i, config.articulation) for i in numbers]
+        some = [part_context(whole, label, shapes, parent, i) for i in numbers]
         contexts |= zip(numbers, share_opening_directions(some), strict=True)
     cases = []
     for i, part in enumerate(segmentation.parts[1:], start=1):
@@ -73,7 +74,7 @@ def make_cases(
             faces=segmentation.faces(i),
             points=context.part.samples.points,
             outward=context.opening_direction,
-            normal=plane_normal(contact, config.prompts.plane * whole.diagonal, config.seed),
+            normal=plane_normal(contact, PLANE_RATIO * whole.diagonal, config.seed),
             contact=contact,
             diagonal=whole.diagonal,
         )

@@ -27,6 +27,7 @@ from anymesh.prompted.motions.cases import (
     unlabelled,
 )
 from anymesh.prompted.motions.lines import (
+    MAX_POINTS,
     axis_points,
     cluster_points,
     followed,
@@ -196,7 +197,7 @@ def _ask(
     if config.verify != "motion":
         return _ChosenMotions(cases, {c.number: as_answered(c) for c in cases}, segmentation)
     asking = MotionQuestioner(questions.visual_prompts, segmentation.face_part, questions.answerer, questions.category, fits)
-    return _ChosenMotions(cases, choose_motions(cases, asking, config.prompts.motions, config.seed), segmentation)
+    return _ChosenMotions(cases, choose_motions(cases, asking, config.seed), segmentation)
 
 
 def _with_kinds(
@@ -242,24 +243,22 @@ def _hinges(questions: Questions, cases: list[PartCase], whole: ObjectShape, seg
 def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape) -> PointTable:
     """Return the candidate points of a rotating part; the paper's method has clusters and superpoints only."""
     config, pictures = questions.config, questions.visual_prompts
-    project, prompts = shot.project, config.prompts
     shaped = case.kind is JointAppearance.HINGE_INTO and config.verify != "off"
-    if shaped:
-        prompts = replace(prompts, most_candidates=min(INTO_POINTS, prompts.most_candidates))
-    points = shot.inside(cluster_points(case.shown.contact, project, prompts))
+    project, most = shot.project, INTO_POINTS if shaped else MAX_POINTS
+    points = shot.inside(cluster_points(case.shown.contact, project, most))
     axes = np.zeros((0, 3))
     if shaped:
         motions = [m for _, m in pivots(case.context, case.shown.normal)]
         if case.context.is_round:
             outline = case.context.outline
             motions.insert(0, Motion(JointType.REVOLUTE, outline.axis, outline.center, "axis of its round outline"))
-        first, axes = axis_points(case.context, [*case.circles, *motions], project, prompts)
+        first, axes = axis_points(case.context, [*case.circles, *motions], project, most)
         axes = axes[shot.is_inside(first)]
-        points = followed(first[shot.is_inside(first)], points, project, prompts)
+        points = followed(first[shot.is_inside(first)], points, project, most)
     if case.kind is JointAppearance.HINGE_HIDDEN:
         samples = case.context.part.samples
         colors = pictures.face_colors[whole.source[samples.faces]]
-        points = with_more(points, shot.inside(superpoint_centres(samples, colors, config.grounding)), project, prompts)
+        points = with_more(points, shot.inside(superpoint_centres(samples, colors)), project, most)
     if len(axes):
         axes = np.concatenate([axes, np.full((len(points) - len(axes), 3), np.nan)])
     return PointTable(case.shown, points, case.kind, axes if len(axes) else None, pictures.hidden(shot, points))

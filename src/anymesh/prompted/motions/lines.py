@@ -14,17 +14,20 @@ from scipy.spatial import KDTree
 
 from anymesh.articulation.candidate_motions import ProposedMotion, Role
 from anymesh.articulation.hypotheses import hinge_about
-from anymesh.config import ALONG_COSINE, GroundingConfig, PromptConfig
+from anymesh.config import ALONG_COSINE
 from anymesh.geometry.circles import MIN_CIRCLE_ROUNDNESS, outline_about
 from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.superpoints import superpoints
 from anymesh.geometry.triangle_set import SurfacePoints, TriangleSet
 from anymesh.motion.part_context import PartContext
+from anymesh.prompted.grounding.cloud import COLOR_WEIGHT, MIN_SUPERPOINT_POINTS, NEIGHBOURS, STRENGTH
 from anymesh.prompted.pictures.drawing import labels_apart
 from anymesh.types import JointType, Motion
 
 Project = Callable[[Float[np.ndarray, "n 3"]], Float[np.ndarray, "n 2"]]  # points [m] to pixels of the picture shown
-MAX_POINTS = 4000  # maximum number of points of a connecting area for clustering
+MAX_POINTS = 20  # maximum number of candidate points, and of k-means clusters
+MIN_LABEL_DISTANCE = 35.0  # [px] minimum distance between the numbers of candidate points
+MAX_CONTACT_POINTS = 4000  # maximum number of points of a connecting area for clustering
 TRIALS = 200  # planes tried by RANSAC
 MAX_CIRCLES = 4  # round patches per part, the largest first
 MAX_PATCHES = 40  # patches examined, the largest first
@@ -34,22 +37,22 @@ MAX_DISTINCT_COSINE = 0.98  # maximum cosine between two axes through the contac
 MIN_POINTS = 24  # minimum number of points of a contact ring
 
 
-def cluster_points(contact: Float[np.ndarray, "n 3"], project: Project, config: PromptConfig) -> Float[np.ndarray, "k 3"]:
+def cluster_points(contact: Float[np.ndarray, "n 3"], project: Project, most: int = MAX_POINTS) -> Float[np.ndarray, "k 3"]:
     """Return the centers of the connecting area's clusters, as many as fit in the picture without overlapping numbers."""
     from scipy.cluster.vq import kmeans2  # import on use: it takes 0.1 s, and only questions to models need it
 
-    points = contact[:: max(1, len(contact) // MAX_POINTS)]
-    order = _farthest(points, min(config.most_candidates, len(points)))
+    points = contact[:: max(1, len(contact) // MAX_CONTACT_POINTS)]
+    order = _farthest(points, min(most, len(points)))
     best = points.mean(0)[None]
     for k in range(2, len(order) + 1):
         centres, label = kmeans2(points, points[order[:k]], iter=20, minit="matrix", missing="warn")
-        if len(np.unique(label)) == k and labels_apart(project(centres), config.label_apart):
+        if len(np.unique(label)) == k and labels_apart(project(centres), MIN_LABEL_DISTANCE):
             best = centres
     return best
 
 
 def axis_points(
-    context: PartContext, axes: Sequence[Motion], project: Project, config: PromptConfig
+    context: PartContext, axes: Sequence[Motion], project: Project, most: int = MAX_POINTS
 ) -> tuple[Float[np.ndarray, "k 3"], Float[np.ndarray, "k 3"]]:
     """Return the points where axes leave the part on its outer side, and the directions of these axes.
 
@@ -58,55 +61,53 @@ def axis_points(
     points, directions = np.zeros((0, 3)), np.zeros((0, 3))
     for motion in axes:
         sign = 1.0 if motion.axis @ context.opening_direction >= 0 else -1.0
-        if abs(float(motion.axis @ context.opening_direction)) < ALONG_COSINE or len(points) >= config.most_candidates // 2:
+        if abs(float(motion.axis @ context.opening_direction)) < ALONG_COSINE or len(points) >= most // 2:
             continue
         reach = float(((context.part.corners - motion.origin) @ (sign * motion.axis)).max())
         more = np.concatenate([points, (motion.origin + reach * sign * motion.axis)[None]])
-        if labels_apart(project(more), config.label_apart / 2):
+        if labels_apart(project(more), MIN_LABEL_DISTANCE / 2):
             points, directions = more, np.concatenate([directions, motion.axis[None]])
     return points, directions
 
 
-def superpoint_centres(
-    points: SurfacePoints, colors: Float[np.ndarray, "n 3"], config: GroundingConfig
-) -> Float[np.ndarray, "s 3"]:
+def superpoint_centres(points: SurfacePoints, colors: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "s 3"]:
     """Return the sample nearest to the center of each superpoint of a part, the largest superpoint first.
 
     colors: 0..1, one per sample.
     """
     count = len(points)
-    nearest = KDTree(points.points).query(points.points, range(1, min(config.neighbours + 1, count) + 1), workers=-1)[1]
+    nearest = KDTree(points.points).query(points.points, range(1, min(NEIGHBOURS + 1, count) + 1), workers=-1)[1]
     neighbours = nearest[:, 1:]
     edges = np.stack([np.repeat(np.arange(count), neighbours.shape[1]), neighbours.reshape(-1)], 1)
-    signal = np.concatenate([points.normals, config.color_weight * colors], 1)
-    label = superpoints(signal, np.ones(count), edges, np.ones(len(edges)), config.strength)
+    signal = np.concatenate([points.normals, COLOR_WEIGHT * colors], 1)
+    label = superpoints(signal, np.ones(count), edges, np.ones(len(edges)), STRENGTH)
     size = np.bincount(label)
     centres = []
     for s in np.argsort(-size, kind="stable"):
-        if size[s] >= min(config.least_points, count):
+        if size[s] >= min(MIN_SUPERPOINT_POINTS, count):
             mine = points.points[label == s]
             centres.append(mine[np.linalg.norm(mine - mine.mean(0), axis=1).argmin()])
     return np.array(centres).reshape(-1, 3)
 
 
 def with_more(
-    first: Float[np.ndarray, "k 3"], more: Float[np.ndarray, "s 3"], project: Project, config: PromptConfig
+    first: Float[np.ndarray, "k 3"], more: Float[np.ndarray, "s 3"], project: Project, most: int = MAX_POINTS
 ) -> Float[np.ndarray, "m 3"]:
     """Return some of the first points, and as many others as fit without overlapping numbers, in their order.
 
     The first points take at most half of the places.
     """
-    few = first[_farthest(first, min(len(first), config.most_candidates // 2))] if len(first) else first
-    return followed(few, more, project, config)
+    few = first[_farthest(first, min(len(first), most // 2))] if len(first) else first
+    return followed(few, more, project, most)
 
 
 def followed(
-    first: Float[np.ndarray, "k 3"], more: Float[np.ndarray, "s 3"], project: Project, config: PromptConfig
+    first: Float[np.ndarray, "k 3"], more: Float[np.ndarray, "s 3"], project: Project, most: int = MAX_POINTS
 ) -> Float[np.ndarray, "m 3"]:
     """Return all first points, and as many others as fit without overlapping numbers, in their order."""
     chosen = list(first)
     for point in more:
-        if len(chosen) < config.most_candidates and labels_apart(project(np.array([*chosen, point])), config.label_apart):
+        if len(chosen) < most and labels_apart(project(np.array([*chosen, point])), MIN_LABEL_DISTANCE):
             chosen.append(point)
     return np.array(chosen)
 

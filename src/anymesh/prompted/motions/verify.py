@@ -24,6 +24,7 @@ from anymesh.prompted.questions.prompting import JointAppearance, MotionPick, Mo
 from anymesh.types import Picture
 from anymesh.types.questions import VisualAnswerer
 
+MOTIONS_IN_PICTURE = 7  # two rows of four with the pose at rest
 RELIABILITIES = (0.97, 0.9, 0.7, 0.4, 0.1)
 SHARES = (0.55, 0.27, 0.1, 0.05, 0.03)  # of answerers with each reliability, before any of their answers is known
 MISLED_SHARE = 0.1  # share of the parts about whose motion geometry says nothing
@@ -176,15 +177,15 @@ class MotionQuestioner:
         return self.visual_prompts.strip(moving, title, table.motions, table.amounts, table.blocked)
 
 
-def choose_motions(cases: list[PartCase], asking: MotionQuestioner, max_motions: int, seed: int) -> dict[int, Choice]:
+def choose_motions(cases: list[PartCase], asking: MotionQuestioner, seed: int) -> dict[int, Choice]:
     """Show the motions of each part and return the likeliest one by all answers and the geometry, by part number.
 
     If none of those shown is right, the next ones are shown, once. If the answer contradicts what geometry and the earlier
     answers agree on, it is asked for again in another order.
 
-    max_motions: motions in a picture; seed: of the order in the pictures.
+    seed: of the order in the pictures.
     """
-    offers = {c.number: make_offers(c, max_motions, seed) for c in cases}
+    offers = {c.number: make_offers(c, MOTIONS_IN_PICTURE, seed) for c in cases}
     shown = {n: o.first for n, o in offers.items() if _needs_question(o)}
     picks = asking.picks(offers, shown)
     asking_again = replace(asking, ask_fit=False)  # ask about the fit only once

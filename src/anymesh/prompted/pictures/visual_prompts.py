@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
 from PIL import Image, ImageDraw
 
-from anymesh.config import REFERENCE_PX, Config, ViewsConfig
+from anymesh.config import REFERENCE_PX, Config
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures.drawing import clearest_view, draw_arrows, draw_points
 from anymesh.rendering.drawing import smoothed
@@ -37,6 +37,8 @@ MIN_CARD_SHARE = 0.5  # minimum share of the part's pixels in its best view, for
 CONTACT_POINTS = 300  # maximum number of contact points checked in each view
 CONTACT_UNDER = 0.02  # share of the contact's extent: points deeper than this below a surface count as hidden
 GHOST = 0.75  # share by which the colours of the rest are moved towards white
+# azimuth and elevation [deg] of cameras that are shown surface that no view shows, with the rest as a ghost
+INSIDE_DIRECTIONS = ((45.0, 25.0), (225.0, 25.0), (30.0, 60.0))
 ARROW = 0.35  # length of an arrow, as a share of the part's size
 UNDER = 0.003  # share of the diagonal: points deeper than this below a surface count as hidden
 
@@ -47,7 +49,6 @@ def part_card(
     face_part: Int[np.ndarray, " F"],
     part: int,
     title: str,
-    config: ViewsConfig,
     scene: RayScene,
 ) -> UInt8[np.ndarray, "H W 3"]:
     """Draw the part in a view of this mesh, the close-up (if any) beside it, and the title above.
@@ -58,7 +59,7 @@ def part_card(
     if not mask.any():
         mask = silhouette(mesh.triangles[face_part == part], view.camera)
         return titled(highlight(view.color, mask), f"{title} (hidden inside)")
-    near = close_up(mesh, view, face_part, part, config, scene)
+    near = close_up(mesh, view, face_part, part, scene)
     whole = highlight(view.color, mask)
     if near is None:
         return titled(whole, title)
@@ -182,7 +183,7 @@ class VisualPrompts:
     @cached_property
     def views(self) -> list[View]:
         """Views of the object from all sides."""
-        return views(self._mesh, self._config.views, scene=self.scene)
+        return views(self._mesh, self._config.directions, scene=self.scene)
 
     @cached_property
     def face_colors(self) -> Float[np.ndarray, "F 3"]:
@@ -194,11 +195,10 @@ class VisualPrompts:
         return shown(self._mesh, camera, self.scene)
 
     def insides(self, inside: Bool[np.ndarray, " F"]) -> list[View]:
-        """Render some faces alone, with the rest as a ghost, from `config.views.inside_directions`."""
-        config, key = self._config.views, inside.tobytes()
+        """Render some faces alone, with the rest as a ghost, from INSIDE_DIRECTIONS."""
+        key = inside.tobytes()
         if self._inside is None or self._inside[0] != key:
-            eyes = cameras(self._mesh, config, config.size, config.inside_directions)
-            self._inside = key, inside_views(self._mesh, inside, eyes, self.scene)
+            self._inside = key, inside_views(self._mesh, inside, cameras(self._mesh, INSIDE_DIRECTIONS), self.scene)
         return self._inside[1]
 
     def clearest_inside_views(self, inside: Bool[np.ndarray, " F"], most: int) -> list[int]:
@@ -208,8 +208,7 @@ class VisualPrompts:
 
     def inside_names(self, front: float | None = None) -> list[str]:
         """Return the captions of the views of `insides`."""
-        ways = self._config.views.inside_directions
-        return [f"inside the object, {caption(*way, front)}; the rest is shown as a ghost" for way in ways]
+        return [f"inside the object, {caption(*way, front)}; the rest is shown as a ghost" for way in INSIDE_DIRECTIONS]
 
     def pictures(
         self, images: Sequence[UInt8[np.ndarray, "H W 3"]], names: Sequence[str], note: str = ""
@@ -221,7 +220,7 @@ class VisualPrompts:
 
     def names(self, count: int, front: float | None = None) -> list[str]:
         """Return `count` captions: of the views from all sides, then of close-ups. front: see `caption`."""
-        captions = [caption(*way, front) for way in self._config.views.directions]
+        captions = [caption(*way, front) for way in self._config.directions]
         return (captions + ["a close-up"] * (count - len(captions)))[:count]
 
     def card(
@@ -229,7 +228,7 @@ class VisualPrompts:
     ) -> Picture:
         """Draw the highlighted part, and a close-up if it is small; contact: points [m] that should be visible."""
         view = card_view(self.views, face_part, part, self.scene, contact)
-        return encode(part_card(self._mesh, view, face_part, part, title, self._config.views, self.scene))
+        return encode(part_card(self._mesh, view, face_part, part, title, self.scene))
 
     def shot(self, face_part: Int[np.ndarray, " F"], part: int) -> Shot:
         """Return the part in its best view."""
@@ -270,7 +269,7 @@ class VisualPrompts:
 
     def _near(self, view: View, face_part: np.ndarray, part: int) -> View:
         """Return a close-up if the part is small in the view, else the view."""
-        return close_up(self._mesh, view, face_part, part, self._config.views, self.scene) or view
+        return close_up(self._mesh, view, face_part, part, self.scene) or view
 
     def _mask(self, view: View, face_part: np.ndarray, part: int) -> np.ndarray:
         """Return the pixels of the part, or its full silhouette if nothing of it is visible."""
