@@ -88,7 +88,7 @@ def draw_arrows(
 
 
 def labels_apart(pixels: Float[np.ndarray, "k 2"], min_distance: float) -> bool:
-    """Return whether all points are at least `min_distance` [px] apart (`PromptConfig.label_apart`)."""
+    """Return whether all points are at least `min_distance` [px] apart."""
     gaps = np.linalg.norm(pixels[:, None] - pixels[None], axis=2)
     return bool((gaps[np.triu_indices(len(pixels), 1)] >= min_distance).all())
 
@@ -204,7 +204,7 @@ def draw_marks(
     """Fill, outline and number the regions of the picture.
 
     regions: region number per pixel, -1 for none; numbers: the regions to draw, all if None; alpha: opacity of the fill
-    (`GroundingConfig.alpha`). A number has the same colour in every picture.
+    (`mark_questions.MARK_OPACITY`). A number has the same colour in every picture.
     """
     plates = mark_positions(regions, numbers)
     boxes, image = ndimage.find_objects(regions + 1), image.copy()
