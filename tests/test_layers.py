@@ -23,6 +23,7 @@ CORE = [
     {"cli"},
 ]
 TOOLS = [
+    {"stated"},
     {"formats"},
     {"prompted"},
     {"finishing"},

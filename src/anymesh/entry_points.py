@@ -9,8 +9,13 @@ from collections.abc import Callable
 from importlib import import_module
 from typing import Any
 
+# What readers of meshes need.
+GLTF_JOINTS = "stated.gltf:stated_joints"
+
 # What the pipeline needs of the packages around it.
 OPEN_ANSWERER = "prompted.answerers.answering:open_answerer"
+STATED_PARTS = "stated.stages:parts_with_stated"
+STATED_JOINTS = "stated.stages:joints_with_stated"
 PROMPTED_STAGES = "prompted.stages:PromptedStages"
 WRITE_TRANSCRIPT = "prompted.answerers.recordings:write_transcript"
 REMOVE_TRANSCRIPT = "prompted.answerers.recordings:remove_transcript"

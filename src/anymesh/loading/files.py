@@ -52,13 +52,13 @@ SIGNS = {  # start of files of other formats
 class Folder:
     """The files around one mesh file, and the warnings from reading what the file refers to.
 
-    root: the folder within which references may be read, by default the mesh's own.
+    root: the folder within which references may be read, by default the mesh's own; joints: whether joints are read.
 
     Raise OptionError if it is not a folder or the mesh is not inside it.
     """
 
-    def __init__(self, path: Path, root: str | Path | None = None) -> None:
-        self.path = path
+    def __init__(self, path: Path, root: str | Path | None = None, joints: bool = True) -> None:
+        self.path, self.joints = path, joints
         self.warnings: list[str] = []
         self._digests: dict[str, str] = {}  # of the files that were read
         own = path.parent.resolve()

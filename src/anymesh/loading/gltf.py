@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from anymesh.entry_points import GLTF_JOINTS, resolve
 from anymesh.errors import InputError
 from anymesh.loading.files import Folder
 from anymesh.loading.gltf_data import Buffers, item, parse_json, split_glb
@@ -36,8 +37,9 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
     labels = unique_names(str(m.get("name") or f"mesh_{k}") for k, m in enumerate(tree["meshes"]))
     unique = unique_names(node_name(node, k, labels) for k, node in enumerate(tree.get("nodes", [])))
     meshes: dict[int, Mesh | None] = {}
-    placed = []
+    placed, home, scene = [], [], dict[int, np.ndarray]()
     for index, T, path in _placed(name, tree):
+        scene[index] = T
         node = tree["nodes"][index]
         number = node.get("mesh")
         if number is None:
@@ -55,12 +57,16 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
         chain = tuple(unique[k] for k in path)
         nodes = (Node(node_name(node, index, labels), labels[number], path=chain if len(chain) > 1 else ()),)
         placed.append(replace(mesh.transformed(T), nodes=nodes))
+        home.append(index)
     if not placed:
         modes = {p.get("mode", TRIANGLES) for m in tree["meshes"] for p in m["primitives"]}
         only = sorted({LEFT_OUT[m] for m in modes if m in LEFT_OUT})
         contents = f"only {' and '.join(only)}" if only else "no mesh in its scene"
         raise InputError(f"{name}: found {contents}; a scene with at least one triangle is needed")
-    return join(placed)
+    joined = join(placed)
+    if folder.joints and tree.keys() & {"animations", "extensions"}:
+        return resolve(GLTF_JOINTS)(joined, home, tree, scene, buffers, folder)
+    return joined
 
 
 def node_name(node: dict[str, Any], number: int, labels: list[str]) -> str:

@@ -77,17 +77,20 @@ class LoadedMesh:
     references: str = ""  # digest of the other files that were read, and of the warnings
 
 
-def load_mesh(path: str | Path, *, root: str | Path | None = None) -> LoadedMesh:
+def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: str = "read") -> LoadedMesh:
     """Read GLB, glTF, OBJ, PLY, STL, OFF or DAE.
 
     root: the folder within which the files that the mesh refers to may be read, by default its own folder. A texture or a
-    material library that cannot be read there is left out with a warning.
+    material library that cannot be read there is left out with a warning; animation: read, or ignore for a mesh without the
+    joints that animations, physics extensions and bones of the file state.
 
     Raise InputError, with one line, for anything that is no usable mesh, and OptionError for a root that is not valid.
     """
     path = Path(path)
+    if animation not in ("read", "ignore"):
+        raise OptionError(f"--animation: found {animation!r}; valid are read and ignore")
     data = check_file(path)
-    folder = Folder(path, root)
+    folder = Folder(path, root, animation == "read")
     suffix = path.suffix.lower()
     try:
         with np.errstate(over="ignore", invalid="ignore"):

@@ -33,6 +33,7 @@ def articulate(
     up: str = "auto",
     scale: str = "auto",
     root: str | Path | None = None,
+    animation: str = "read",
     force: bool = False,
     base: str = Base.FIXED,
     formats: str = ",".join(DEFAULT),
@@ -46,8 +47,9 @@ def articulate(
     parts: "auto", "nodes" (the scene's nodes) or a file of face labels; up: auto, infer (not what the
     format defines), an axis such as z or -y, or a direction such as "0,0.7,0.7"; scale: auto, a factor (file units to metres)
     or METRES:AXIS;
-    root: folder within which files that the mesh refers to may be read (default: the mesh's own); base: fixed or free; formats:
-    comma-separated, of urdf, mjcf, usd, sdf, glb;
+    root: folder within which files that the mesh refers to may be read (default: the mesh's own); animation: read, or ignore
+    (animations, physics joints and bones of the file give no joints);
+    base: fixed or free; formats: comma-separated, of urdf, mjcf, usd, sdf, glb;
     drives: passive, or position (joints follow a commanded position); time_limit: [s], past a share of which each stage
     shortens its work, with a warning.
     Raise InputError, OptionError, OutputError or ModelError; then nothing is written. After OpenQuestionError and BudgetError,
@@ -56,7 +58,7 @@ def articulate(
     how = ExportOptions.parse(base, formats, drives)
     with _new_run(mesh_path, out, answering, force, time_limit, progress) as run:
         shared_pool().warm(*AHEAD)
-        loaded = load(run, Path(mesh_path), PlacementOptions(up, scale, root))
+        loaded = load(run, Path(mesh_path), PlacementOptions(up, scale, root, animation))
         solver, recognized = recognize(run, loaded, parts, sized=scale == "auto")
         segmented = find_parts(run, solver, recognized, parts)
         estimate_joints(run, solver, recognized.result, segmented)
@@ -71,6 +73,7 @@ def segment(
     up: str = "auto",
     scale: str = "auto",
     root: str | Path | None = None,
+    animation: str = "read",
     force: bool = False,
     time_limit: float = DEFAULT_SECONDS,
     progress: Progress = silent,
@@ -78,7 +81,7 @@ def segment(
 ) -> Segmentation:
     """Run only Stage A: save the parts of a mesh in `out` for `joints`. Options as for `articulate`."""
     with _new_run(mesh_path, out, answering, force, time_limit, progress) as run:
-        loaded = load(run, Path(mesh_path), PlacementOptions(up, scale, root))
+        loaded = load(run, Path(mesh_path), PlacementOptions(up, scale, root, animation))
         solver, recognized = recognize(run, loaded, parts, sized=scale == "auto")
         return find_parts(run, solver, recognized, parts).result.segmentation
 

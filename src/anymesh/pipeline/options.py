@@ -181,6 +181,7 @@ class PlacementOptions:
     root: str | Path | None = _option(  # noqa: RUF009
         None, "Folder for textures, and for package:// and model:// references.", metavar="FOLDER", kind=Path
     )
+    animation: str = _option("read", "read or ignore: whether animations, physics joints and bones of the file give joints.")
 
 
 @dataclass(frozen=True)

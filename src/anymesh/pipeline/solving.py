@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import replace
-from functools import cached_property
+from functools import cached_property, partial
 from pathlib import Path
 from typing import Protocol
 
@@ -14,7 +14,7 @@ from jaxtyping import Bool
 from anymesh.articulation.estimate import PartMotions, choose_motion, estimate_joints, part_motions, with_labels_of
 from anymesh.articulation.rank_motions import label_of
 from anymesh.config import Config
-from anymesh.entry_points import PROMPTED_STAGES, resolve
+from anymesh.entry_points import PROMPTED_STAGES, STATED_JOINTS, STATED_PARTS, resolve
 from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.patches import DividedSurface, ObjectShape
 from anymesh.geometry.surface import ground_faces
@@ -70,7 +70,7 @@ class GeometryStages:
         self, segmentation: Segmentation, recognition: Recognition | None, progress: Progress = silent, grounded: bool = False
     ) -> JointResult:
         """Run Stage B."""
-        joints = estimate_joints(segmentation, self._motions(segmentation, progress))
+        joints = estimate_joints(segmentation, self.motions(segmentation, progress))
         return joint_result(joints, self.name, self.deadline.warnings())
 
     def parts(self, progress: Progress = silent) -> Segmentation:
@@ -102,12 +102,12 @@ class GeometryStages:
     def _labels(self, segmentation: Segmentation) -> list[str]:
         """Return a label of each part but the base from its motion by geometry; "" for a part that cannot move."""
         labels = {}
-        for i, _, context, motions in self._motions(segmentation):
+        for i, _, context, motions in self.motions(segmentation):
             choice, best = choose_motion(context, motions)
             labels[i] = "" if choice.type is JointType.FIXED else label_of(context, best)
         return [labels[i] for i in sorted(labels)]
 
-    def _motions(self, segmentation: Segmentation, progress: Progress = silent) -> list[PartMotions]:
+    def motions(self, segmentation: Segmentation, progress: Progress = silent) -> list[PartMotions]:
         """Sweep the motions of all parts; the last result is cached."""
         faces = segmentation.face_part.tobytes()
         if self._swept is None or self._swept[0] != faces:
@@ -191,10 +191,12 @@ class Solver:
         parts: auto, nodes, or a file of face labels.
         """
         if parts == "auto":
-            return self.answers.find_parts(recognition, progress)
-        return segmentation_result(
-            parts_from_nodes(self.mesh) if parts == "nodes" else parts_from_file(self.mesh, Path(parts)), GIVEN
-        )
+            result = self.answers.find_parts(recognition, progress)
+            return resolve(STATED_PARTS)(self.mesh, result) if self.mesh.joints else result
+        if parts == "nodes":
+            result = segmentation_result(parts_from_nodes(self.mesh), GIVEN)
+            return resolve(STATED_PARTS)(self.mesh, result) if self.mesh.joints else result
+        return segmentation_result(parts_from_file(self.mesh, Path(parts)), GIVEN)
 
     def joints(
         self,
@@ -203,8 +205,10 @@ class Solver:
         progress: Progress = silent,
         grounded: bool = False,
     ) -> JointResult:
-        """Run Stage B, see `StageAnswerer`."""
-        result = self.answers.estimate_joints(segmentation, recognition, progress, grounded)
+        """Run Stage B, see `StageAnswerer`; joints that the file states replace those that it estimates."""
+        estimate = partial(self.answers.estimate_joints, segmentation, recognition, progress, grounded)
+        stated = self.geometry.mesh.joints
+        result = resolve(STATED_JOINTS)(self.geometry, segmentation, estimate) if stated else estimate()
         return replace(result, joints=tuple(turned_back(joint, self._T_straight) for joint in result.joints))
 
 

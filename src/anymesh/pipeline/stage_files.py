@@ -26,23 +26,9 @@ from anymesh.pipeline.results import (
     SegmentationResult,
 )
 from anymesh.runtime import read_json, write_json
-from anymesh.types import (
-    Asset,
-    Exchange,
-    Joint,
-    JointType,
-    Material,
-    Mesh,
-    Node,
-    Part,
-    Picture,
-    Segmentation,
-    Source,
-    StatedJoint,
-    Texture,
-)
+from anymesh.types import Asset, Exchange, Joint, JointType, Material, Mesh, Node, Part, Picture, Segmentation, Source, Texture
 from anymesh.types.mesh import REPEAT
-from anymesh.types.motion import Recognition, RecognizedLabel
+from anymesh.types.motion import Recognition, RecognizedLabel, StatedJoint
 
 Result = TypeVar("Result")
 AnyJoint = TypeVar("AnyJoint", Joint, StatedJoint)

@@ -65,9 +65,10 @@ def load(run: Run, path: Path, how: PlacementOptions) -> Keyed[LoadResult]:
     """Load a mesh and bring it to metres, z up."""
     run.progress("load", path.name, 0, 1)
     with run.folder.timed("load"):
-        loaded = load_mesh(path, root=how.root)
+        loaded = load_mesh(path, root=how.root, animation=how.animation)
         category = run.who.config.category
         settings = {"up": how.up, "scale": how.scale, "category": category, "path": str(path), "references": loaded.references}
+        settings |= {} if how.animation == "read" else {"animation": how.animation}
         key = stage_key(MESH, previous=loaded.sha256, config=settings)
         placed = run.folder.load(MESH, key)
         if placed is None:

@@ -118,7 +118,7 @@ class KnownJoint:
 
 @dataclass(frozen=True, eq=False)
 class StatedJoint(KnownJoint):
-    """A joint that the file states for the nodes that refer to it, in the frame of their mesh at rest.
+    """A joint that the file states for the nodes that refer to it, in the frame of their mesh at rest; limits contain 0.
 
     name: of the part that it moves; reason: where the file states it; parent: index of the joint that moves its parent, None if
     that is the base. If `axis_known` is False, only the origin is known, as of a bone: type, axis and limits mean nothing.
