@@ -118,9 +118,14 @@ def test_a_buffer_that_is_short_or_missing(tmp_path) -> None:
 @pytest.mark.parametrize("index", ["0", "9", "-9", "x", "1.5", "99999999999999999999"])
 def test_an_index_that_no_vertex_has(tmp_path, index) -> None:
     assert_refused(put(tmp_path, "x.obj", (rows("v ", POINTS) + f"f 1 2 {index}\n").encode()))
-    if index != "0":
-        assert_refused(put(tmp_path, "x.off", FILES["box.off"].replace(b"\n3 0 1", f"\n3 {index} 1".encode())))
-        assert_refused(put(tmp_path, "x.ply", FILES["ascii.ply"].replace(b"\n3 0 1", f"\n3 {index} 1".encode())))
+    for name in ("box.off", "ascii.ply") if index != "0" else ():
+        path = put(tmp_path, name, FILES[name].replace(b"\n3 0 1", f"\n3 {index} 1".encode()))
+        if index in ("9", "-9"):
+            loaded = load_mesh(path)
+            assert len(loaded.mesh.faces) == len(FACES) - 1
+            assert f"such as vertex {index}; valid are 0 to 7" in loaded.warnings[0]
+        else:
+            assert_refused(path)
     if index == "9":
         g = Gltf()
         g.node(mesh=g.mesh(g.solid(FACES + 2)))

@@ -1,6 +1,7 @@
-"""OFF: polygons, with colours of vertices (COFF) or of faces. STL, binary and ASCII: triangles, one node per solid.
+"""OFF: polygons, with normals, colours and texture coordinates of vertices, or colours of faces.
 
-The normals of an STL add nothing to the winding and are ignored.
+STL, binary and ASCII: triangles, one node per solid, with the colours of VisCAM and SolidView, or of Materialise Magics. The
+normals of an STL add nothing to the winding and are ignored.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ import numpy as np
 
 from anymesh.errors import InputError
 from anymesh.loading.files import ASCII_STL, Folder, check_count
-from anymesh.loading.join import check_geometry, join, rgba, simple_mesh
+from anymesh.loading.join import check_geometry, join, rgba, simple_mesh, unit, usable_polygons, with_points
 from anymesh.loading.polygons_ import fans, recut
 from anymesh.types import Mesh
 
@@ -23,17 +24,19 @@ SOLID = re.compile(rb"(?mi)^[ \t\v\f]*solid\b([^\n]*?)(?=$|\bfacet\s+normal\s+" 
 FACET, END = re.compile(rb"(?i)\bfacet\b"), re.compile(rb"(?i)\bendsolid\b")
 VERTEX = re.compile(rb"(?i)\bvertex" + 3 * (rb"\s+(" + NUMBER + rb"\S*)"))
 MAX_TITLE = 200  # characters of a solid's name that are kept
+MAGICS = re.compile(rb"(?s)COLOR=(.{4})")  # in the header: RGBA of the whole object
+PAINTED, SHIFTS = 1 << 15, (10, 5, 0)  # of the attribute: the flag, and the places of red, green and blue, 5 bits each
+GREY = 218  # of faces without a colour beside others: that of a surface without material
 
 
 def read_stl(data: bytes, folder: Folder) -> Mesh:
     """Return the triangles in file coordinates. Raise InputError if they are not valid."""
-    name = folder.path.name
     if not ASCII_STL.match(data) or _is_complete(data):
-        return _binary(name, data)
+        return _binary(folder, data)
     data = data.removeprefix(b"\xef\xbb\xbf").replace(b"\r", b"\n")  # some exporters end lines with a carriage return alone
     starts = [m.start() for m in SOLID.finditer(data)]
     parts = [data[a:b] for a, b in zip(starts, [*starts[1:], len(data)], strict=True)]
-    return join([_solid(name, part) for part in parts if b"facet" in part.lower()])
+    return join([_solid(folder, part) for part in parts if b"facet" in part.lower()])
 
 
 def _is_complete(data: bytes) -> bool:
@@ -41,7 +44,8 @@ def _is_complete(data: bytes) -> bool:
     return len(data) >= 84 and len(data) == 84 + TRIANGLE.itemsize * struct.unpack_from("<I", data, 80)[0]
 
 
-def _binary(name: str, data: bytes) -> Mesh:
+def _binary(folder: Folder, data: bytes) -> Mesh:
+    name = folder.path.name
     if len(data) < 84:
         raise InputError(
             f"{name} is truncated or no STL: a binary one has at least 84 bytes, found {len(data)}; an ASCII one has facets"
@@ -50,10 +54,37 @@ def _binary(name: str, data: bytes) -> Mesh:
     check_count(name, "triangles", count, (len(data) - 84) // TRIANGLE.itemsize)
     table: Any = np.frombuffer(data, TRIANGLE, count, 84)
     vertices = table["vertices"].reshape(-1, 3)
-    return simple_mesh(name, _stem(name), vertices, np.arange(len(vertices)))
+    usable = usable_polygons(folder, vertices, np.arange(len(vertices)), np.full(count, 3), first=1)
+    colors = _facet_colors(folder, data[:80], table["attributes"])
+    faces = np.arange(len(vertices)).reshape(-1, 3)[usable]
+    colors = None if colors is None else np.repeat(colors[usable][:, None], 3, 1)
+    return simple_mesh(name, _stem(name), vertices, faces, corner_color=colors)
 
 
-def _solid(name: str, text: bytes) -> Mesh:
+def _facet_colors(folder: Folder, header: bytes, attributes: np.ndarray) -> np.ndarray | None:
+    """Return the colours of facets; None if there are none.
+
+    VisCAM and SolidView: blue is lowest, and the highest bit means that there is a colour. Magics, told by the header: red is
+    lowest, and the highest bit means that the facet has the colour of the header; so it has if all attributes are zero.
+    """
+    magics, flag = MAGICS.search(header), attributes & PAINTED > 0
+    if flag.all() and len(np.unique(attributes)) > 1:  # colours of which none would count
+        magics = None
+    painted = flag if magics is None else ~flag & attributes.any()
+    shifts = SHIFTS if magics is None else SHIFTS[::-1]
+    if magics is None and not flag.any():
+        if (number := np.count_nonzero(attributes)) and len(np.unique(attributes)) > 1:
+            folder.warn(
+                f"{number} facets have attributes that are no colours (their highest bit is not set); they are left out"
+            )
+        return None
+    base = np.full(3, GREY, np.uint8) if magics is None else np.frombuffer(magics[1], np.uint8)[:3]
+    levels = np.stack([attributes >> shift & 31 for shift in shifts], 1)
+    return rgba(np.where(painted[:, None], np.rint(levels * 255 / 31), base).astype(np.uint8))
+
+
+def _solid(folder: Folder, text: bytes) -> Mesh:
+    name = folder.path.name
     label = SOLID.match(text)
     title, body = (label[1].strip().decode("utf-8", "replace")[:MAX_TITLE], text[label.end() :]) if label else ("", text)
     end = END.search(body)
@@ -63,7 +94,13 @@ def _solid(name: str, text: bytes) -> Mesh:
     rows, facets = VERTEX.findall(body), len(FACET.findall(body))
     if len(rows) != 3 * facets:
         raise InputError(f"{name} is broken: found {facets} facets with {len(rows)} vertices; valid are 3 each")
-    return simple_mesh(name, title or _stem(name), np.array(rows, float).reshape(-1, 3), np.arange(len(rows)))
+    try:
+        vertices = np.array(rows, float).reshape(-1, 3)
+    except ValueError:
+        words = with_points(b" ".join(word for row in rows for word in row).decode("latin-1"), folder).split()
+        vertices = np.array(words, float).reshape(-1, 3)
+    usable = usable_polygons(folder, vertices, np.arange(len(rows)), np.full(facets, 3), first=1)
+    return simple_mesh(name, title or _stem(name), vertices, np.arange(len(rows)).reshape(-1, 3)[usable])
 
 
 def _stem(name: str) -> str:
@@ -78,34 +115,48 @@ def read_off(data: bytes, folder: Folder) -> Mesh:
     head = re.match(r"\s*(ST)?(C)?(N)?(4)?OFF", text)
     if head is None or head[4] or re.match(r"\s*BINARY", text[head.end() :]):
         raise InputError(f"{name}: found a binary or four-dimensional OFF; valid is OFF text with three coordinates")
+    if "," in text:
+        text = with_points(text, folder)
     lines = [row for line in text[head.end() :].splitlines() if (row := line.split("#", 1)[0].split())]
     if not lines or len(lines[0]) < 2:
         raise InputError(f"{name} is truncated: found no numbers of vertices and faces, with which an OFF begins")
     points, polygons = int(lines[0][0]), int(lines[0][1])
     check_count(name, "vertices", points, len(lines) - 1)
     check_count(name, "faces", polygons, len(lines) - 1 - points)
-    width = 3 + (3 if head[3] else 0)
-    table = [row[: width + 4] for row in lines[1 : points + 1]]
+    width, after = 6 if head[3] else 3, 2 if head[1] else 0  # numbers before and after the colour
+    table = lines[1 : points + 1]
     vertices = np.array([row[:3] for row in table], float).reshape(-1, 3)
-    color = _colors([row[width:] for row in table]) if head[2] else None
+    color = _colors([row[width : len(row) - after][:4] for row in table], folder) if head[2] else None
+    normal = unit(np.array([row[3:6] for row in table], float)) if head[3] else None
+    uv = np.array([row[-2:] for row in table], np.float32) if after else None
     rows = lines[points + 1 : points + 1 + polygons]
     sizes = np.array([int(row[0]) for row in rows], np.int64)
     if any(len(row) <= size or size < 1 for row, size in zip(rows, sizes, strict=True)):
         raise InputError(f"{name} is truncated or broken: a face has fewer indices than it states")
     corner = np.array([int(i) for row, size in zip(rows, sizes, strict=True) for i in row[1 : size + 1]], np.int64)
+    usable = usable_polygons(folder, vertices, corner, sizes, first=0)
     triangles, polygon = fans(sizes)
+    triangles, polygon = triangles[usable[polygon]], polygon[usable[polygon]]
     check_geometry(name, vertices, corner[triangles])  # the corners can be looked up
     faces = corner[recut(triangles, polygon, sizes, vertices, corner)]
     corners = None if color is None else color[faces]
-    if color is None and (color := _colors([row[size + 1 :] for row, size in zip(rows, sizes, strict=True)])) is not None:
-        corners = np.repeat(color[polygon][:, None], 3, 1)
-    return simple_mesh(name, folder.path.stem, vertices, faces, corner_color=corners)
+    of_faces = None if head[2] else _colors([row[size + 1 :] for row, size in zip(rows, sizes, strict=True)], folder)
+    if of_faces is not None:
+        corners = np.repeat(of_faces[polygon][:, None], 3, 1)
+    return simple_mesh(
+        name, folder.path.stem, vertices, faces,
+        corner_color=corners,
+        corner_normal=None if normal is None else normal[faces],
+        corner_uv=None if uv is None else np.nan_to_num(uv)[faces],
+    )  # fmt: skip
 
 
-def _colors(rows: list[list[str]]) -> np.ndarray | None:
+def _colors(rows: list[list[str]], folder: Folder) -> np.ndarray | None:
     """Return RGBA bytes if every row has 3 or 4 numbers, integers of 0..255 or fractions."""
     width = {len(row) for row in rows}
     if len(width) != 1 or width.isdisjoint({3, 4}):
+        if width != {0}:
+            folder.warn("colours are left out: valid are 3 or 4 numbers for all vertices or for all faces")
         return None
     fractions = any("." in value for row in rows for value in row)
     values = np.array(rows, float)

@@ -1,19 +1,19 @@
 """PLY, ASCII and binary of both byte orders.
 
-Polygons with colours, normals, texture coordinates, and the picture that a comment names.
+Polygons and triangle strips with colours, normals, texture coordinates, and the pictures that comments name.
 """
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 
 from anymesh.errors import InputError
 from anymesh.loading.files import Folder, check_count, picture_file
-from anymesh.loading.join import rgba, simple_mesh, unit
+from anymesh.loading.join import rgba, simple_mesh, unit, usable_polygons, with_points
 from anymesh.loading.polygons_ import fans, recut
 from anymesh.types import Material, Mesh
 
@@ -23,38 +23,63 @@ TYPES = {
     **dict.fromkeys(("int", "int32"), "i4"), **dict.fromkeys(("uint", "uint32"), "u4"),
     **dict.fromkeys(("float", "float32"), "f4"), **dict.fromkeys(("double", "float64"), "f8"),
 }  # fmt: skip
-INDICES = ("vertex_indices", "vertex_index")
-UV = (("texture_u", "texture_v"), ("s", "t"), ("u", "v"))
+INDICES = ("vertex_indices", "vertex_index", "vertex_indexes")
+COLORS = (
+    ("red", "green", "blue", "alpha"),
+    ("diffuse_red", "diffuse_green", "diffuse_blue", "diffuse_alpha"),
+    ("r", "g", "b", "a"),
+)
+UV = (("texture_u", "texture_v"), ("s", "t"), ("u", "v"), ("texture_s", "texture_t"), ("tx", "ty"))
+READ = ("vertex", "face", "tristrips")
+PICTURE = re.compile(r"(?i)texture\s?file:?\s+(.+?)\s*$")  # in a comment, as MeshLab and others write it
+BESIDE = (".png", ".jpg", ".jpeg")  # of a picture that is named like the mesh
+WHITE = (1.0, 1.0, 1.0, 1.0)
 
 
 def read_ply(data: bytes, folder: Folder) -> Mesh:
     """Return the mesh in file coordinates. Raise InputError if it is not valid."""
     name = folder.path.name
     elements, style, comments, body = parse_header(name, data)
-    columns = read_elements(name, elements, style, body)
+    columns = read_elements(elements, style, body, folder)
     vertex, face = columns.get("vertex", {}), columns.get("face", {})
     points = _table(vertex, ("x", "y", "z"))
     if points is None:
         raise InputError(f"{name}: found the elements {', '.join(columns) or 'none'}; vertices with x, y and z are needed")
+    others = ", ".join(f"{e.count} {e.name!r}" for e in elements if e.count and e.name not in READ)
+    if others:
+        folder.warn(f"left out, since only vertices, faces and triangle strips are read: {others}")
     lists = next((face[key] for key in INDICES if isinstance(face.get(key), tuple)), None)
+    strips = next((strip for strip in columns.get("tristrips", {}).values() if isinstance(strip, tuple)), None)
+    if strips is not None and (lists is None or not len(lists[1])):
+        face, lists = {}, _unrolled(*strips)
+    elif strips is not None:
+        folder.warn("the file has faces and triangle strips; the strips are left out")
     if lists is None:
-        raise InputError(f"{name}: found {len(points)} points and no faces; at least one triangle is needed")
+        more = f", but {others}" if others else ""
+        raise InputError(f"{name}: found {len(points)} points and no faces{more}; at least one triangle is needed")
     indices, counts = lists
-    triangles, polygon = fans(counts)
     # ASCII may hold any number
     if not (np.abs(indices, dtype=np.float64) < 2**53).all() or (indices != np.rint(indices)).any():
         raise InputError(f"{name}: found a vertex index that is no whole number; valid are 0 to {len(points) - 1}")
     corner = indices.astype(np.int64)
+    usable = usable_polygons(folder, points, corner, counts, first=0)
+    triangles, polygon = fans(counts)
+    triangles, polygon = triangles[usable[polygon]], polygon[usable[polygon]]
     simple_mesh(name, folder.path.stem, points, corner[triangles])  # checks that the corners can be looked up
     faces = corner[recut(triangles, polygon, counts, points, corner)]
     normal = _table(vertex, ("nx", "ny", "nz"))
     normal = None if normal is None else unit(normal)
-    return simple_mesh(
-        name, folder.path.stem, points, faces, _material(folder, comments),
-        corner_uv=_uv(vertex, face, faces, triangles),
-        corner_color=_color(vertex, face, faces, polygon, style == "ascii"),
+    uv = _uv(vertex, face, faces, triangles)
+    mesh = simple_mesh(
+        name, folder.path.stem, points, faces,
+        corner_uv=uv,
+        corner_color=_color(vertex, face, faces, polygon, style == "ascii", folder),
         corner_normal=None if normal is None else normal[faces],
     )  # fmt: skip
+    materials, chosen = _materials(folder, comments, face.get("texnumber"), has_uv=uv is not None)
+    return replace(
+        mesh, materials=materials, face_material=chosen[polygon] if len(chosen) > 1 else np.repeat(chosen, len(faces))
+    )
 
 
 def _table(columns: Columns, keys: tuple[str, ...]) -> np.ndarray | None:
@@ -63,11 +88,29 @@ def _table(columns: Columns, keys: tuple[str, ...]) -> np.ndarray | None:
     return np.stack(values, 1) if len(values) == len(keys) else None
 
 
-def _color(vertex: Columns, face: Columns, faces: np.ndarray, polygon: np.ndarray, ascii_: bool) -> np.ndarray | None:
+def _unrolled(indices: np.ndarray, counts: np.ndarray) -> Ragged:
+    """Return the triangles of strips, which -1 ends, each second one turned."""
+    whole = np.insert(indices.astype(np.float64), np.cumsum(counts)[:-1], -1)
+    place = np.arange(len(whole))
+    start = np.maximum.accumulate(np.where(whole < 0, place + 1, 0))
+    rows = np.lib.stride_tricks.sliding_window_view(whole, 3) if len(whole) > 2 else np.zeros((0, 3))
+    odd = (place - start)[: len(rows)] % 2 == 1
+    rows = np.where(odd[:, None], rows[:, [1, 0, 2]], rows)
+    rows = rows[(rows >= 0).all(1) & (rows != np.roll(rows, 1, axis=1)).all(1)]
+    return rows.reshape(-1), np.full(len(rows), 3, np.int64)
+
+
+def _color(
+    vertex: Columns, face: Columns, faces: np.ndarray, polygon: np.ndarray, ascii_: bool, folder: Folder
+) -> np.ndarray | None:
+    """Return colours without alpha, which in a PLY is no opacity: many writers leave it at 0."""
     for columns, rows in ((vertex, faces), (face, np.repeat(polygon[:, None], 3, 1))):
-        values = _table(columns, ("red", "green", "blue", "alpha"))
-        values = _table(columns, ("red", "green", "blue")) if values is None else values
-        if values is not None:
+        for keys in COLORS:
+            values, alpha = _table(columns, keys[:3]), columns.get(keys[3])
+            if values is None:
+                continue
+            if isinstance(alpha, np.ndarray) and len(alpha) and (np.ptp(alpha) or alpha[0] not in (0, 1, 255)):
+                folder.warn("the alpha of the vertex colours is not read as opacity")
             whole = ascii_ and values.max(initial=0) > 1  # ASCII has no types
             return rgba(np.clip(values, 0, 255).astype(np.uint8) if whole else values)[rows]
     return None
@@ -85,15 +128,25 @@ def _uv(vertex: Columns, face: Columns, faces: np.ndarray, triangles: np.ndarray
     return None if table is None else np.nan_to_num(table.astype(np.float32))[faces]
 
 
-def _material(folder: Folder, comments: list[str]) -> Material | None:
-    """Return the material with the picture that MeshLab and others name in a comment."""
-    for comment in comments:
-        match = re.match(r"(?i)texturefile\s+(.+?)\s*$", comment)
-        if match:
-            texture = picture_file(folder, match[1])
-            white = (1.0, 1.0, 1.0, 1.0)
-            return Material(folder.path.stem, white, textures={"base_color": texture}) if texture else None
-    return None
+def _materials(folder: Folder, comments: list[str], number: Any, *, has_uv: bool) -> tuple[tuple[Material, ...], np.ndarray]:
+    """Return one material for each picture that comments name, and the one of each polygon, or of all; -1 for none."""
+    uris = [match[1] for comment in comments if (match := PICTURE.match(comment))]
+    beside = [folder.path.stem + suffix for suffix in BESIDE if has_uv and folder.find(folder.path.stem + suffix)]
+    pictures = [picture_file(folder, uri) for uri in uris or beside[:1]]
+    stem = folder.path.stem
+    names = [stem] if len(pictures) == 1 else [f"{stem}_{k}" for k in range(len(pictures))]
+    made = [Material(name, WHITE, textures={"base_color": p}) for name, p in zip(names, pictures, strict=True) if p is not None]
+    rows = np.cumsum([p is not None for p in pictures]) - 1
+    rows = np.array([row if p is not None else -1 for row, p in zip(rows, pictures, strict=True)], np.int64)
+    if len(pictures) < 2:
+        return tuple(made), rows if len(rows) else np.array([-1])
+    if not isinstance(number, np.ndarray):
+        folder.warn(f"the file names {len(pictures)} pictures, and no face says which (texnumber); all have the first")
+        return tuple(made[:1]), rows[:1]
+    valid = (number >= 0) & (number < len(rows))
+    if not valid.all():
+        folder.warn(f"{(~valid).sum()} faces have a texnumber without a picture; valid are 0 to {len(rows) - 1}")
+    return tuple(made), np.where(valid, rows[np.where(valid, number, 0).astype(np.int64)], -1)
 
 
 @dataclass
@@ -141,10 +194,14 @@ def parse_header(name: str, data: bytes) -> tuple[list[Element], str, list[str],
     return elements, style, comments, data[newline + 1 :]
 
 
-def read_elements(name: str, elements: list[Element], style: str, body: bytes) -> dict[str, Columns]:
+def read_elements(elements: list[Element], style: str, body: bytes, folder: Folder) -> dict[str, Columns]:
     """Return the columns of every element. Raise InputError if the body is shorter than the header states."""
+    name = folder.path.name
     if style == "ascii":  # converted to binary with one wide type
-        body = np.array(body.split(), np.float64).tobytes()
+        try:
+            body = np.array(body.split(), np.float64).tobytes()
+        except ValueError:
+            body = np.array(with_points(body.decode("latin-1"), folder).split(), np.float64).tobytes()
         for e in elements:
             e.properties = [(label, "f8", count and "f8") for label, _, count in e.properties]
     order = ">" if style == "binary_big_endian" else "<"
