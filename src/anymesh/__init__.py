@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from anymesh.applications.plan import plan
     from anymesh.applications.policy.env_ import make_env
     from anymesh.applications.scan import scan
+    from anymesh.applications.scenes import articulate_scene
     from anymesh.checking import check_asset
     from anymesh.finishing.finishing import finish
     from anymesh.pipeline import articulate, export_asset, joints, segment
@@ -37,6 +38,7 @@ __all__ = [
     "Segmentation",
     "__version__",
     "articulate",
+    "articulate_scene",
     "check_asset",
     "export_asset",
     "finish",

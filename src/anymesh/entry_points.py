@@ -24,6 +24,10 @@ REMOVE_TRANSCRIPT = "prompted.answerers.recordings:remove_transcript"
 READ_DAE = "formats.dae:read_dae"
 DAE_FRAME = "formats.dae:dae_frame"
 
+# Scenes of several objects.
+SCENE_WARNING = "applications.scenes.objects:scene_warning"
+ARTICULATE_SCENE = "applications.scenes.command_line:articulate_scene"
+
 # What an asset shows of itself in a notebook.
 ASSET_HTML = "viewer.report:asset_html"
 REGISTER_IN_IPYTHON = "viewer.report:register"
@@ -42,6 +46,7 @@ API = {
     "make_env": "applications.policy.env_",
     "plan": "applications.plan",
     "scan": "applications.scan",
+    "articulate_scene": "applications.scenes",
     "show": "viewer.report",
 }
 

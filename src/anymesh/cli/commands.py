@@ -25,12 +25,16 @@ from anymesh.cli.options import (
     with_options,
 )
 from anymesh.cli.output import JOINT_COLUMNS, Shown, joint_row, plain, print_asset, print_result
+from anymesh.entry_points import ARTICULATE_SCENE, resolve
 from anymesh.errors import AnymeshError, OpenQuestionError, OptionError
 from anymesh.isolation import AHEAD, shared_pool
 from anymesh.pipeline.options import AnswererOptions
 
 Meshes = Annotated[
     list[Path], typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF or DAE; several with --batch.")
+]
+SceneOption = Annotated[
+    str, typer.Option("--scene", help="auto: the mesh is one object, with a warning if not; split: each object of a scene.")
 ]
 Batch = Annotated[
     bool, typer.Option("--batch", help="Several meshes, or folders of them; a failure of one does not stop the others.")
@@ -45,22 +49,28 @@ def articulate(
     parts: Parts = "auto",
     answering: Answering,
     batch: Batch = False,
+    scene: SceneOption = "auto",
     placement: Placement,
     writing: Formats,
     running: Running,
     json_: Json = False,
     quiet: Quiet = False,
 ) -> None:
-    """Turn MESH into an articulated asset in DIR; with --batch, each of many meshes into a folder with its name in DIR."""
+    """Turn MESH into an articulated asset in DIR; --batch takes many, --scene split its objects."""
     shared_pool().warm(*AHEAD)  # the child processes import while this process does
     from anymesh import pipeline
 
     options: dict[str, Any] = {"parts": parts, **placement, **writing, **running, **answering}
+    if scene not in ("auto", "split") or (batch and scene == "split"):
+        raise OptionError(f"--scene: found {scene!r}; valid are auto and split, which takes one mesh without --batch")
     if batch:
         _articulate_many(mesh, out, options, json_, quiet)
         return
     if len(mesh) != 1:
         raise OptionError(f"found {len(mesh)} meshes; several need --batch")
+    if scene == "split":
+        resolve(ARTICULATE_SCENE)(mesh[0], out, options, json_, quiet)
+        return
     with Shown(quiet or json_) as progress:
         asset = pipeline.articulate(mesh[0], out, progress=progress, **options)
     print_asset(asset, out, json_, quiet)

@@ -30,7 +30,9 @@ FolderPath = Annotated[
     Path, typer.Argument(metavar="FOLDER", help="An output of `anymesh articulate`, or a folder with several of them.")
 ]
 Out = Annotated[Path, typer.Option("--out", "-o", metavar="DIR", help="Folder to write.")]
-Parts = Annotated[str, typer.Option(help="auto, nodes (the scene's nodes), or a .npy/.json file of face labels.")]
+Parts = Annotated[
+    str, typer.Option(help="auto, nodes (the scene's nodes), none (nothing moves), or a .npy/.json file of face labels.")
+]
 Package = Annotated[
     Path | None, typer.Option(metavar="DIR", help="Also write a ROS 2 package of the URDF, as a new folder in DIR.")
 ]

@@ -16,6 +16,7 @@ from anymesh.export.package import check_zip, write_package, write_zip
 from anymesh.isolation import AHEAD, shared_pool
 from anymesh.pipeline.answering import AnswererSetup, choose_answerer, object_name
 from anymesh.pipeline.options import Answering, PlacementOptions
+from anymesh.pipeline.results import LoadResult
 from anymesh.pipeline.run_folder import LAST, RunFolder
 from anymesh.pipeline.stage_files import JOINTS, MESH, RECOGNITION, SEGMENTATION
 from anymesh.pipeline.stages import Keyed, Run, estimate_joints, find_parts, load, recognize, write_files
@@ -56,13 +57,18 @@ def articulate(
     finished stages are kept for the next call.
     """
     how = ExportOptions.parse(base, formats, drives)
-    with _new_run(mesh_path, out, answering, force, time_limit, progress) as run:
+    with new_run(mesh_path, out, answering, force, time_limit, progress) as run:
         shared_pool().warm(*AHEAD)
         loaded = load(run, Path(mesh_path), PlacementOptions(up, scale, root, animation))
-        solver, recognized = recognize(run, loaded, parts, sized=scale == "auto")
-        segmented = find_parts(run, solver, recognized, parts)
-        estimate_joints(run, solver, recognized.result, segmented)
-        return write_files(run.folder, how, run.deadline, progress)
+        return articulate_loaded(run, loaded, parts, how, sized=scale == "auto")
+
+
+def articulate_loaded(run: Run, loaded: Keyed[LoadResult], parts: str, how: ExportOptions, *, sized: bool) -> Asset:
+    """Run all stages after the first. sized: whether an answered size sets the scale."""
+    solver, recognized = recognize(run, loaded, parts, sized=sized)
+    segmented = find_parts(run, solver, recognized, parts)
+    estimate_joints(run, solver, recognized.result, segmented)
+    return write_files(run.folder, how, run.deadline, run.progress)
 
 
 def segment(
@@ -80,14 +86,14 @@ def segment(
     **answering: Unpack[Answering],
 ) -> Segmentation:
     """Run only Stage A: save the parts of a mesh in `out` for `joints`. Options as for `articulate`."""
-    with _new_run(mesh_path, out, answering, force, time_limit, progress) as run:
+    with new_run(mesh_path, out, answering, force, time_limit, progress) as run:
         loaded = load(run, Path(mesh_path), PlacementOptions(up, scale, root, animation))
         solver, recognized = recognize(run, loaded, parts, sized=scale == "auto")
         return find_parts(run, solver, recognized, parts).result.segmentation
 
 
 @contextmanager
-def _new_run(
+def new_run(
     mesh_path: str | Path, out: str | Path, answering: Answering, force: bool, time_limit: float, progress: Progress
 ) -> Generator[Run]:
     """Begin a run that makes a new output, in the folder `out`."""

@@ -22,7 +22,7 @@ from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.runtime import Deadline, Progress, silent
 from anymesh.segmentation.divide import divide_surface, object_shape
-from anymesh.segmentation.naming import GIVEN, parts_from_file, parts_from_nodes
+from anymesh.segmentation.naming import GIVEN, parts_from_file, parts_from_nodes, whole_as_base
 from anymesh.segmentation.segment import segment_parts
 from anymesh.types import Joint, JointType, Mesh, Segmentation
 from anymesh.types.motion import Recognition
@@ -188,7 +188,7 @@ class Solver:
     ) -> SegmentationResult:
         """Run Stage A.
 
-        parts: auto, nodes, or a file of face labels.
+        parts: auto, nodes, none (all of it is the base), or a file of face labels.
         """
         if parts == "auto":
             result = self.answers.find_parts(recognition, progress)
@@ -196,7 +196,8 @@ class Solver:
         if parts == "nodes":
             result = segmentation_result(parts_from_nodes(self.mesh), GIVEN)
             return resolve(STATED_PARTS)(self.mesh, result) if self.mesh.joints else result
-        return segmentation_result(parts_from_file(self.mesh, Path(parts)), GIVEN)
+        given = whole_as_base(self.mesh) if parts == "none" else parts_from_file(self.mesh, Path(parts))
+        return segmentation_result(given, GIVEN)
 
     def joints(
         self,

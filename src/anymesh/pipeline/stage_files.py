@@ -97,7 +97,7 @@ def _unpack_mesh(record: Record, arrays: Arrays) -> Mesh:
     mesh_arrays: dict[str, Any] = {name: arrays.get(name) for name in MESH_ARRAYS}
     return Mesh(
         **mesh_arrays,
-        nodes=tuple(replace(Node(**node), path=tuple(node.get("path", ()))) for node in record["nodes"]),
+        nodes=tuple(_unpack_node(node) for node in record["nodes"]),
         materials=tuple(material(m) for m in record["materials"]),
         joints=tuple(_unpack_joint(StatedJoint, joint) for joint in record.get("joints", ())),
     )
@@ -105,6 +105,11 @@ def _unpack_mesh(record: Record, arrays: Arrays) -> Mesh:
 
 def _tuples(values: Record) -> dict[str, Any]:
     return {k: tuple(v) if isinstance(v, list) else v for k, v in values.items()}
+
+
+def _unpack_node(node: Record) -> Node:
+    values: dict[str, Any] = {**node, "path": tuple(node.get("path", ()))}
+    return Node(**values)
 
 
 def _pack_exchanges(exchanges: tuple[Exchange, ...]) -> tuple[list[Record], dict[str, np.ndarray]]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Generic, TypeVar
 
+from anymesh.entry_points import SCENE_WARNING, resolve
 from anymesh.export import load_libraries, write_asset
 from anymesh.export.formats import ExportOptions
 from anymesh.loading import load_mesh, place_mesh
@@ -74,7 +75,8 @@ def load(run: Run, path: Path, how: PlacementOptions) -> Keyed[LoadResult]:
         if placed is None:
             p = place_mesh(loaded, up=how.up, scale=how.scale, category=category)
             source = Source(str(path), loaded.sha256, p.T_asset_source, p.up, p.notes)
-            placed = LoadResult(p.mesh, source, (*loaded.warnings, *p.warnings), p.metric)
+            scene = resolve(SCENE_WARNING)(p.mesh)
+            placed = LoadResult(p.mesh, source, (*loaded.warnings, *p.warnings, *([scene] if scene else [])), p.metric)
             run.folder.save(MESH, key, placed)
     return Keyed(placed, key)
 
@@ -108,7 +110,7 @@ def find_parts(run: Run, solver: Solver, recognized: Keyed[RecognitionResult], p
 def _bytes_of_labels(parts: str) -> str:
     """Return the label file in hex, "" if it cannot be read; the stage then reports the error."""
     try:
-        return Path(parts).read_bytes().hex() if parts not in ("auto", "nodes") and Path(parts).is_file() else ""
+        return Path(parts).read_bytes().hex() if parts not in ("auto", "nodes", "none") and Path(parts).is_file() else ""
     except OSError:
         return ""
 

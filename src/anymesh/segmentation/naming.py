@@ -55,6 +55,11 @@ def parts_from_nodes(mesh: Mesh) -> Segmentation:
     return _segmentation(mesh, np.searchsorted(present, mesh.face_node), names)
 
 
+def whole_as_base(mesh: Mesh) -> Segmentation:
+    """Return the whole mesh as the base, for objects that do not move."""
+    return Segmentation(np.zeros(len(mesh.faces), np.int64), (Part("base", "base", 1.0, GIVEN),))
+
+
 def parts_from_file(mesh: Mesh, path: Path) -> Segmentation:
     """Read face labels in the file's face order.
 
@@ -83,7 +88,7 @@ def _read(path: Path) -> tuple[np.ndarray, Any]:
     except OSError as error:
         raise OptionError(f"--parts: {path.name} cannot be opened: {error.strerror}") from None
     if data is None:
-        raise OptionError(f"--parts: found no file {path}; valid are auto, nodes, or a .npy or .json file of face labels")
+        raise OptionError(f"--parts: found no file {path}; valid are auto, nodes, none, or a .npy or .json file of face labels")
     suffix = path.suffix.lower()
     if suffix not in (".npy", ".json"):
         raise OptionError(f"--parts: found a {suffix or 'nameless'} file; valid are .npy and .json")
