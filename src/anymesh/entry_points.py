@@ -20,9 +20,11 @@ PROMPTED_STAGES = "prompted.stages:PromptedStages"
 WRITE_TRANSCRIPT = "prompted.answerers.recordings:write_transcript"
 REMOVE_TRANSCRIPT = "prompted.answerers.recordings:remove_transcript"
 
-# Readers of further formats.
+# Readers of further formats, and what is said of formats that nothing reads.
 READ_DAE = "formats.dae:read_dae"
 DAE_FRAME = "formats.dae:dae_frame"
+READERS = dict.fromkeys((".usd", ".usda", ".usdc", ".usdz"), "formats.reading:read_isolated")
+REMEDY = "formats.reading:remedy"
 
 # Scenes of several objects.
 SCENE_WARNING = "applications.scenes.objects:scene_warning"

@@ -19,14 +19,15 @@ from pathlib import Path, PurePosixPath
 
 from PIL import Image
 
+from anymesh.entry_points import READERS, REMEDY, resolve
 from anymesh.errors import InputError, OptionError
 from anymesh.loading.references import ASIDE, SHOWN, Unresolved, readable, resolve_reference
-from anymesh.types import Texture
+from anymesh.types import Mesh, Texture
 
 MAX_PIXELS = 16384**2
 MIME_TYPES = {"PNG": "image/png", "JPEG": "image/jpeg"}
 OBJECT = re.compile(r"\s*<[^>]*>")  # Python's name of a stream in an error, with an address that differs between runs
-FORMATS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae")
+FORMATS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae", *READERS)
 MAX_FACES = 20_000_000
 MAX_BYTES = 4 * 1024**3
 LFS, LFS_HINT = (
@@ -44,9 +45,23 @@ SIGNS = {  # start of files of other formats
     "a JPEG picture": rb"\xff\xd8\xff",
     "a ZIP archive": rb"PK\x03\x04",
     "an FBX": rb"Kaydara FBX",
+    "USD": rb"#usda |PXR-USDC",
     "an ASCII STL": ASCII_STL,
     "a web page": rb"(?i)\s*<(!doctype )?html",
 }
+STARTS = {
+    ".glb": rb"glTF", ".gltf": SIGNS["glTF"], ".ply": rb"ply", ".off": SIGNS["OFF"], ".dae": rb"(?s).{0,4088}<COLLADA",
+    **dict.fromkeys((".usd", ".usda", ".usdc"), SIGNS["USD"]), ".usdz": rb"PK",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, eq=False)
+class FileMesh:
+    """A mesh in the coordinates of its file, with the up axis (x, y or z) and the unit [m] that the file states."""
+
+    mesh: Mesh
+    up: str | None
+    unit: float | None
 
 
 class Folder:
@@ -114,6 +129,11 @@ class Folder:
         if text not in self.warnings:
             self.warnings.append(text)
 
+    def take(self, other: Folder) -> None:
+        """Take over what the same folder recorded in another process."""
+        self.warnings[:] = other.warnings
+        self._digests.update(other._digests)
+
     def digest(self) -> str:
         """Return a digest that differs between loads of the same mesh file with other referenced contents or warnings."""
         contents = (sorted(self._digests.items()), self.warnings)
@@ -179,7 +199,8 @@ def check_file(path: Path) -> bytes:
         raise InputError(f"{path} is not a file; a mesh file is expected ({', '.join(FORMATS)})")
     suffix = path.suffix.lower()
     if suffix not in FORMATS:
-        raise InputError(f"{path.name}: found the format {suffix or '(none)'}; valid are {', '.join(FORMATS)}")
+        remedy = resolve(REMEDY)(suffix) or f"valid are {', '.join(FORMATS)}"
+        raise InputError(f"{path.name}: found the format {suffix or '(none)'}; {remedy}")
     size = path.stat().st_size
     if size == 0:
         raise InputError(f"{path.name} is empty (0 bytes); valid is a file with at least one triangle")
@@ -198,21 +219,11 @@ def check_file(path: Path) -> bytes:
 
 
 def _plausible(suffix: str, data: bytes) -> bool:
-    match suffix:
-        case ".glb":
-            return data[:4] == b"glTF"
-        case ".gltf":
-            return re.match(SIGNS["glTF"], data) is not None
-        case ".ply":
-            return data[:3] == b"ply"
-        case ".off":
-            return re.match(SIGNS["OFF"], data) is not None
-        case ".dae":
-            return b"<COLLADA" in data[:4096]
-        case ".stl":
-            return ASCII_STL.match(data) is not None or is_binary_stl(data)
-        case _:
-            return b"\0" not in data[:4096] and re.search(rb"(^|[\r\n])[ \t]*(v|f|o|g|mtllib|usemtl)\s", data) is not None
+    if suffix in STARTS:
+        return re.match(STARTS[suffix], data) is not None
+    if suffix == ".stl":
+        return ASCII_STL.match(data) is not None or is_binary_stl(data)
+    return b"\0" not in data[:4096] and re.search(rb"(^|[\r\n])[ \t]*(v|f|o|g|mtllib|usemtl)\s", data) is not None
 
 
 def is_binary_stl(data: bytes) -> bool:

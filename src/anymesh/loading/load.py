@@ -18,9 +18,10 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from anymesh import entry_points
 from anymesh.entry_points import DAE_FRAME, READ_DAE, resolve
-from anymesh.errors import InputError, OptionError
-from anymesh.loading.files import MAX_FACES, Folder, check_file
+from anymesh.errors import AnymeshError, InputError, OptionError
+from anymesh.loading.files import MAX_FACES, FileMesh, Folder, check_file
 from anymesh.loading.gltf import read_gltf
 from anymesh.loading.obj import read_obj
 from anymesh.loading.off_stl import read_off, read_stl
@@ -78,7 +79,7 @@ class LoadedMesh:
 
 
 def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: str = "read") -> LoadedMesh:
-    """Read GLB, glTF, OBJ, PLY, STL, OFF or DAE.
+    """Read GLB, glTF, OBJ, PLY, STL, OFF or DAE, or a format of `entry_points.READERS`.
 
     root: the folder within which the files that the mesh refers to may be read, by default its own folder. A texture or a
     material library that cannot be read there is left out with a warning; animation: read, or ignore for a mesh without the
@@ -94,9 +95,10 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: st
     suffix = path.suffix.lower()
     try:
         with np.errstate(over="ignore", invalid="ignore"):
-            mesh = _with_usable_uv(scene_of_objects(READERS[suffix](data, folder), folder), folder)
-        up, unit = _frame(suffix, data)
-    except InputError:
+            read = (READERS.get(suffix) or resolve(entry_points.READERS[suffix]))(data, folder)
+            framed = read if isinstance(read, FileMesh) else FileMesh(read, *_frame(suffix, data))
+            mesh = _with_usable_uv(scene_of_objects(framed.mesh, folder), folder)
+    except AnymeshError:
         raise
     except Exception as error:  # readers raise many types of errors for broken files
         cause = " ".join(f"{type(error).__name__}: {error}".split())[:200]
@@ -104,7 +106,8 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: st
     if len(mesh.faces) > MAX_FACES:
         raise InputError(f"{path.name} has {len(mesh.faces)} faces; at most {MAX_FACES} are handled")
     _check_numbers(path.name, mesh)
-    return LoadedMesh(mesh, str(path), hashlib.sha256(data).hexdigest(), up, unit, tuple(folder.warnings), folder.digest())
+    sha256, notes = hashlib.sha256(data).hexdigest(), tuple(folder.warnings)
+    return LoadedMesh(mesh, str(path), sha256, framed.up, framed.unit, notes, folder.digest())
 
 
 def _with_usable_uv(mesh: Mesh, folder: Folder) -> Mesh:

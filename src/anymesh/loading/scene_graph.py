@@ -30,7 +30,7 @@ GENERIC = re.compile(
       b?rep | poly_?surface | p?(?:cube|cylinder|sphere|plane|torus|cone|pipe|prism|disc) | circle | icosphere | suzanne | box |
       line | curve | nurbs(?:path|curve)? | bezier(?:curve|circle)? | text | rectangle | loft | extrude |
       root | root_?node | scene(?:[ _]root)? | gltf_sceneroot_?node | world | sketchfab_?(?:model|scene)? | osg_?scene |
-      auxscene | collada[ ]?visual[ ]?scene(?:[ ]group)? | visual_?scene(?:node)? | collection
+      auxscene | visuals? | collada[ ]?visual[ ]?scene(?:[ ]group)? | visual_?scene(?:node)? | collection
     ) [\W_\d]* | [\W_\d]* | [0-9a-f-]{16,}[\W_\d]* |
     .*\.(?:fbx|obj|dae|blend|3ds|max|gltf|glb|stl|ply|skp|c4d|ma|mb|stp|step)\b.* )"""
 )
