@@ -15,7 +15,7 @@ from html import escape
 from pathlib import Path, PurePosixPath
 
 from anymesh.errors import InputError
-from anymesh.loading.load import READERS
+from anymesh.loading.files import FORMATS
 
 MAX_UPLOAD_BYTES = 200 << 20  # maximum size of a file [bytes]
 MAX_UNPACKED_BYTES = 1 << 30  # maximum size of all files in a zip [bytes]
@@ -73,8 +73,8 @@ def receive(name: str, content: bytes, folder: Path) -> Upload:
     folder.mkdir(parents=True)
     plain = plain_name(name)
     suffix = Path(plain).suffix.lower()
-    if suffix not in (*READERS, ".zip"):
-        raise InputError(f"{plain}: found the format {suffix or '(none)'}; valid are {', '.join(READERS)}, and .zip")
+    if suffix not in (*FORMATS, ".zip"):
+        raise InputError(f"{plain}: found the format {suffix or '(none)'}; valid are {', '.join(FORMATS)}, and .zip")
     path = folder / plain
     path.write_bytes(content)
     if suffix != ".zip":
@@ -143,11 +143,11 @@ def _inside(entry: zipfile.ZipInfo, folder: Path) -> Path | None:
 
 def _only_mesh(folder: Path) -> Path:
     """Return the only mesh file in a folder. Raise InputError if there is none, or several."""
-    meshes = sorted(p for p in folder.rglob("*") if p.is_file() and p.suffix.lower() in READERS)
+    meshes = sorted(p for p in folder.rglob("*") if p.is_file() and p.suffix.lower() in FORMATS)
     if len(meshes) != 1:
         names = ", ".join(p.relative_to(folder).as_posix() for p in meshes[:4])
         listed = f"{len(meshes)} meshes ({names}{', ...' if len(meshes) > 4 else ''})" if meshes else "no mesh"
-        raise InputError(f"the zip holds {listed}; valid is exactly one of {', '.join(READERS)}, with what it refers to")
+        raise InputError(f"the zip holds {listed}; valid is exactly one of {', '.join(FORMATS)}, with what it refers to")
     return meshes[0]
 
 
@@ -157,7 +157,7 @@ def _size(count: int) -> str:
 
 def drop_zone(*, small: bool) -> str:
     """Return the drop zone; small: one line, used once an asset is shown."""
-    formats = ", ".join(suffix[1:].upper() for suffix in READERS)
+    formats = ", ".join(suffix[1:].upper() for suffix in FORMATS)
     script = escape(SCRIPT.replace("MOST", str(MAX_UPLOAD_BYTES), 1), quote=True)
     runs = f'<img src="{EMPTY_PICTURE}" alt="" style="display:none" onload="{script}">'
     note = '<div id="anymesh-drop-note" role="alert" style="color:#c92a2a"></div>'
