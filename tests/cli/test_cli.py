@@ -90,9 +90,9 @@ def test_a_root_admits_textures_and_computes_the_mesh_anew(mesh, capfd) -> None:
     box = trimesh.creation.box().export(file_type="obj", include_texture=False)
     Path("model/meshes").mkdir(parents=True)
     Path("model/meshes/box.obj").write_text(f"mtllib box.mtl\nusemtl red\n{box}")
-    Path("model/meshes/box.mtl").write_text("newmtl red\nmap_Kd ../textures/red.png\nmap_Ke model://model/textures/red.png\n")
-    Path("model/textures").mkdir()
-    Image.new("RGB", (2, 2), "red").save("model/textures/red.png")
+    Path("model/meshes/box.mtl").write_text("newmtl red\nmap_Kd ../skins/red.png\nmap_Ke model://model/skins/red.png\n")
+    Path("model/skins").mkdir()
+    Image.new("RGB", (2, 2), "red").save("model/skins/red.png")
     call = ["segment", "model/meshes/box.obj", "-o", "out", *PARTS]
     keys = []
     for root, count in ((), 2), (("--root", "model"), 0):
@@ -101,7 +101,7 @@ def test_a_root_admits_textures_and_computes_the_mesh_anew(mesh, capfd) -> None:
         assert len([w for w in saved["result"]["warnings"] if "red.png" in w]) == count
         keys.append(saved["key"])
     assert keys[0] != keys[1]
-    code, out, err = called(capfd, *call, "--root", "model/textures", "--force")
+    code, out, err = called(capfd, *call, "--root", "model/skins", "--force")
     assert (code, out) == (2, "")
     assert err.startswith("error: --root: ")
 
