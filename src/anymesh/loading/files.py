@@ -18,15 +18,19 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
+import numpy as np
 from PIL import Image
 
 from anymesh.entry_points import READERS, REMEDY, resolve
 from anymesh.errors import InputError, OptionError
+from anymesh.loading.ktx2_ import open_ktx2
 from anymesh.loading.references import ASIDE, SHOWN, Unresolved, readable, resolve_reference
 from anymesh.types import Mesh, Texture
 
 MAX_PIXELS = 16384**2
 MIME_TYPES = {"PNG": "image/png", "JPEG": "image/jpeg"}
+MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")  # that all readers of PNG and JPEG decode alike
+KTX2 = b"\xabKTX 20"
 OBJECT = re.compile(r"\s*<[^>]*>")  # Python's name of a stream in an error, with an address that differs between runs
 FORMATS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae", *READERS)
 MAX_FACES = 20_000_000
@@ -159,17 +163,20 @@ def picture_file(folder: Folder, uri: str) -> Texture | None:
 def picture(folder: Folder, data: bytes, name: str) -> Texture | None:
     """Return a texture of encoded bytes; None, with a warning, if they are broken.
 
-    PNG and JPEG are kept unchanged, other formats are converted to PNG.
+    PNG and JPEG are kept unchanged, other formats, CMYK and grey of more than 8 bits are converted to PNG.
     """
     stem = PurePosixPath(readable(name).replace("\\", "/")).stem
     try:
         with quiet_decoder():
-            image = Image.open(io.BytesIO(data))
+            image = open_ktx2(data, MAX_PIXELS) if data.startswith(KTX2) else Image.open(io.BytesIO(data))
         if image.width * image.height > MAX_PIXELS:
             raise ValueError(f"{image.width} x {image.height} pixels")
         image.load()
-        if image.format in MIME_TYPES:
+        if image.format in MIME_TYPES and image.mode in MODES:
             return Texture(data, MIME_TYPES[image.format], stem)
+        if image.mode[0] in "IF":  # grey of 16 or 32 bits: 65535 or 1.0 is white
+            grey = np.nan_to_num(np.asarray(image, np.float64)) * (255 if image.mode == "F" else 1 / 257)
+            image = Image.fromarray(np.clip(np.rint(grey), 0, 255).astype(np.uint8))
         buffer = io.BytesIO()
         image.convert("RGBA" if image.has_transparency_data else "RGB").save(buffer, "PNG")
     except Exception as error:  # decoders raise many types of errors for broken pictures

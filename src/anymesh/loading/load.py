@@ -112,10 +112,11 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: st
 
 def _with_usable_uv(mesh: Mesh, folder: Folder) -> Mesh:
     """Return the mesh with texture coordinates that are not finite, or too large to mean a place, replaced by 0."""
-    if mesh.corner_uv is None or (usable := np.abs(mesh.corner_uv) <= MAX_UV).all():
-        return mesh
-    folder.warn(f"texture coordinates that are not finite or above {MAX_UV:.0e} are taken for 0")
-    return replace(mesh, corner_uv=np.where(usable, mesh.corner_uv, np.float32(0)))
+    for name, uv in (("corner_uv", mesh.corner_uv), ("corner_more_uv", mesh.corner_more_uv)):
+        if uv is not None and not (usable := np.abs(uv) <= MAX_UV).all():
+            folder.warn(f"texture coordinates that are not finite or above {MAX_UV:.0e} are taken for 0")
+            mesh = replace(mesh, **{name: np.where(usable, uv, np.float32(0))})
+    return mesh
 
 
 def _check_numbers(name: str, mesh: Mesh) -> None:

@@ -5,12 +5,14 @@ Colours for display are sRGB and those for light linear, both 0..1 (IEC 61966-2-
 
 from __future__ import annotations
 
+import io
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 from jaxtyping import Bool, Float, Float32, Int, UInt8
+from PIL import Image
 
 from anymesh.types.motion import StatedJoint
 from anymesh.types.triangles import face_cross
@@ -29,6 +31,20 @@ class Texture:
     wrap: tuple[str, str] = (REPEAT, REPEAT)  # beyond 0..1 along u and v: REPEAT, MIRROR or CLAMP
     uv_set: int = 0  # 0: Mesh.corner_uv, k: columns 2k - 2 and 2k - 1 of Mesh.corner_more_uv
     strength: float = 1.0  # scale of a normal picture, strength of an occlusion picture
+    nearest: bool = False  # whether magnified texels keep hard edges
+
+    def pixels(self, most: int | None = None) -> UInt8[np.ndarray, "H W 4"]:
+        """Decode the image as RGBA, shrunk to at most `most` pixels wide and high."""
+        with Image.open(io.BytesIO(self.data)) as image:
+            if most is not None:
+                image.thumbnail((most, most), Image.Resampling.BOX)
+            return np.asarray(image.convert("RGBA"))
+
+    def painted(self, pixels: np.ndarray) -> Texture:
+        """Return the texture with other pixels (H, W, 3 or 4), 0..255."""
+        buffer = io.BytesIO()
+        Image.fromarray(np.rint(pixels).astype(np.uint8)).save(buffer, "PNG")
+        return replace(self, data=buffer.getvalue(), mime="image/png")
 
 
 @dataclass(frozen=True)
