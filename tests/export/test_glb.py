@@ -19,7 +19,7 @@ from anymesh.export.glb import glb_bytes, tracks
 from anymesh.export.links import split_links
 from anymesh.loading import load_mesh
 from anymesh.types import JointType
-from anymesh.types.mesh import to_srgb
+from anymesh.types.mesh import to_linear, to_srgb
 
 TYPES = {5126: "<f4", 5125: "<u4", 5123: "<u2", 5121: "u1"}
 WIDTH = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
@@ -215,7 +215,7 @@ def expected(model) -> dict[str, list[Shown]]:
             color = tuple(to_srgb(look.base_color[:3])) if look else (0.7, 0.7, 0.7)
             colors = None if mesh.corner_color is None else mesh.corner_color[chosen]
             if colors is not None and (colors != 255).any() and texture is None:
-                color = tuple(colors[0, 0, :3] / 255)
+                color = tuple(to_srgb(to_linear(colors[0, 0, :3] / 255) * (look.base_color[:3] if look else 1)))
             found.setdefault(part.name, []).append(Shown(len(chosen), texture and pixels(texture.data), color))
     return found
 
@@ -249,7 +249,7 @@ def test_obj_and_mtl(written):
         shown = []
         for material, count in (g for g in groups if g[1]):
             file = material.get("map_Kd") if material else None
-            color = tuple(map(float, material["Kd"])) if material and link != "knob" else None
+            color = tuple(map(float, material["Kd"])) if material else None
             shown.append(Shown(count, file and pixels((folder / "meshes" / file[0]).read_bytes()), color))
         same(shown, wanted)
 

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from xml.etree import ElementTree
 
+import numpy as np
 import pytest
 from assets import cabinet, slanted
 from models import CONFIG, desk, model_of, with_meshes
@@ -62,7 +63,10 @@ def test_links_that_no_joint_connects_collide_unless_such_a_pair_is_excluded(pai
 
 
 def test_colours_are_written_where_the_obj_has_no_material():
-    root = parsed(model_of(cabinet()))
+    asset = cabinet()
+    knob = asset.segmentation.face_part == [p.name for p in asset.segmentation.parts].index("knob")
+    mesh = replace(asset.mesh, face_material=np.where(knob, -1, asset.mesh.face_material))
+    root = parsed(model_of(replace(asset, mesh=mesh)))
     colored = {str(link.get("name")): link.findtext("visual/material/diffuse") for link in root.findall("link")}
     assert colored == {"base": None, "door": None, "drawer": None, "knob": "0.0392157 0.784314 0.352941 1"}
 

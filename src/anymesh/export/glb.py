@@ -19,15 +19,18 @@ from anymesh.export.links import Link, Primitive
 from anymesh.export.model import ExportConfig
 from anymesh.names import legal_names
 from anymesh.types import Asset, Joint, JointType, Material, Texture
-from anymesh.types.mesh import to_linear
+from anymesh.types.mesh import CLAMP, MIRROR, REPEAT, to_linear
 
 FLOAT, UBYTE, USHORT, UINT = 5126, 5121, 5123, 5125
 VERTICES, INDICES = 34962, 34963  # bufferView targets
 KINDS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 COMPONENTS = {"float32": FLOAT, "uint8": UBYTE, "uint16": USHORT, "uint32": UINT}
 Y_UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # rotates +Z to +Y
-DEFAULT_SAMPLER = {"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}
+WRAP = {REPEAT: 10497, MIRROR: 33648, CLAMP: 33071}
+NEAREST, LINEAR, MIPMAPS = 9728, 9729, 9987
+UNLIT, STRONG = "KHR_materials_unlit", "KHR_materials_emissive_strength"
 TEXTURE_KEYS = {"normal": "normalTexture", "occlusion": "occlusionTexture", "emissive": "emissiveTexture"}
+STRENGTHS = {"normal": "scale", "occlusion": "strength"}
 PBR_KEYS = {"base_color": "baseColorTexture", "metallic_roughness": "metallicRoughnessTexture"}
 
 
@@ -99,8 +102,9 @@ class _Materials:
     def __init__(self, asset: Asset, buffer: GlbBuffer) -> None:
         self._mesh, self._buffer = asset.mesh, buffer
         self._materials: dict[int, int] = {}
-        self._textures: dict[tuple[bytes, str], int] = {}
-        self._entries: dict[str, list[dict[str, Any]]] = {"materials": [], "textures": [], "images": []}
+        self._images: dict[tuple[bytes, str], int] = {}
+        self._extensions: set[str] = set()
+        self._entries: dict[str, list[Any]] = {"materials": [], "textures": [], "images": [], "samplers": []}
 
     def primitive(self, p: Primitive) -> dict[str, Any]:
         buffer = self._buffer
@@ -110,6 +114,10 @@ class _Materials:
         if p.uv is not None:
             flipped = np.stack([p.uv[:, 0], 1 - p.uv[:, 1]], 1).astype(np.float32)
             attributes["TEXCOORD_0"] = buffer.accessor(flipped, target=VERTICES)
+        used = self._mesh.materials[p.material].textures.values() if p.material >= 0 else ()
+        for k in range(1, 1 + max((t.uv_set for t in used), default=0)):
+            u, v = p.more_uv[:, 2 * k - 2 : 2 * k].T  # ty: ignore[not-subscriptable]
+            attributes[f"TEXCOORD_{k}"] = buffer.accessor(np.stack([u, 1 - v], 1).astype(np.float32), target=VERTICES)
         if p.colors is not None:
             color = np.c_[to_linear(p.colors[:, :3] / 255), p.colors[:, 3:] / 255]  # bytes would cause banding in dark colours
             color = np.rint(color * 65535).astype(np.uint16)
@@ -124,7 +132,7 @@ class _Materials:
     def document(self) -> dict[str, Any]:
         """Return the top-level entries, without empty ones (glTF forbids them)."""
         entries: dict[str, Any] = {key: value for key, value in self._entries.items() if value}
-        return entries | ({"samplers": [DEFAULT_SAMPLER]} if self._textures else {})
+        return entries | ({"extensionsUsed": sorted(self._extensions)} if self._extensions else {})
 
     def _material(self, index: int) -> int:
         if index not in self._materials:
@@ -143,7 +151,12 @@ class _Materials:
         }
         material: dict[str, Any] = {"name": m.name, "pbrMetallicRoughness": pbr}
         if any(m.emissive):
-            material["emissiveFactor"] = [unit(c) for c in m.emissive]
+            strength = max(1.0, *m.emissive)
+            material["emissiveFactor"] = [unit(c / strength) for c in m.emissive]
+            if strength > 1:
+                self._extend(material, STRONG, {"emissiveStrength": float(strength)})
+        if m.unlit:
+            self._extend(material, UNLIT, {})
         if m.double_sided:
             material["doubleSided"] = True
         if m.alpha_mode != "OPAQUE":
@@ -154,17 +167,32 @@ class _Materials:
             for keys, place in ((PBR_KEYS, pbr), (TEXTURE_KEYS, material)):
                 for slot, key in keys.items():
                     if slot in m.textures:
-                        place[key] = {"index": self._texture(m.textures[slot])}
+                        place[key] = self._texture(m.textures[slot], STRENGTHS.get(slot))
         return material
 
-    def _texture(self, texture: Texture) -> int:
+    def _extend(self, material: dict[str, Any], name: str, content: dict[str, Any]) -> None:
+        material.setdefault("extensions", {})[name] = content
+        self._extensions.add(name)
+
+    def _texture(self, texture: Texture, strength: str | None) -> dict[str, Any]:
+        """Return the textureInfo. strength: the key of the texture's strength, if it has one."""
         key = (texture.data, texture.mime)
-        if key not in self._textures:
-            self._textures[key] = len(self._textures)
+        if key not in self._images:
+            self._images[key] = len(self._images)
             image = {"mimeType": texture.mime, "bufferView": self._buffer.view(texture.data)}
             self._entries["images"].append(({"name": texture.name} if texture.name else {}) | image)
-            self._entries["textures"].append({"sampler": 0, "source": self._textures[key]})
-        return self._textures[key]
+        filters = {"magFilter": NEAREST if texture.nearest else LINEAR, "minFilter": MIPMAPS}
+        sampler = self._entry("samplers", filters | {"wrapS": WRAP[texture.wrap[0]], "wrapT": WRAP[texture.wrap[1]]})
+        info: dict[str, Any] = {"index": self._entry("textures", {"sampler": sampler, "source": self._images[key]})}
+        if texture.uv_set:
+            info["texCoord"] = texture.uv_set
+        return info | ({strength: texture.strength} if strength and texture.strength != 1 else {})
+
+    def _entry(self, kind: str, entry: dict[str, Any]) -> int:
+        """Return the place of an entry, which is added if it is new."""
+        if entry not in self._entries[kind]:
+            self._entries[kind].append(entry)
+        return self._entries[kind].index(entry)
 
 
 class GlbBuffer:

@@ -30,6 +30,7 @@ MTL_MAPS = {"base_color": "map_Kd", "emissive": "map_Ke", "normal": "norm"}  # s
 
 def write_meshes(model: Model, folder: Path, config: ExportConfig) -> None:
     """Write `meshes/` of an asset folder: <link>.obj, .mtl, .faces.npy, a file per hull, and the textures used."""
+    model = model.tiled
     mesh = model.asset.mesh
     (folder / FOLDER).mkdir(exist_ok=True)
     textures = write_textures(mesh, folder / FOLDER, MTL_MAPS)
@@ -70,8 +71,8 @@ def _mtl(name: str, material: Material, textures: Mapping[bytes, str]) -> str:
         f"newmtl {name}",
         f"Kd {r:.6g} {g:.6g} {b:.6g}",
         "Ks 0 0 0",
-        "Ke " + " ".join(f"{c:.6g}" for c in to_srgb(material.emissive)),
-        f"d {material.base_color[3]:.6g}",
+        "Ke " + " ".join(f"{c:.6g}" for c in to_srgb(np.array(material.emissive) / max(1.0, *material.emissive))),
+        f"d {material.opacity:.6g}",
         f"Pr {material.roughness:.6g}",
         f"Pm {material.metallic:.6g}",
     ]
@@ -211,8 +212,8 @@ def display_color(mesh: Mesh, p: Primitive) -> tuple[float, ...]:
         return tuple(float(c) for c in p.colors.mean(0) / 255)
     if p.material < 0:
         return GREY
-    *color, alpha = mesh.materials[p.material].base_color
-    return (*to_srgb(color).tolist(), alpha)
+    material = mesh.materials[p.material]
+    return (*to_srgb(material.base_color[:3]).tolist(), material.opacity)
 
 
 def widest(link: Link) -> Primitive:

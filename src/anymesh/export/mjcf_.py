@@ -21,11 +21,12 @@ from anymesh.export.meshes import display_color, material_names, painted, textur
 from anymesh.export.model import FOLDER, Base, Drive, Driven, ExportConfig, ExportLink, Model, drives
 from anymesh.export.notation import moments, number, quaternion, vector
 from anymesh.mujoco_ import load_mujoco
-from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
+from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Material, Mesh, Shape
 from anymesh.types.exchange import PNG
 
 PIECES = f"{FOLDER}/mjcf"  # separate folder: `door_2.obj` in it is the second material of door, not a link door_2
 VISUAL, COLLISION = "visual", "collision"
+BLENDED = 0.99  # opacity below which MuJoCo blends, so that the alpha of a picture counts
 DRIVES = 1  # group of the actuators: `actuatorgroupdisable="1"` makes the asset passive
 
 
@@ -36,7 +37,7 @@ def write_mjcf(model: Model, folder: Path, config: ExportConfig) -> None:
 
     Raise MissingExtraError without MuJoCo, OutputError if it cannot compile the model.
     """
-    mujoco = load_mujoco()
+    mujoco, model = load_mujoco(), model.tiled
     spec = _spec(mujoco, model, folder)
     looks = {body.name: geom_materials(model.asset.mesh, body, folder, config) for body in model.bodies}
     _add_materials(mujoco, spec, model.asset.mesh, folder, [look for body_looks in looks.values() for look in body_looks])
@@ -89,18 +90,26 @@ def _add_materials(mujoco: Any, spec: Any, mesh: Mesh, folder: Path, looks: Iter
     slots = {"base_color": roles.mjTEXROLE_RGB, "normal": roles.mjTEXROLE_NORMAL, "emissive": roles.mjTEXROLE_EMISSIVE}
     used = {look.material: look for look in looks if look.material is not None}
     files = png_textures(mesh, folder, used, slots)
+    clear = {path for (k, slot), path in files.items() if slot == "base_color" and _clear(mesh.materials[k])}
     for path in sorted(set(files.values())):
-        spec.add_texture(name=Path(path).stem, file=path, type=mujoco.mjtTexture.mjTEXTURE_2D)
+        channels = 4 if path in clear else 3
+        spec.add_texture(name=Path(path).stem, file=path, type=mujoco.mjtTexture.mjTEXTURE_2D, nchannel=channels)
     names = material_names(mesh.materials)
     for index, look in sorted(used.items()):
         source = mesh.materials[index]
-        material = spec.add_material(name=names[index], rgba=look.rgba, metallic=source.metallic, roughness=source.roughness)
-        material.emission = 0.0 if "emissive" in source.textures else float(max(source.emissive))
+        rgba = (*look.rgba[:3], min(look.rgba[3], BLENDED)) if _clear(source) else look.rgba
+        material = spec.add_material(name=names[index], rgba=rgba, metallic=source.metallic, roughness=source.roughness)
+        material.emission = 0.0 if "emissive" in source.textures else min(1.0, float(max(source.emissive)))
         textures = list(material.textures)
         for slot, role in slots.items():
             if (index, slot) in files:
                 textures[int(role)] = Path(files[index, slot]).stem
         material.textures = textures
+
+
+def _clear(m: Material) -> bool:
+    """Return whether the alpha of the base colour's picture counts."""
+    return m.alpha_mode != "OPAQUE" and "base_color" in m.textures and m.textures["base_color"].transparent
 
 
 def _add_body(model: Model, body: ExportLink, parent: Any) -> Any:

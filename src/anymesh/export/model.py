@@ -8,11 +8,13 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from functools import cached_property
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Int
 
+from anymesh.export.flat_looks import losses, tiled, tinted
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.geometry.surface import plain_triangles
 from anymesh.physics.collision import CollisionConfig, collision_shapes
@@ -102,6 +104,24 @@ class Model:
     def links(self) -> Sequence[Link]:
         return tuple(body.link for body in self.bodies)
 
+    @cached_property
+    def tinted(self) -> Model:
+        """Return the model without vertex colours that a material can hold, and with alpha only where it counts."""
+        return self._with(tinted(self.asset.mesh, self.asset.segmentation.face_part))
+
+    @cached_property
+    def tiled(self) -> Model:
+        """Return the tinted model with pictures that repeat and share their coordinates."""
+        return self.tinted._with(tiled(self.tinted.asset.mesh))
+
+    def _with(self, mesh: Mesh) -> Model:
+        if mesh is self.asset.mesh:
+            return self
+        asset = replace(self.asset, mesh=mesh)
+        links = split_links(asset)
+        bodies = tuple(replace(body, link=link) for body, link in zip(self.bodies, links, strict=True))
+        return replace(self, asset=asset, bodies=bodies)
+
 
 @dataclass(frozen=True)
 class ExportConfig(InertiaConfig):
@@ -125,7 +145,12 @@ def build_model(
     triangles = {name: surface for name, (surface, _) in plain.items()}
     origins = {link.name: link.origin for link in links}
     collision = collision_shapes(asset, triangles, origins, config.collision, cache, deadline=deadline)
-    asset = replace(asset, warnings=tuple(dict.fromkeys((*asset.warnings, *collision.warnings))))
+    asset = replace(
+        asset,
+        warnings=tuple(
+            dict.fromkeys((*asset.warnings, *collision.warnings, *losses(asset.mesh, asset.segmentation.face_part)))
+        ),
+    )
     bodies = tuple(
         ExportLink(
             link,

@@ -42,6 +42,7 @@ def sdf_text(model: Model) -> str:
     world, since <static> would also fix the other joints. SDFormat does not allow a link and a joint of the same name, so such
     a joint's name gets a number.
     """
+    model = model.tiled
     asset = model.asset
     root = ElementTree.Element("sdf", version=VERSION)
     element = ElementTree.SubElement(root, "model", name=asset.name, canonical_link=model.bodies[0].name)

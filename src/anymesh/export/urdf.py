@@ -24,6 +24,7 @@ def urdf_text(model: Model) -> str:
     Every link frame has the asset's axes, so joint origins are differences and axes are unchanged. The simulator decides
     whether the root is fixed (PyBullet's `useFixedBase`, Isaac's `fix_base`; MuJoCo fixes it), so there is no `world` link.
     """
+    model = model.tiled
     asset = model.asset
     robot = ElementTree.Element("robot", name=asset.name)
     ElementTree.SubElement(ElementTree.SubElement(robot, "mujoco"), "compiler", MUJOCO)

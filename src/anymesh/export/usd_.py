@@ -18,7 +18,7 @@ from anymesh.export.meshes import GREY, material_names, painted, visible, write_
 from anymesh.export.model import FOLDER, Base, Drive, ExportConfig, ExportLink, Model, drives
 from anymesh.export.notation import principal, quaternion, turning_x_to
 from anymesh.names import legal_names
-from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Material, Mesh, Shape
+from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Material, Mesh, Shape, Texture
 from anymesh.types.mesh import TEXTURE_SLOTS, to_linear
 
 NOISE = 1e-12  # [m, kg m^2] smaller values are rounding
@@ -48,7 +48,7 @@ def write_usd(model: Model, folder: Path, config: ExportConfig) -> None:
 
     Raise MissingExtraError without OpenUSD.
     """
-    pxr = load_usd()
+    pxr, model = load_usd(), model.tinted
     (folder / FOLDER).mkdir(exist_ok=True)
     textures = write_textures(model.asset.mesh, folder / FOLDER, TEXTURE_SLOTS)
     stage = pxr.Usd.Stage.CreateInMemory()
@@ -241,6 +241,10 @@ class UsdMaterials:
         if len(uv) == len(primitives):
             st = api.CreatePrimvar("st", kinds.TexCoord2fArray, vertex)
             st.Set(pxr.Vt.Vec2fArray.FromNumpy(np.concatenate(uv).astype(np.float32)))
+        more = [p.more_uv for p in primitives if p.more_uv is not None]
+        for k in range(more[0].shape[1] // 2 if more else 0):
+            st = api.CreatePrimvar(f"st{k + 1}", kinds.TexCoord2fArray, vertex)
+            st.Set(pxr.Vt.Vec2fArray.FromNumpy(np.ascontiguousarray(np.concatenate(more)[:, 2 * k : 2 * k + 2])))
         if any(p.material < 0 or painted(self._mesh, p) for p in primitives):
             colors = np.concatenate([_colors(p) for p in primitives])
             display = mesh.CreateDisplayColorPrimvar(vertex)
@@ -284,35 +288,37 @@ class UsdMaterials:
             ("opacityThreshold", kinds.Float, m.alpha_cutoff if m.alpha_mode == "MASK" else 0.0),
         ):
             surface.CreateInput(name, kind).Set(value)
+        bump, shade = (m.textures[slot].strength if slot in m.textures else 1.0 for slot in ("normal", "occlusion"))
         reads = {
             "base_color": ("sRGB", m.base_color, (0, 0, 0, 0), {"diffuseColor": "rgb"}),
             "metallic_roughness": ("raw", (1, m.roughness, m.metallic, 1), (0, 0, 0, 0), {"roughness": "g", "metallic": "b"}),
-            "normal": ("raw", (2, 2, 2, 1), (-1, -1, -1, 0), {"normal": "rgb"}),
-            "occlusion": ("raw", (1, 1, 1, 1), (0, 0, 0, 0), {"occlusion": "r"}),
+            "normal": ("raw", (2 * bump, 2 * bump, 2, 1), (-bump, -bump, -1, 0), {"normal": "rgb"}),
+            "occlusion": ("raw", (shade, shade, shade, 1), (*[1 - shade] * 3, 0), {"occlusion": "r"}),
             "emissive": ("sRGB", (*m.emissive, 1), (0, 0, 0, 0), {"emissiveColor": "rgb"}),
         }
         if m.alpha_mode != "OPAQUE":
             reads["base_color"][3]["opacity"] = "a"
         for slot, (space, scale, bias, outputs) in reads.items():
             if slot in m.textures and m.textures[slot].data in self._textures:
-                shader = self._texture(path, slot, self._textures[m.textures[slot].data], space)
+                shader = self._texture(path, slot, m.textures[slot], space)
                 shader.CreateInput("scale", kinds.Float4).Set(pxr.Gf.Vec4f(*(float(v) for v in scale)))
                 shader.CreateInput("bias", kinds.Float4).Set(pxr.Gf.Vec4f(*(float(v) for v in bias)))
                 _connect(pxr, surface, shader, outputs)
         return material
 
-    def _texture(self, path: str, slot: str, file: str, space: str) -> Any:
-        """Add a texture shader that reads its coordinates from `st`."""
+    def _texture(self, path: str, slot: str, texture: Texture, space: str) -> Any:
+        """Add a texture shader that reads its coordinates from `st`, or `st1` and so on."""
         pxr, kinds = self._pxr, self._pxr.Sdf.ValueTypeNames
-        reader = pxr.UsdShade.Shader.Define(self._stage, f"{path}/st")
+        varname = f"st{texture.uv_set or ''}"
+        reader = pxr.UsdShade.Shader.Define(self._stage, f"{path}/{varname}")
         reader.CreateIdAttr("UsdPrimvarReader_float2")
-        reader.CreateInput("varname", kinds.String).Set("st")
+        reader.CreateInput("varname", kinds.String).Set(varname)
         shader = pxr.UsdShade.Shader.Define(self._stage, f"{path}/{slot}")
         shader.CreateIdAttr("UsdUVTexture")
-        shader.CreateInput("file", kinds.Asset).Set(f"./{FOLDER}/{file}")
+        shader.CreateInput("file", kinds.Asset).Set(f"./{FOLDER}/{self._textures[texture.data]}")
         shader.CreateInput("sourceColorSpace", kinds.Token).Set(space)
-        for wrap in ("wrapS", "wrapT"):
-            shader.CreateInput(wrap, kinds.Token).Set("repeat")
+        for name, wrap in zip(("wrapS", "wrapT"), texture.wrap, strict=True):
+            shader.CreateInput(name, kinds.Token).Set(wrap)
         result = reader.CreateOutput("result", kinds.Float2)
         shader.CreateInput("st", kinds.Float2).ConnectToSource(result)
         return shader

@@ -187,7 +187,10 @@ def _coordinates(name: str, infos: Mapping[str, dict[str, Any]], folder: Folder)
     for slot, info in infos.items():
         moved = info.get("extensions", {}).get("KHR_texture_transform", {})
         transform = (*moved.get("offset", (0, 0)), moved.get("rotation", 0), *moved.get("scale", (1, 1)))
-        where = (int(moved.get("texCoord", info.get("texCoord", 0))), tuple(np.nan_to_num(np.array(transform, np.float64)).tolist()))
+        where = (
+            int(moved.get("texCoord", info.get("texCoord", 0))),
+            tuple(np.nan_to_num(np.array(transform, np.float64)).tolist()),
+        )
         if where not in sets and len(sets) == MAX_SETS:
             folder.warn(f"the {slot} picture of material {name!r} is left out: at most {MAX_SETS} sets of coordinates are kept")
             continue

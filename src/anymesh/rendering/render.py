@@ -15,7 +15,7 @@ from anymesh.geometry.raycast_ import Hits, RayScene, SurfaceHits
 from anymesh.types import Material, Mesh
 from anymesh.types.camera import Camera
 from anymesh.types.exchange import Picture
-from anymesh.types.mesh import to_linear, to_srgb
+from anymesh.types.mesh import CLAMP, REPEAT, to_linear, to_srgb
 
 PLAIN = 0.45  # linear grey of faces without a material
 MEASURED = 2000  # maximum number of pairs of hits used to measure the scale of a texture
@@ -155,7 +155,8 @@ def _texels(
         rows = np.flatnonzero(mesh.face_material[face] == number) if "base_color" in material.textures else ()
         if len(rows):
             uv = np.einsum("nk,nkc->nc", weights[rows], mesh.corner_uv[face[rows]].astype(np.float64))
-            yield number, rows, _look_up(texture(material, reduce.get(number, 1)), uv)
+            wrap = material.textures["base_color"].wrap
+            yield number, rows, _look_up(texture(material, reduce.get(number, 1)), uv, wrap)
 
 
 def texels_per_pixel(mesh: Mesh, hits: SurfaceHits, beside: Int[np.ndarray, "m 2"]) -> dict[int, int]:
@@ -183,8 +184,14 @@ def texture(material: Material, reduce: int = 1) -> UInt8[np.ndarray, "H W 3"]:
         return np.asarray(image.convert("RGB").reduce(reduce))
 
 
-def _look_up(picture: np.ndarray, uv: np.ndarray) -> np.ndarray:
+def _look_up(picture: np.ndarray, uv: np.ndarray, wrap: tuple[str, str]) -> np.ndarray:
     height, width = picture.shape[:2]
-    x = np.floor((uv[:, 0] % 1.0) * width).astype(int) % width
-    y = np.floor(((1 - uv[:, 1]) % 1.0) * height).astype(int) % height
-    return picture[y, x]
+    return picture[texel(1 - uv[:, 1], height, wrap[1]), texel(uv[:, 0], width, wrap[0])]
+
+
+def texel(t: Float[np.ndarray, " n"], size: int, wrap: str) -> Int[np.ndarray, " n"]:
+    """Return the row or column of a picture at coordinates from its first one, wrapped."""
+    if wrap == REPEAT:
+        return np.floor((t % 1.0) * size).astype(int) % size
+    inside = np.clip(t, 0, 1) if wrap == CLAMP else 1 - np.abs(t % 2.0 - 1)
+    return np.minimum((inside * size).astype(int), size - 1)

@@ -40,6 +40,14 @@ class Texture:
                 image.thumbnail((most, most), Image.Resampling.BOX)
             return np.asarray(image.convert("RGBA"))
 
+    @property
+    def transparent(self) -> bool:
+        """Return whether some pixel is not opaque."""
+        if self.mime == "image/jpeg":
+            return False
+        with Image.open(io.BytesIO(self.data)) as image:
+            return image.has_transparency_data and bool((np.asarray(image.convert("RGBA"))[..., 3] < 255).any())
+
     def painted(self, pixels: np.ndarray) -> Texture:
         """Return the texture with other pixels (H, W, 3 or 4), 0..255."""
         buffer = io.BytesIO()
