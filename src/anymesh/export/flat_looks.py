@@ -73,9 +73,10 @@ def _multiplied(mesh: Mesh, groups: list[tuple[Material, np.ndarray]]) -> Mesh:
     for material, faces in groups:
         rows, factor = color[faces].reshape(-1, 4) / 255, np.array(material.base_color)
         shown = np.c_[to_srgb(to_linear(rows[:, :3]) * factor[:3]), rows[:, 3:] * factor[3]]
-        one = bool(material.textures) or not np.ptp(rows, 0).any()
+        vary = bool(np.ptp(rows, 0).any())
+        one = bool(material.textures) or not vary
         color[faces] = 255 if one else np.rint(255 * shown).astype(np.uint8).reshape(-1, 3, 4)
-        *mean, alpha = shown.mean(0).tolist()
+        *mean, alpha = (shown.mean(0) if vary else shown[0]).tolist()
         variant, k = replace(material, base_color=(*to_linear(mean).tolist(), alpha)), mesh.face_material[faces[0]]
         alike = [i for i, m in enumerate(made) if origin[i] == k and m == variant]
         number[faces] = alike[0] if alike else len(made)

@@ -30,15 +30,18 @@ MTL_MAPS = {"base_color": "map_Kd", "emissive": "map_Ke", "normal": "norm"}  # s
 
 def write_meshes(model: Model, folder: Path, config: ExportConfig) -> None:
     """Write `meshes/` of an asset folder: <link>.obj, .mtl, .faces.npy, a file per hull, and the textures used."""
-    model = model.tiled
-    mesh = model.asset.mesh
+    mesh, bodies, files = (
+        model.tiled.asset.mesh,
+        model.tiled.bodies,
+        texture_files(model.tinted.asset.mesh, model.tiled.asset.mesh),
+    )
     (folder / FOLDER).mkdir(exist_ok=True)
-    textures = write_textures(mesh, folder / FOLDER, MTL_MAPS)
+    write_textures(mesh, folder / FOLDER, MTL_MAPS, files)
     names = material_names(mesh.materials)
-    for body in model.bodies:
+    for body in bodies:
         primitives = visible(body.link, config)
         used = sorted({p.material for p in primitives if p.material >= 0})
-        mtl = "".join(_mtl(names[i], mesh.materials[i], textures) for i in used)
+        mtl = "".join(_mtl(names[i], mesh.materials[i], files) for i in used)
         if used:
             (folder / FOLDER / f"{body.name}.mtl").write_text(mtl, encoding="ascii", newline="\n")
         library = f"{body.name}.mtl" if used else None
@@ -221,10 +224,11 @@ def widest(link: Link) -> Primitive:
     return max(link.primitives, key=lambda p: float(np.linalg.norm(face_cross(p.positions[p.triangles]), axis=1).sum()))
 
 
-def texture_files(mesh: Mesh) -> dict[bytes, str]:
+def texture_files(*meshes: Mesh) -> dict[bytes, str]:
     """Return the file name of each image in use, by its bytes; stems are unique regardless of the suffix."""
     textures = {}
-    for index in sorted(set(mesh.face_material.tolist()) - {-1}) if mesh.corner_uv is not None else []:
+    used = ((mesh, k) for mesh in meshes if mesh.corner_uv is not None for k in sorted(set(mesh.face_material.tolist()) - {-1}))
+    for mesh, index in used:
         material = mesh.materials[index]
         for slot in TEXTURE_SLOTS:
             texture = material.textures.get(slot)
@@ -237,11 +241,9 @@ def texture_files(mesh: Mesh) -> dict[bytes, str]:
     }
 
 
-def write_textures(mesh: Mesh, folder: Path, slots: Collection[str]) -> Mapping[bytes, str]:
-    """Write the images of some slots unchanged; return the file names by their bytes."""
-    files = texture_files(mesh)
+def write_textures(mesh: Mesh, folder: Path, slots: Collection[str], files: Mapping[bytes, str]) -> None:
+    """Write the images of some slots unchanged. files: their names by their bytes."""
     for index in sorted(set(mesh.face_material.tolist()) - {-1}):
         for slot, texture in mesh.materials[index].textures.items():
             if slot in slots and texture.data in files:
                 (folder / files[texture.data]).write_bytes(texture.data)
-    return files

@@ -26,6 +26,7 @@ from anymesh.types.exchange import PNG
 
 PIECES = f"{FOLDER}/mjcf"  # separate folder: `door_2.obj` in it is the second material of door, not a link door_2
 VISUAL, COLLISION = "visual", "collision"
+MJCF_SLOTS = ("base_color", "normal", "emissive")
 BLENDED = 0.99  # opacity below which MuJoCo blends, so that the alpha of a picture counts
 DRIVES = 1  # group of the actuators: `actuatorgroupdisable="1"` makes the asset passive
 
@@ -37,10 +38,11 @@ def write_mjcf(model: Model, folder: Path, config: ExportConfig) -> None:
 
     Raise MissingExtraError without MuJoCo, OutputError if it cannot compile the model.
     """
-    mujoco, model = load_mujoco(), model.tiled
+    mujoco, model, files = load_mujoco(), model.tiled, texture_files(model.tinted.asset.mesh, model.tiled.asset.mesh)
     spec = _spec(mujoco, model, folder)
     looks = {body.name: geom_materials(model.asset.mesh, body, folder, config) for body in model.bodies}
-    _add_materials(mujoco, spec, model.asset.mesh, folder, [look for body_looks in looks.values() for look in body_looks])
+    shown = {look.material: look for body_looks in looks.values() for look in body_looks if look.material is not None}
+    _add_materials(mujoco, spec, model.asset.mesh, shown, png_textures(model.asset.mesh, folder, shown, files))
     names = material_names(model.asset.mesh.materials)
     frames: dict[str, Any] = {}
     for body in _parents_first(model):
@@ -84,18 +86,18 @@ def _spec(mujoco: Any, model: Model, folder: Path) -> Any:
     return spec
 
 
-def _add_materials(mujoco: Any, spec: Any, mesh: Mesh, folder: Path, looks: Iterable[GeomMaterial]) -> None:
+def _add_materials(
+    mujoco: Any, spec: Any, mesh: Mesh, looks: Mapping[int, GeomMaterial], files: Mapping[tuple[int, str], str]
+) -> None:
     """Add the materials and textures that geoms use; MuJoCo's own renderer shows the base colour, others more."""
     roles = mujoco.mjtTextureRole
-    slots = {"base_color": roles.mjTEXROLE_RGB, "normal": roles.mjTEXROLE_NORMAL, "emissive": roles.mjTEXROLE_EMISSIVE}
-    used = {look.material: look for look in looks if look.material is not None}
-    files = png_textures(mesh, folder, used, slots)
+    slots = dict(zip(MJCF_SLOTS, (roles.mjTEXROLE_RGB, roles.mjTEXROLE_NORMAL, roles.mjTEXROLE_EMISSIVE), strict=True))
     clear = {path for (k, slot), path in files.items() if slot == "base_color" and _clear(mesh.materials[k])}
     for path in sorted(set(files.values())):
         channels = 4 if path in clear else 3
         spec.add_texture(name=Path(path).stem, file=path, type=mujoco.mjtTexture.mjTEXTURE_2D, nchannel=channels)
     names = material_names(mesh.materials)
-    for index, look in sorted(used.items()):
+    for index, look in sorted(looks.items()):
         source = mesh.materials[index]
         rgba = (*look.rgba[:3], min(look.rgba[3], BLENDED)) if _clear(source) else look.rgba
         material = spec.add_material(name=names[index], rgba=rgba, metallic=source.metallic, roughness=source.roughness)
@@ -211,13 +213,12 @@ def geom_materials(mesh: Mesh, body: ExportLink, folder: Path, config: ExportCon
     return geoms
 
 
-def png_textures(mesh: Mesh, folder: Path, used: Collection[int], slots: Collection[str]) -> dict[tuple[int, str], str]:
-    """Write the textures of some materials and slots as PNG beside the others; return their paths by material and slot."""
-    files = texture_files(mesh)
+def png_textures(mesh: Mesh, folder: Path, used: Collection[int], files: Mapping[bytes, str]) -> dict[tuple[int, str], str]:
+    """Write the textures of some materials as PNG beside the others, named alike; return their paths by material and slot."""
     paths: dict[tuple[int, str], str] = {}
     for index in sorted(used):
         for slot, texture in mesh.materials[index].textures.items():
-            if slot not in slots or texture.data not in files:
+            if slot not in MJCF_SLOTS or texture.data not in files:
                 continue
             path = f"{FOLDER}/{Path(files[texture.data]).stem}.png"
             (folder / path).write_bytes(_png(texture.data))

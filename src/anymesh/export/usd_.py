@@ -14,7 +14,7 @@ import numpy as np
 
 from anymesh.errors import MissingExtraError
 from anymesh.export.links import Link, Primitive
-from anymesh.export.meshes import GREY, material_names, painted, visible, write_textures
+from anymesh.export.meshes import GREY, material_names, painted, texture_files, visible, write_textures
 from anymesh.export.model import FOLDER, Base, Drive, ExportConfig, ExportLink, Model, drives
 from anymesh.export.notation import principal, quaternion, turning_x_to
 from anymesh.names import legal_names
@@ -50,7 +50,8 @@ def write_usd(model: Model, folder: Path, config: ExportConfig) -> None:
     """
     pxr, model = load_usd(), model.tinted
     (folder / FOLDER).mkdir(exist_ok=True)
-    textures = write_textures(model.asset.mesh, folder / FOLDER, TEXTURE_SLOTS)
+    textures = texture_files(model.asset.mesh)
+    write_textures(model.asset.mesh, folder / FOLDER, TEXTURE_SLOTS, textures)
     stage = pxr.Usd.Stage.CreateInMemory()
     pxr.UsdGeom.SetStageUpAxis(stage, pxr.UsdGeom.Tokens.z)
     pxr.UsdGeom.SetStageMetersPerUnit(stage, 1.0)

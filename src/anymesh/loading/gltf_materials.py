@@ -124,7 +124,7 @@ class _Pictures:
             texture = item(self._textures, info["index"])
             extended = [e["source"] for e in texture.get("extensions", {}).values() if isinstance(e, dict) and "source" in e]
             sources = [*extended, *([texture["source"]] if "source" in texture else [])]
-            image = next((found for s in sources if (found := item(self._images, s)) is not None), None)
+            image = next((i for s in sources if (i := item(self._images, s)) is not None), None)
             sampler = item(self._samplers, texture["sampler"]) if "sampler" in texture else {}
         except LookupError as error:
             self.folder.warn(f"a picture is left out: its material refers to no texture, image or sampler ({error})")
