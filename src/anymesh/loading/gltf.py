@@ -2,24 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
+from jaxtyping import Float
 
 from anymesh.entry_points import GLTF_JOINTS, resolve
 from anymesh.errors import InputError
-from anymesh.loading.files import Folder
+from anymesh.loading.files import MAX_FACES, Folder
+from anymesh.loading.gltf_compressed_ import DataError
 from anymesh.loading.gltf_data import Buffers, item, parse_json, split_glb
-from anymesh.loading.gltf_materials import GltfMaterial, read_materials
-from anymesh.loading.join import join, rgba, simple_mesh, unique_names, unit
+from anymesh.loading.gltf_materials import read_materials
+from anymesh.loading.gltf_mesh import GltfMeshes, Pose
+from anymesh.loading.join import join, unique_names
+from anymesh.loading.scene_graph import is_generic, leave_out_warning
 from anymesh.types import Mesh, Node
-from anymesh.types.mesh import to_srgb
 
-TRIANGLES = 4  # primitive mode
-READ = ("KHR_texture_transform", "KHR_mesh_quantization", "EXT_texture_webp")
-LEFT_OUT = {0: "points", 1: "lines", 2: "lines", 3: "lines"}
+READ = (
+    "KHR_texture_transform", "KHR_mesh_quantization", "EXT_texture_webp", "KHR_draco_mesh_compression",
+    "EXT_meshopt_compression", "KHR_meshopt_compression", "EXT_mesh_gpu_instancing", "KHR_node_visibility", "MSFT_lod",
+    "KHR_lights_punctual",
+)  # fmt: skip
+LEFT_OUT = {  # reasons why a node is not part of the object
+    "hidden": "hidden node{} {} left out (KHR_node_visibility)",
+    "coarse": "coarser level{} of detail {} left out, the finest is kept (MSFT_lod)",
+    "camera": "mesh{} below a camera {} left out",
+}
 
 
 def read_gltf(data: bytes, folder: Folder) -> Mesh:
@@ -33,162 +43,228 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
     for extension in tree.get("extensionsRequired", []):
         if extension not in READ and not extension.startswith("KHR_materials_"):
             folder.warn(f"the file requires the extension {extension}, which is not read")
-    looks = read_materials(tree, buffers, folder)
     labels = unique_names(str(m.get("name") or f"mesh_{k}") for k, m in enumerate(tree["meshes"]))
-    unique = unique_names(node_name(node, k, labels) for k, node in enumerate(tree.get("nodes", [])))
-    meshes: dict[int, Mesh | None] = {}
-    placed, home, scene = [], [], dict[int, np.ndarray]()
-    for index, T, path in _placed(name, tree):
-        scene[index] = T
-        node = tree["nodes"][index]
-        number = node.get("mesh")
-        if number is None:
-            continue
-        source = item(tree["meshes"], number)
-        if number not in meshes:
-            meshes[number] = _mesh(folder, f"mesh {labels[number]!r}", source, buffers, looks)
-        mesh = meshes[number]
-        if mesh is None:
-            continue
-        for what in _ignored(node, source):
-            folder.warn(f"a mesh has {what}, which are ignored")
-        if not np.isfinite(T).all():
-            raise InputError(f"{name}: node {index} has a transform that is not finite")
-        chain = tuple(unique[k] for k in path)
-        nodes = (Node(node_name(node, index, labels), labels[number], path=chain if len(chain) > 1 else ()),)
-        placed.append(replace(mesh.transformed(T), nodes=nodes))
-        home.append(index)
-    if not placed:
-        modes = {p.get("mode", TRIANGLES) for m in tree["meshes"] for p in m["primitives"]}
-        only = sorted({LEFT_OUT[m] for m in modes if m in LEFT_OUT})
-        contents = f"only {' and '.join(only)}" if only else "no mesh in its scene"
-        raise InputError(f"{name}: found {contents}; a scene with at least one triangle is needed")
-    joined = join(placed)
+    meshes = GltfMeshes(tree, buffers, folder, read_materials(tree, buffers, folder), labels)
+    scene = GltfScene(meshes, _placed(name, tree, folder), _unique(tree, labels))
+    for index in _visible(tree, scene.at, scene.names, folder):
+        scene.place(index)
+    for what, count in meshes.left_out.items():
+        folder.warn(f"left out: {count} {what}" if count > 1 or what[-1] == ")" else f"left out: {what}")
+    if not scene.placed:
+        why = "; ".join(meshes.left_out) or "no mesh in its scene"
+        raise InputError(f"{name}: found {why}; a scene with at least one triangle is needed")
+    joined = join(scene.placed)
     if folder.joints and tree.keys() & {"animations", "extensions"}:
-        return resolve(GLTF_JOINTS)(joined, home, tree, scene, buffers, folder)
+        return resolve(GLTF_JOINTS)(joined, scene.home, tree, {k: node.T for k, node in scene.at.items()}, buffers, folder)
     return joined
 
 
-def node_name(node: dict[str, Any], number: int, labels: list[str]) -> str:
-    """Return the name of a node, else that of its mesh. labels: those of all meshes."""
+def _unique(tree: dict[str, Any], labels: Sequence[str]) -> list[str]:
+    """Return the unique names of all nodes; a node without a name has that of its mesh."""
+    return unique_names(_name(node, k, labels) for k, node in enumerate(tree.get("nodes", [])))
+
+
+def _name(node: dict[str, Any], index: int, labels: Sequence[str]) -> str:
     mesh = node.get("mesh")
-    return str(node.get("name") or (f"node_{number}" if mesh is None else item(labels, mesh)))
+    return str(node.get("name") or (labels[mesh] if isinstance(mesh, int) and 0 <= mesh < len(labels) else f"node_{index}"))
 
 
-def _ignored(node: dict[str, Any], mesh: dict[str, Any]) -> Iterator[str]:
-    """Yield what moves or repeats a mesh and is not read."""
-    if "skin" in node:
-        yield "bones (a skin)"
-    if any("targets" in p for p in mesh["primitives"]):
-        yield "morph targets"
-    if "EXT_mesh_gpu_instancing" in node.get("extensions", {}):
-        yield "instances (EXT_mesh_gpu_instancing)"
+@dataclass(frozen=True)
+class PlacedNode:
+    """A node of the scene. T: to the scene; path: indices of the nodes from the root to it; left_out: a reason of LEFT_OUT."""
+
+    T: Float[np.ndarray, "4 4"]
+    path: tuple[int, ...]
+    left_out: str = ""
 
 
-def _placed(name: str, tree: dict[str, Any]) -> Iterator[tuple[int, np.ndarray, tuple[int, ...]]]:
-    """Yield nodes of the scene with their transforms to it and the nodes down to them.
-
-    Parents come first, siblings in reverse (face labels rely on it).
-    """
-    nodes, scenes = tree.get("nodes", []), tree.get("scenes", [])
-    if scenes:
-        roots = scenes[tree.get("scene", 0)].get("nodes", [])
-    else:
-        children = {c for node in nodes for c in node.get("children", [])}
-        roots = [k for k in range(len(nodes)) if k not in children]
-    waiting: list[tuple[int, np.ndarray, tuple[int, ...]]] = [(index, np.eye(4), (index,)) for index in roots]
-    seen = set()
+def _placed(name: str, tree: dict[str, Any], folder: Folder) -> dict[int, PlacedNode]:
+    """Return the nodes of the scene: parents first, siblings in reverse (face labels rely on it)."""
+    nodes = tree.setdefault("nodes", [])
+    if not nodes:
+        nodes += [{"mesh": k} for k in range(len(tree["meshes"]))]  # a library of meshes
+        tree["scenes"] = []
+    coarse = {k for node in nodes for k in node.get("extensions", {}).get("MSFT_lod", {}).get("ids", [])}
+    waiting: list[tuple[int, np.ndarray, tuple[int, ...], str]] = [(k, np.eye(4), (k,), "") for k in _roots(tree, folder)]
+    seen: dict[int, PlacedNode] = {}
     while waiting:
-        index, T_parent, path = waiting.pop()
+        index, T_parent, path, why = waiting.pop()
         if index in seen or not 0 <= index < len(nodes):
             raise InputError(f"{name}: node {index} has two parents or is none of {len(nodes)}; valid is a tree of nodes")
-        seen.add(index)
-        T = T_parent @ _local(nodes[index])
-        yield index, T, path
-        waiting += [(child, T, (*path, child)) for child in nodes[index].get("children", [])]
+        node = nodes[index]
+        if node.get("extensions", {}).get("KHR_node_visibility", {}).get("visible", True) is False:
+            why = "hidden"
+        why = why or ("coarse" if index in coarse else "")
+        T = T_parent @ _local(node)
+        seen[index] = PlacedNode(T, path, why)
+        why = why or ("camera" if "camera" in node else "")
+        waiting += [(child, T, (*path, child), why) for child in node.get("children", [])]
+    return seen
 
 
-def _local(node: dict[str, Any]) -> np.ndarray:
+def _roots(tree: dict[str, Any], folder: Folder) -> list[int]:
+    """Return the roots of the default scene, else of the first that has a mesh; without scenes, the nodes without a parent."""
+    nodes, scenes = tree["nodes"], tree.get("scenes") or []
+    if not scenes:
+        children = {c for node in nodes for c in node.get("children", [])}
+        return [k for k in range(len(nodes)) if k not in children]
+
+    def with_mesh(scene: dict[str, Any]) -> bool:
+        waiting, seen = list(scene.get("nodes", [])), set()
+        while waiting:
+            index = waiting.pop()
+            if index in seen or not 0 <= index < len(nodes):
+                continue
+            if "mesh" in nodes[index]:
+                return True
+            seen.add(index)
+            waiting += nodes[index].get("children", [])
+        return False
+
+    default = tree.get("scene", 0)
+    order = [default, *(k for k in range(len(scenes)) if k != default)]
+    filled = [k for k in order if isinstance(k, int) and 0 <= k < len(scenes) and with_mesh(scenes[k])]
+    if len(filled) > 1:
+        folder.warn(f"{len(filled) - 1} other scene{'s are' if len(filled) > 2 else ' is'} left out; scene {filled[0]} is read")
+    return scenes[filled[0]].get("nodes", []) if filled else []
+
+
+def _visible(tree: dict[str, Any], placed: dict[int, PlacedNode], names: Sequence[str], folder: Folder) -> list[int]:
+    """Return the nodes with a mesh that are part of the object, all if none is; one warning names each kind that is not."""
+    with_mesh = [index for index in placed if "mesh" in tree["nodes"][index]]
+    kept = [index for index in with_mesh if not placed[index].left_out]
+    if not kept:
+        return with_mesh
+    for reason, text in LEFT_OUT.items():
+        if without := [names[index] for index in with_mesh if placed[index].left_out == reason]:
+            folder.warn(leave_out_warning(without, text))
+    return kept
+
+
+def _local(node: dict[str, Any]) -> Float[np.ndarray, "4 4"]:
     if "matrix" in node:
         return np.array(node["matrix"], np.float64).reshape(4, 4).T
-    T = np.eye(4)
-    x, y, z, w = np.array(node.get("rotation", (0, 0, 0, 1)), np.float64)
+    return _transforms(
+        [node.get("translation", (0, 0, 0))], [node.get("rotation", (0, 0, 0, 1))], [node.get("scale", (1, 1, 1))]
+    )[0]
+
+
+def _transforms(translation: Any, rotation: Any, scale: Any) -> Float[np.ndarray, "n 4 4"]:
+    """Return matrices of translations (n, 3), quaternions (n, 4) and scales (n, 3)."""
+    x, y, z, w = np.asarray(rotation, np.float64).T
     n = x * x + y * y + z * z + w * w
-    s = 2 / n if n > 0 else 0.0
-    R = np.array(
-        [
-            [1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
-            [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)],
-            [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)],
-        ]
-    )
-    T[:3, :3] = R * np.array(node.get("scale", (1, 1, 1)), np.float64).reshape(3)
-    T[:3, 3] = node.get("translation", (0, 0, 0))
+    s = np.divide(2, n, out=np.zeros_like(n), where=n > 0)
+    T = np.zeros((len(n), 4, 4))
+    R = [
+        [1 - s * (y * y + z * z), s * (x * y - z * w), s * (x * z + y * w)],
+        [s * (x * y + z * w), 1 - s * (x * x + z * z), s * (y * z - x * w)],
+        [s * (x * z - y * w), s * (y * z + x * w), 1 - s * (x * x + y * y)],
+    ]
+    T[:, :3, :3] = np.array(R).transpose(2, 0, 1) * np.asarray(scale, np.float64)[:, None]
+    T[:, :3, 3] = translation
+    T[:, 3, 3] = 1
     return T
 
 
-def _mesh(folder: Folder, label: str, mesh: dict[str, Any], buffers: Buffers, looks: list[GltfMaterial]) -> Mesh | None:
-    """Return the triangles of a mesh's primitives as one node; None if there are none."""
-    where = f"{folder.path.name}, {label}"
-    primitives = [p for p in mesh["primitives"] if p.get("mode", TRIANGLES) not in LEFT_OUT]
-    meshes = [made for p in primitives if (made := _primitive(where, p, buffers, looks)) is not None]
-    if len(meshes) < len(primitives):
-        folder.warn(f"{label} has a primitive without triangles, which is left out")
-    if not meshes:
-        return None
-    joined = join(meshes)
-    return replace(joined, face_node=np.zeros(len(joined.faces), np.int64), nodes=joined.nodes[:1])
+@dataclass(frozen=True, eq=False)
+class GltfScene:
+    """What is placed of a scene.
 
+    home: for each node of the placed meshes, in order, the node of the file that carries it: its own or a bone, None if it
+    bends.
+    """
 
-def _display(color: np.ndarray) -> np.ndarray:
-    """Convert COLOR_0 from linear to display values 0..1; alpha is unchanged."""
-    full = 1.0 if color.dtype.kind == "f" else float(np.iinfo(color.dtype).max)
-    values = np.nan_to_num(color.astype(np.float64) / full, nan=1.0)
-    return np.c_[to_srgb(values[:, :3]), values[:, 3:]]
+    meshes: GltfMeshes
+    at: dict[int, PlacedNode]
+    names: list[str]
+    placed: list[Mesh] = field(default_factory=list)
+    home: list[int | None] = field(default_factory=list)
+    _read: dict[Any, Any] = field(default_factory=dict)
 
+    def place(self, index: int) -> None:
+        """Place the mesh of a node, once per instance."""
+        node = self.meshes.tree["nodes"][index]
+        number, name = node["mesh"], self.meshes.folder.path.name
+        weights = tuple(node.get("weights") or item(self.meshes.tree["meshes"], number).get("weights") or ())
+        pose = self._pose(node.get("skin")) if self._has_weights(number) else None
+        key = (number, weights, node.get("skin") if pose else None)
+        if key not in self._read:
+            self._read[key] = self.meshes.read(number, weights, pose)
+        if self._read[key] is None:
+            return
+        mesh, bone = self._read[key]
+        chain = self.at[index].path
+        label, own = self.meshes.labels[number], _name(node, index, self.meshes.labels)
+        if pose is not None:
+            self._place_skinned(mesh, bone, pose, index)
+            return
+        transforms = self._instances(node, self.at[index].T)
+        if len(transforms) * len(mesh.faces) + sum(len(m.faces) for m in self.placed) > MAX_FACES:
+            raise InputError(f"{name} places more than {MAX_FACES} faces, which is the most that is handled")
+        for k, T in enumerate(transforms):
+            if not np.isfinite(T).all():
+                raise InputError(f"{name}: node {index} has a transform that is not finite")
+            path = (*(self.names[i] for i in chain), *((f"{self.names[index]}.{k}",) if len(transforms) > 1 else ()))
+            self.placed.append(replace(mesh.transformed(T), nodes=(Node(own, label, path=path if len(path) > 1 else ()),)))
+            self.home.append(index)
 
-def _primitive(where: str, p: dict[str, Any], buffers: Buffers, looks: list[GltfMaterial]) -> Mesh | None:
-    """Return the triangles of a primitive; None if there are none."""
-    attributes = p["attributes"]
-    if "POSITION" not in attributes:
-        raise InputError(f"{where}: found a primitive without positions, which triangles need")
-    vertices = buffers.array(attributes["POSITION"])
-    index = buffers.array(p["indices"])[:, 0].astype(np.int64) if "indices" in p else np.arange(len(vertices))
-    faces = _faces(where, p.get("mode", TRIANGLES), index)
-    if not len(faces):
-        return None
-    look = looks[p["material"]] if "material" in p else GltfMaterial(None)
+    def _has_weights(self, number: int) -> bool:
+        primitives = item(self.meshes.tree["meshes"], number)["primitives"]
+        return all("JOINTS_0" in p.get("attributes", {}) and "WEIGHTS_0" in p["attributes"] for p in primitives)
 
-    def corners(key: str) -> np.ndarray | None:
-        values = buffers.array(attributes[key]) if key in attributes else None
-        if values is not None and len(values) != len(vertices):
-            raise InputError(f"{where}: {key} has {len(values)} elements; valid are {len(vertices)}, as many as positions")
-        return values
+    def _pose(self, number: int | None) -> Pose | None:
+        """Return the rest pose of a skin; None, with a warning, if it cannot be read."""
+        if number is None:
+            return None
+        try:
+            skin = item(self.meshes.tree.get("skins", []), number)
+            joints = skin["joints"]
+            bind = np.tile(np.eye(4), (len(joints), 1, 1))
+            if "inverseBindMatrices" in skin:
+                stored = self.meshes.buffers.array(skin["inverseBindMatrices"])[: len(joints)].reshape(-1, 4, 4)
+                bind[: len(stored)] = stored.transpose(0, 2, 1)
+            matrices = np.array([self._to_scene(j) for j in joints]) @ bind
+        except (DataError, LookupError, TypeError, ValueError) as error:
+            self.meshes.folder.warn(f"the bones of skin {number} cannot be read, its meshes are placed without them ({error})")
+            return None
+        return Pose(matrices, joints) if np.isfinite(matrices).all() and len(joints) else None
 
-    uv, more_uv = look.coordinates(corners)
-    color, normal = corners("COLOR_0"), corners("NORMAL")
-    normal = None if normal is None else unit(normal)
-    mesh = simple_mesh(where, "mesh", vertices, faces, look.material)
-    return replace(
-        mesh,
-        corner_uv=None if uv is None else uv[faces],
-        corner_more_uv=None if more_uv is None else more_uv[faces],
-        corner_color=None if color is None else rgba(_display(color))[faces],
-        corner_normal=None if normal is None else normal[faces],
-    )
+    def _to_scene(self, index: int) -> np.ndarray:
+        """Return the transform of a node to the scene; a joint need not be in it."""
+        nodes, T = self.meshes.tree["nodes"], np.eye(4)
+        for _ in range(len(nodes)):
+            if index in self.at:
+                return self.at[index].T @ T
+            T = _local(item(nodes, index)) @ T
+            above = next((k for k, node in enumerate(nodes) if index in node.get("children", [])), None)
+            if above is None:
+                return T
+            index = above
+        raise ValueError("its joints are in a circle")
 
+    def _place_skinned(self, mesh: Mesh, bone: np.ndarray, pose: Pose, index: int) -> None:
+        """Place a mesh at its rest pose, with a node for each joint that moves a part of it rigidly."""
+        moving, face_node = np.unique(bone, return_inverse=True)
+        own = _name(self.meshes.tree["nodes"][index], index, self.meshes.labels)
+        nodes = []
+        for joint in moving:
+            home = index if joint < 0 else pose.nodes[joint]
+            path = () if home not in self.at else tuple(self.names[k] for k in self.at[home].path)
+            path = path if joint < 0 else (*path, self.names[index])
+            name = own if joint < 0 or len(moving) == 1 else self.names[home]
+            name = f"{own}_{name}" if name != own and is_generic(name) else name
+            nodes.append(
+                Node(name, self.meshes.labels[self.meshes.tree["nodes"][index]["mesh"]], path=path if len(path) > 1 else ())
+            )
+            self.home.append(None if joint < 0 else home)
+        self.placed.append(replace(mesh, face_node=face_node.reshape(-1), nodes=tuple(nodes)))
 
-def _faces(where: str, mode: int, index: np.ndarray) -> np.ndarray:
-    match mode:
-        case 4:
-            if len(index) % 3:
-                raise InputError(f"{where}: found {len(index)} indices; triangles need a multiple of 3")
-            return index.reshape(-1, 3)
-        case 5:
-            faces = np.stack([index[:-2], index[1:-1], index[2:]], 1)
-            faces[1::2] = faces[1::2][:, [0, 2, 1]]
-            return faces[(faces != np.roll(faces, 1, axis=1)).all(1)]  # repeated indices only lead to the next strip
-        case 6:
-            return np.stack([index[1:-1], index[2:], np.full(max(len(index) - 2, 0), index[0])], 1)
-        case _:
-            raise InputError(f"{where}: found the primitive mode {mode}; valid are 4, 5 and 6 (triangles)")
+    def _instances(self, node: dict[str, Any], T: np.ndarray) -> np.ndarray:
+        """Return the transforms of a node's instances (EXT_mesh_gpu_instancing), else its own."""
+        keys = node.get("extensions", {}).get("EXT_mesh_gpu_instancing", {}).get("attributes", {})
+        values = {key: self.meshes.buffers.array(keys[key]) for key in ("TRANSLATION", "ROTATION", "SCALE") if key in keys}
+        if not values:
+            return T[None]
+        count = min(len(v) for v in values.values())
+        default = {"TRANSLATION": (0, 0, 0), "ROTATION": (0, 0, 0, 1), "SCALE": (1, 1, 1)}
+        return T @ _transforms(*(values.get(key, np.tile(rest, (count, 1)))[:count] for key, rest in default.items()))

@@ -13,15 +13,11 @@ import numpy as np
 
 from anymesh.errors import InputError
 from anymesh.loading.files import MAX_FACES, Folder
+from anymesh.loading.gltf_compressed_ import MAX_DECODED, DataError, meshopt
 
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
+MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression", "MESHOPT_compression")
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
-UNREADABLE = {
-    "KHR_draco_mesh_compression": "compression",
-    "EXT_meshopt_compression": "compression",
-    "KHR_meshopt_compression": "compression",
-    "EXT_mesh_gpu_instancing": "GPU instancing",
-}
 
 
 def split_glb(name: str, data: bytes) -> tuple[bytes, bytes | None]:
@@ -57,10 +53,6 @@ def parse_json(name: str, data: bytes) -> dict[str, Any]:
     version = str(tree.get("asset", {}).get("version", "2.0"))
     if not version.startswith("2"):
         raise InputError(f"{name}: found glTF version {version[:20]}; valid is 2")
-    for extension in tree.get("extensionsRequired", []):
-        if extension in UNREADABLE:
-            what = UNREADABLE[extension]
-            raise InputError(f"{name} needs {extension}, which is not read; export it without {what}")
     return tree
 
 
@@ -73,6 +65,7 @@ class Buffers:
         self._binary = binary
         self._folder = folder
         self._read: dict[int, bytes] = {}
+        self._decoded: dict[int, bytes] = {}  # of compressed buffer views
 
     def _buffer(self, number: int) -> bytes:
         if number not in self._read:
@@ -86,23 +79,33 @@ class Buffers:
         return self._read[number]
 
     def view(self, index: int) -> bytes:
-        """Return the bytes of a buffer view. Raise InputError if it exceeds its buffer."""
+        """Return the bytes of a buffer view. Raise DataError if it exceeds its buffer, or is compressed and broken."""
         view = item(self._tree["bufferViews"], index)
+        packed = next((e for key, e in view.get("extensions", {}).items() if key in MESHOPT), None)
+        if packed is None:
+            return self._slice(view)
+        if index not in self._decoded:
+            if sum(map(len, self._decoded.values())) > MAX_DECODED:
+                raise InputError(f"{self._name} decompresses to more than {MAX_DECODED} bytes")
+            self._decoded[index] = meshopt(self._slice(packed), packed)
+        return self._decoded[index]
+
+    def _slice(self, view: dict[str, Any]) -> bytes:
         data = self._buffer(view["buffer"])
         start, length = view.get("byteOffset", 0), view["byteLength"]
         if start < 0 or length < 0 or start + length > len(data):
-            raise InputError(f"{self._name}: a buffer view ends at byte {start + length}, its buffer at {len(data)}")
+            raise DataError(f"a buffer view ends at byte {start + length}, its buffer at {len(data)}")
         return data[start : start + length]
 
     def array(self, index: int) -> np.ndarray:
         """Return the (count, width) array of an accessor; normalized integers become floats.
 
-        Raise InputError if it is not valid.
+        Raise DataError if it is not valid.
         """
         a = item(self._tree["accessors"], index)
         count, width, dtype = a["count"], WIDTHS[a["type"]], np.dtype(TYPES[a["componentType"]])
         if not isinstance(count, int) or not 0 <= count <= 3 * MAX_FACES:
-            raise InputError(f"{self._name}: an accessor states {count} elements; valid are 0 to {3 * MAX_FACES}")
+            raise DataError(f"an accessor states {count} elements; valid are 0 to {3 * MAX_FACES}")
         if "bufferView" in a:
             values = self._strided(a["bufferView"], a.get("byteOffset", 0), count, width, dtype)
         else:
@@ -113,8 +116,12 @@ class Buffers:
             kind = np.dtype(TYPES[where["componentType"]])
             rows = self._strided(where["bufferView"], where.get("byteOffset", 0), sparse["count"], 1, kind)[:, 0]
             values[rows] = self._strided(what["bufferView"], what.get("byteOffset", 0), sparse["count"], width, dtype)
-        if a.get("normalized") and dtype.kind in "iu":
-            return np.maximum(values / float(np.iinfo(dtype.name).max), -1.0)
+        return self.normalized(a, values)
+
+    def normalized(self, accessor: dict[str, Any], values: np.ndarray) -> np.ndarray:
+        """Return values as floats if the accessor states that its integers are fractions."""
+        if accessor.get("normalized") and values.dtype.kind in "iu":
+            return np.maximum(values / float(np.iinfo(TYPES[accessor["componentType"]]).max), -1.0)
         return values
 
     def _strided(self, view: int, start: int, count: int, width: int, dtype: np.dtype) -> np.ndarray:
@@ -122,7 +129,7 @@ class Buffers:
         size = width * dtype.itemsize
         stride = self._tree["bufferViews"][view].get("byteStride", size)
         if start < 0 or stride < size or count < 0 or (count and start + stride * (count - 1) + size > len(data)):
-            raise InputError(f"{self._name}: an accessor states {count} elements, its view of {len(data)} bytes holds fewer")
+            raise DataError(f"an accessor states {count} elements, its view of {len(data)} bytes holds fewer")
         if count == 0:
             return np.zeros((0, width), dtype)
         return np.ndarray((count, width), dtype, data, start, (stride, dtype.itemsize)).copy()
