@@ -47,7 +47,9 @@ def test_the_nodes_of_a_joint_are_one_part_and_parts_of_them_are_left_out():
 def test_a_part_with_an_unknown_name_is_labelled_as_the_part_that_was_there():
     mesh, piece = boxes([-1, 0, 0, -1], [hinge("Object_4")])
     parts = with_stated_parts(mesh, parted(piece, [0, 1, 1, 0], ["base", "lid"]))
-    assert [(p.name, p.label) for p in parts.parts] == [("base", "base"), ("Object_4", "lid")]
+    assert [(p.name, p.label) for p in parts.parts] == [("base", "base"), ("n1", "lid")]
+    mesh = replace(mesh, nodes=tuple(replace(node, name="Rim") for node in mesh.nodes), joints=(hinge("Rim_12"),))
+    assert with_stated_parts(mesh, parted(piece, [0, 1, 1, 0], ["base", "lid"])).parts[1].name == "Rim_12"
 
 
 def test_the_base_is_what_no_joint_moves():

@@ -10,14 +10,14 @@ import io
 import re
 import xml.etree.ElementTree as ET
 from collections import Counter
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
-from jaxtyping import Float
 
 from anymesh.errors import InputError
 from anymesh.formats.dae_geometry import DaeSurface, DaeTriangles, floats, skin_transforms, whole
 from anymesh.formats.dae_materials import DaeMaterial, DaeMaterials
+from anymesh.formats.dae_transforms import DaeNode, dae_joints, local_transform
 from anymesh.loading.files import MAX_FACES, Folder
 from anymesh.loading.join import join, rgba, simple_mesh, unique_names, unit
 from anymesh.types import Material, Mesh, Node
@@ -47,12 +47,15 @@ Binding = dict[str, tuple[str, dict[str, int]]]  # symbol -> URL of its material
 def read_dae(data: bytes, folder: Folder) -> Mesh:
     """Return the scene in file coordinates. Raise InputError if it is not valid."""
     document = DaeDocument(data, folder)
-    placed = [made for number in range(len(document.nodes)) if (made := document.mesh(number)) is not None]
+    placed = {number: made for number in range(len(document.nodes)) if (made := document.mesh(number)) is not None}
     document.warn_of_rest()
     if not placed:
         because = f" ({'; '.join(folder.warnings)})" if folder.warnings else ""
         raise InputError(f"{folder.path.name}: found no triangles in its scene; at least one is needed{because}")
-    return join(placed)
+    mesh = join(list(placed.values()))
+    if folder.joints and document.root.find("library_animations") is not None:
+        return dae_joints(mesh, list(placed), document.nodes, document.root, document.find, folder)
+    return mesh
 
 
 def parse_dae(name: str, data: bytes) -> ET.Element:
@@ -96,18 +99,6 @@ def _asset(asset: ET.Element) -> tuple[str | None, float | None]:
     metres = floats("" if scale is None else scale.get("meter", ""))
     known = len(metres) == 1 and np.isfinite(metres[0]) and metres[0] > 0
     return up if up in FRAMES else None, float(metres[0]) if known else None
-
-
-@dataclass(frozen=True, eq=False)
-class DaeNode:
-    """A visible node of the scene; one that is instanced several times is several. parent: its number, -1 for none.
-
-    T: (4, 4) to the scene [units of the file].
-    """
-
-    element: ET.Element
-    parent: int
-    T: Float[np.ndarray, "4 4"]
 
 
 class DaeDocument:
@@ -168,7 +159,7 @@ class DaeDocument:
             if (element.findtext("extra/technique/visibility") or "1").strip() in ("0", "0.0", "false"):
                 self.counts["hidden nodes"] += 1
                 continue
-            T = T @ self._conversion(element) @ _local(element)
+            T = T @ self._conversion(element) @ local_transform(element)
             if not np.isfinite(T).all():
                 self.counts["nodes with a transform that is not finite"] += 1
                 continue
@@ -343,38 +334,3 @@ def _binding(instance: ET.Element) -> Binding:
         sets = {b.get("semantic", ""): whole(b, "input_set") for b in inputs}
         binding[m.get("symbol", "")] = (m.get("target", ""), sets)
     return binding
-
-
-def _local(node: ET.Element) -> np.ndarray:
-    """Return the product of a node's transforms, in their order."""
-    T = np.eye(4)
-    for element in node:
-        made, step = floats(element.text or "") if element.tag in SIZES else np.zeros(0), np.eye(4)
-        if element.tag not in SIZES or len(made) != SIZES[element.tag]:
-            continue
-        match element.tag:
-            case "matrix":
-                step = made.reshape(4, 4)
-            case "translate":
-                step[:3, 3] = made
-            case "scale":
-                step[:3, :3] = np.diag(made)
-            case "rotate" if np.linalg.norm(made[:3]) > 0:
-                x, y, z = made[:3] / np.linalg.norm(made[:3])
-                K, angle = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]), np.radians(made[3])
-                step[:3, :3] += np.sin(angle) * K + (1 - np.cos(angle)) * K @ K
-            case "lookat":
-                eye, target, up = made.reshape(3, 3)
-                back = eye - target
-                right = np.cross(up, back)
-                rows = [right, np.cross(back, right), back]
-                step[:3, :3] = np.stack([r / max(float(np.linalg.norm(r)), 1e-300) for r in rows], 1)
-                step[:3, 3] = eye
-            case "skew":
-                along, way = (v / max(float(np.linalg.norm(v)), 1e-300) for v in (made[1:4], made[4:]))
-                step[:3, :3] += np.tan(np.radians(made[0])) * np.outer(way, along)
-        T = T @ step
-    return T
-
-
-SIZES = {"matrix": 16, "translate": 3, "scale": 3, "rotate": 4, "lookat": 9, "skew": 7}

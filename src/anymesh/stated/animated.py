@@ -36,10 +36,11 @@ SAME_EXCURSION = 0.99  # ratio from which two excursions are equal, and the firs
 
 @dataclass(frozen=True, eq=False)
 class NodeTrack:
-    """How an animation moves a node. times: keys [s], ascending; sample: its local transforms at some times."""
+    """How an animation moves a node. times: keys [s], ascending; sample: its local transforms at some times; name: its own."""
 
     times: Float[np.ndarray, " n"]
     sample: Callable[[Float[np.ndarray, " k"]], Float[np.ndarray, "k 4 4"]]
+    name: str = ""  # used where the animation has none
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +67,7 @@ class _Fit(NamedTuple):
     high: float
 
     def reversed(self) -> _Fit:
-        return self._replace(axis=-self.axis, low=-self.high, high=-self.low)
+        return self._replace(axis=-self.axis, low=0.0 - self.high, high=0.0 - self.low)
 
 
 def animated_joints(
@@ -167,7 +168,8 @@ class _Animated:
                 motion = np.linalg.pinv(self._along(on_base, tracks, times)) @ motion
             fit = _fit(motion, keyed, self.box[carrier], self.nodes[carrier].T[:3, 3])
             if fit is not None:
-                fits.append((name, fit))
+                own = (tracks[k].name for k in reversed(chain) if k in tracks)
+                fits.append((name or next(own, ""), fit))
         return fits
 
     def _along(self, chain: list[int], tracks: Mapping[int, NodeTrack], times: np.ndarray) -> np.ndarray:

@@ -13,6 +13,7 @@ from anymesh.articulation.estimate import PartMotions, estimate_joint
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.hypotheses import hinge_about, propose
 from anymesh.articulation.motion_classifier import PartMotionScores
+from anymesh.loading.scene_graph import is_generic
 from anymesh.names import legal_names
 from anymesh.pipeline.results import JointResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.pipeline.solving import GeometryStages
@@ -70,21 +71,27 @@ def with_stated_parts(mesh: Mesh, segmentation: Segmentation) -> Segmentation:
     stated.sort()
     of_joint[stated] = np.arange(len(stated)) + len(kept) + 1
     parts = [replace(before[root], label="base"), *(before[k] for k in kept)]
-    parts += [_stated_part(mesh.joints[j], area[:, j], before) for j in stated]
+    parts += [_stated_part(_part_name(mesh, j), mesh.joints[j].reason, area[:, j], before) for j in stated]
     names = legal_names([part.name for part in parts])
     named = tuple(replace(part, name=name) for part, name in zip(parts, names, strict=True))
     return Segmentation(np.where(owner >= 0, of_joint[owner], number[segmentation.face_part]), named)
 
 
-def _stated_part(joint: StatedJoint, area: Float[np.ndarray, " p"], parts: Sequence[Part]) -> Part:
+def _part_name(mesh: Mesh, joint: int) -> str:
+    """Return the name of the node that moves; of the object below it if that is its cleaned name, or the other says nothing."""
+    name, below = mesh.joints[joint].name, [node.name for node in mesh.nodes if node.joint == joint]
+    return below[0] if is_generic(name) or (len(below) == 1 and name.startswith(below[0])) else name
+
+
+def _stated_part(name: str, reason: str, area: Float[np.ndarray, " p"], parts: Sequence[Part]) -> Part:
     """Return the part that a joint moves, labelled by its name, or as the part that was there before.
 
     area: of its faces in each of these parts.
     """
-    word, before = recognize(joint.name), int(area.argmax())
+    word, before = recognize(name), int(area.argmax())
     same = before > 0 and area[before] > MIN_SHARED * area.sum()
     label = word.label if word else parts[before].label if same else "part"
-    return Part(joint.name or label, label, 1.0, joint.reason)
+    return Part(name or label, label, 1.0, reason)
 
 
 def part_of_joint(mesh: Mesh, segmentation: Segmentation) -> dict[int, int]:
