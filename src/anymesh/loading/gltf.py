@@ -54,7 +54,7 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
         why = "; ".join(meshes.left_out) or "no mesh in its scene"
         raise InputError(f"{name}: found {why}; a scene with at least one triangle is needed")
     joined = join(scene.placed)
-    if folder.joints and tree.keys() & {"animations", "extensions"}:
+    if folder.joints and tree.keys() & {"animations", "extensions", "skins"}:
         return resolve(GLTF_JOINTS)(joined, scene.home, tree, {k: node.T for k, node in scene.at.items()}, buffers, folder)
     return joined
 

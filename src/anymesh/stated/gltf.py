@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import suppress
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,7 @@ from anymesh.loading.files import Folder
 from anymesh.loading.gltf_data import Buffers, item
 from anymesh.stated.animated import FULL_TURN_RAD, Animations, NodeTrack, SceneNode, animated_joints
 from anymesh.stated.bodies import Body, BodyJoint, joints_of_bodies
-from anymesh.types import JointType, Mesh
+from anymesh.types import JointType, Mesh, StatedJoint
 
 KHR, OMI_BODY, OMI = "KHR_physics_rigid_bodies", "OMI_physics_body", "OMI_physics_joint"
 POINTER = re.compile(r"/nodes/(\d+)/(translation|rotation|scale)")
@@ -51,11 +52,38 @@ def _stated(
         if mesh.joints:
             return mesh
     animations = _animations(tree, buffers, folder)
-    bones = {b for skin in tree.get("skins", []) for b in skin.get("joints", [])} - _above(tree, home)
+    bones = {b for skin in tree.get("skins", []) for b in skin.get("joints", [])}
+    if not animations:
+        return _at_bones(mesh, home, bones, tree, placed)
+    bones -= _above(tree, home)
     bent = [name for name, tracks in animations if bones & tracks.keys()]
     if bent:
         folder.warn(f'the animation "{bent[0]}" bends a mesh by bones; it is read at rest')
     return animated_joints(mesh, home, _scene(tree, placed), animations, folder)
+
+
+def _at_bones(mesh: Mesh, home: Sequence[int | None], bones: set[int], tree: dict[str, Any], placed: Placed) -> Mesh:
+    """Return the mesh with joints at the heads of bones that move a part of it rigidly; their axes are not known.
+
+    The base is what moves with no bone, or else the part of the uppermost bone, of several the largest.
+    """
+    parents, area = _parents(tree), np.bincount(mesh.face_node, mesh.face_areas, len(mesh.nodes))
+    size = {b: sum(float(a) for a, h in zip(area, home, strict=True) if h == b) for b in bones & placed.keys() & set(home)}
+    above = {b: [k for k in _upwards(parents, b)[1:] if k in size] for b in size}
+    order = sorted(size, key=lambda b: (len(above[b]), -size[b], b))
+    if all(h in size for h in home):
+        order = order[1:]
+    number = {b: k for k, b in enumerate(order)}
+    joints = tuple(
+        StatedJoint(
+            JointType.REVOLUTE, placed[b][:3, 3], np.array([0.0, 0.0, 1.0]), None, range_known=False, axis_known=False,
+            name=_name(tree, b), reason=f'at the bone "{_name(tree, b)}"',
+            parent=next((number[k] for k in above[b] if k in number), None),
+        )
+        for b in order
+    )  # fmt: skip
+    nodes = tuple(replace(n, joint=-1 if h is None else number.get(h, -1)) for n, h in zip(mesh.nodes, home, strict=True))
+    return replace(mesh, nodes=nodes, joints=joints)
 
 
 def _name(tree: dict[str, Any], index: int) -> str:
@@ -68,13 +96,16 @@ def _parents(tree: dict[str, Any]) -> dict[int, int]:
 
 def _above(tree: dict[str, Any], home: Sequence[int | None]) -> set[int]:
     """Return the nodes that carry nodes of the mesh."""
-    parents, above = _parents(tree), set[int]()
-    for start in home:
-        k = start
-        while k is not None and k not in above:
-            above.add(k)
-            k = parents.get(k)
-    return above
+    parents = _parents(tree)
+    return {k for start in home if start is not None for k in _upwards(parents, start)}
+
+
+def _upwards(parents: dict[int, int], index: int) -> list[int]:
+    """Return a node and those above it; a circle ends where it closes."""
+    chain = [index]
+    while (above := parents.get(chain[-1])) is not None and above not in chain:
+        chain.append(above)
+    return chain
 
 
 def _scene(tree: dict[str, Any], placed: Placed) -> dict[int, SceneNode]:
@@ -194,13 +225,7 @@ def _is_dynamic(node: dict[str, Any]) -> bool:
 
 def _body(tree: dict[str, Any], parents: dict[int, int], index: int) -> Body:
     """Return the body that a node belongs to: itself or the nearest above, None for the world."""
-    seen, k = set[int](), index
-    while k is not None and k not in seen:
-        if _is_dynamic(tree["nodes"][k]):
-            return k
-        seen.add(k)
-        k = parents.get(k)
-    return None
+    return next((k for k in _upwards(parents, index) if _is_dynamic(tree["nodes"][k])), None)
 
 
 def _physics_joints(tree: dict[str, Any], placed: Placed, folder: Folder) -> Iterator[BodyJoint]:

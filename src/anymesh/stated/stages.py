@@ -122,7 +122,10 @@ def with_stated_joints(
         parent_name = names[0 if parent is None else moved[parent]]
         if _is_whole(stated):
             axis, name = stated.axis / np.linalg.norm(stated.axis), f"{names[k]}_joint"
-            joint = Joint(name, stated.type, parent_name, names[k], stated.origin, axis, stated.limits, 1.0, stated.reason)
+            limits = None if stated.limits is None else (min(stated.limits[0], 0.0), max(stated.limits[1], 0.0))
+            kind = JointType.FIXED if limits == (0.0, 0.0) else stated.type
+            limits = None if kind is JointType.FIXED else limits
+            joint = Joint(name, kind, parent_name, names[k], stated.origin, axis, limits, 1.0, stated.reason)
         else:
             joint = _completed(stated, by_part[k], segmentation, parent_name)
         of_part[names[k]] = joint
