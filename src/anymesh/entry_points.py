@@ -10,6 +10,8 @@ from importlib import import_module
 from typing import Any
 
 # What readers of meshes need.
+DRACO = "formats.gltf_compressed_:draco_attributes"
+MESHOPT = "formats.gltf_compressed_:meshopt"
 GLTF_JOINTS = "stated.gltf:stated_joints"
 
 # What the pipeline needs of the packages around it.

@@ -12,8 +12,7 @@ from jaxtyping import Float
 from anymesh.entry_points import GLTF_JOINTS, resolve
 from anymesh.errors import InputError
 from anymesh.loading.files import MAX_FACES, Folder
-from anymesh.loading.gltf_compressed_ import DataError
-from anymesh.loading.gltf_data import Buffers, item, parse_json, split_glb
+from anymesh.loading.gltf_data import Buffers, DataError, item, parse_json, split_glb
 from anymesh.loading.gltf_materials import read_materials
 from anymesh.loading.gltf_mesh import GltfMeshes, Pose
 from anymesh.loading.join import join, unique_names

@@ -11,13 +11,18 @@ from urllib.parse import unquote_to_bytes
 
 import numpy as np
 
+from anymesh.entry_points import MESHOPT, resolve
 from anymesh.errors import InputError
 from anymesh.loading.files import MAX_FACES, Folder
-from anymesh.loading.gltf_compressed_ import MAX_DECODED, DataError, meshopt
 
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-MESHOPT = ("EXT_meshopt_compression", "KHR_meshopt_compression", "MESHOPT_compression")
+COMPRESSED = ("EXT_meshopt_compression", "KHR_meshopt_compression", "MESHOPT_compression")
+MAX_DECODED = 2**29  # [bytes] of one compressed buffer view
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
+
+
+class DataError(InputError):
+    """A part of a glTF file that cannot be read, and without which the rest may be usable."""
 
 
 def split_glb(name: str, data: bytes) -> tuple[bytes, bytes | None]:
@@ -81,13 +86,13 @@ class Buffers:
     def view(self, index: int) -> bytes:
         """Return the bytes of a buffer view. Raise DataError if it exceeds its buffer, or is compressed and broken."""
         view = item(self._tree["bufferViews"], index)
-        packed = next((e for key, e in view.get("extensions", {}).items() if key in MESHOPT), None)
+        packed = next((e for key, e in view.get("extensions", {}).items() if key in COMPRESSED), None)
         if packed is None:
             return self._slice(view)
         if index not in self._decoded:
             if sum(map(len, self._decoded.values())) > MAX_DECODED:
                 raise InputError(f"{self._name} decompresses to more than {MAX_DECODED} bytes")
-            self._decoded[index] = meshopt(self._slice(packed), packed)
+            self._decoded[index] = resolve(MESHOPT)(self._slice(packed), packed)
         return self._decoded[index]
 
     def _slice(self, view: dict[str, Any]) -> bytes:

@@ -11,10 +11,10 @@ from jaxtyping import Float, Int
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
 
+from anymesh.entry_points import DRACO, resolve
 from anymesh.errors import InputError
 from anymesh.loading.files import Folder
-from anymesh.loading.gltf_compressed_ import DataError, draco_attributes
-from anymesh.loading.gltf_data import Buffers, item
+from anymesh.loading.gltf_data import Buffers, DataError, item
 from anymesh.loading.gltf_materials import GltfMaterial
 from anymesh.loading.join import join, rgba, simple_mesh, unit
 from anymesh.types import Mesh
@@ -23,7 +23,7 @@ from anymesh.types.mesh import to_srgb
 TRIANGLES = 4  # primitive mode
 NO_TRIANGLES = {0: "points", 1: "lines", 2: "lines", 3: "lines"}
 RIGID = 0.99  # weight of one bone from which a vertex moves with it alone
-DRACO = "KHR_draco_mesh_compression"
+DRACO_EXTENSION = "KHR_draco_mesh_compression"
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,11 +134,11 @@ class GltfMeshes:
 
     def _decompressed(self, p: dict[str, Any]) -> tuple[dict[str, np.ndarray], np.ndarray | None]:
         """Return the attributes and the indices of a Draco-compressed primitive; nothing and None for others."""
-        draco = p.get("extensions", {}).get(DRACO)
+        draco = p.get("extensions", {}).get(DRACO_EXTENSION)
         if draco is None:
             return {}, None
         ids = {key: number for key, number in draco["attributes"].items() if key in p["attributes"]}
-        raw, index = draco_attributes(self.buffers.view(draco["bufferView"]), ids)
+        raw, index = resolve(DRACO)(self.buffers.view(draco["bufferView"]), ids)
         accessors = self.tree["accessors"]
         return {k: self.buffers.normalized(item(accessors, p["attributes"][k]), values) for k, values in raw.items()}, index
 

@@ -11,10 +11,9 @@ from typing import Any
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.errors import InputError
 from anymesh.loading.files import MAX_FACES
+from anymesh.loading.gltf_data import MAX_DECODED, DataError
 
-MAX_DECODED = 2**29  # [bytes] of one buffer view
 DRACO_METADATA = 0x8000  # flag of the header
 EDGEBREAKER = 1
 BITS = ((0, 2, 4, 8), (0, 1, 2, 4), (1, 2, 4, 8))  # per delta, by the two bits of a group: version 0; version 1, controls 0, 1
@@ -24,10 +23,6 @@ LATER = {
     for bits in (1, 2, 4)
 }
 GROUP = 16  # deltas
-
-
-class DataError(InputError):
-    """A part of a glTF file that cannot be read, and without which the rest may be usable."""
 
 
 def draco_attributes(data: bytes, ids: dict[str, int]) -> tuple[dict[str, np.ndarray], Int[np.ndarray, " n"]]:
