@@ -72,7 +72,7 @@ WORDS = (
 )
 FIXED = frozenset(
     "base body frame corpus housing case carcass chassis shell panel board wall side back top bottom floor shelf shelves leg "
-    "foot feet stand support table plinth fixed static burner hinge screw logo".split()
+    "foot feet stand support table plinth fixed static burner screw logo".split()
 )
 # a side of the object on their own; otherwise only a position: "drawer_top" is a drawer
 PLACES = frozenset("side back top bottom".split())

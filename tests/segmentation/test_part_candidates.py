@@ -91,7 +91,7 @@ def test_names_that_begin_alike_are_one_part() -> None:
 
 @pytest.mark.parametrize(
     ("name", "expected"),
-    [("LeftDoor_02", NameClass.MOVABLE), ("door_handle", NameClass.HANDLE), ("side_wall", NameClass.FIXED),
+    [("LeftDoor_02", NameClass.MOVABLE), ("door_handle", NameClass.NONE), ("side_wall", NameClass.FIXED),
      ("Cube.001", NameClass.NONE), ("", NameClass.NONE)],
 )  # fmt: skip
 def test_the_last_known_word_gives_the_class(name: str, expected: NameClass) -> None:

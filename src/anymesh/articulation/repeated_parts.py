@@ -15,7 +15,6 @@ from anymesh.config import SAME_AXIS_COSINE
 from anymesh.geometry.boxes import same_box
 from anymesh.geometry.triangle_set import TriangleSet, body_obb
 from anymesh.motion.part_context import PartContext, best_direction
-from anymesh.scoring import by_hand
 
 # maximum component of the offset along the opening direction, over its length, between parts in a row
 MAX_ROW_OFFSET_RATIO = 0.25
@@ -91,12 +90,14 @@ class ScoredMotions:
 
 
 def mean_over_copies(own: ScoredMotions, copies: Sequence[ScoredMotions]) -> Float[np.ndarray, " n"]:
-    """Return, for each motion of a part, the mean of its score and of the best scores of the copies in the same manner."""
-    least = own.score.min() + by_hand.UNMATCHED_SCORE
+    """Return, for each motion of a part, the mean of its score and of the best scores of the copies in the same manner.
+
+    A copy that cannot move in this manner, or hardly, counts as the worst motion of the part.
+    """
     total = own.score.astype(float)
     for copy in copies:
         theirs = np.where(in_one_manner(own, copy), copy.score[None], -np.inf).max(1)
-        total = total + np.maximum(theirs, least)
+        total = total + np.maximum(theirs, own.score.min())
     return total / (1 + len(copies))
 
 

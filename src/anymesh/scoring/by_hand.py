@@ -13,14 +13,11 @@ from anymesh.types import JointType
 # Chosen on kinds left out of training: a higher F1 on fused surfaces, and the same on other objects.
 CUT_SCORE = 0.5
 # For a candidate whose name in the file is known, by the class of the name; no training mesh has names.
-NAME_SCORE: Mapping[str, float] = {"movable": 5.0, "fixed": -6.0, "handle": 0.3}
+NAME_SCORE: Mapping[str, float] = {"movable": 5.0, "fixed": -6.0}
 # For a motion that the sweep finds blocked.
 BLOCKED_SCORE = -4.0
 # For a part whose label has a typical joint: for a hinge, for a rotation about the axis of a round outline, for a slide.
 LABEL_PRIOR: Mapping[JointType, tuple[float, float, float]] = {
     JointType.REVOLUTE: (1.5, -2.5, -2.0),
     JointType.PRISMATIC: (-2.0, -2.5, 2.0),
-    JointType.CONTINUOUS: (-1.5, 2.5, -2.0),
 }
-# Of a copy that cannot move in the manner of a part's motion, below the worst motion of the part.
-UNMATCHED_SCORE = -3.0

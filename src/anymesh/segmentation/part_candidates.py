@@ -222,18 +222,17 @@ def _bounds(patches: Float[np.ndarray, "P 2 3"], members: Bool[np.ndarray, " P"]
 class NameClass(StrEnum):
     """Classes of the names of candidates."""
 
-    NONE = ""  # no name, or an unknown one
+    NONE = ""  # no name, or one that says neither
     MOVABLE = "movable"
     FIXED = "fixed"
-    HANDLE = "handle"  # moves on its own or with the part that it is attached to
 
 
 def name_class(name: str) -> NameClass:
-    """Return the class of a name."""
+    """Return the class of a name; a handle moves on its own or with the part that it is attached to."""
+    if is_fixed_name(name):
+        return NameClass.FIXED
     word = recognize(name)
-    if word is None:
-        return NameClass.FIXED if is_fixed_name(name) else NameClass.NONE
-    return NameClass.HANDLE if word.label == "handle" else NameClass.MOVABLE
+    return NameClass.NONE if word is None or word.label == "handle" else NameClass.MOVABLE
 
 
 def shared_name(candidates: PartCandidates, candidate: int) -> str:
