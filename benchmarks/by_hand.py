@@ -25,7 +25,7 @@ from anymesh.evaluation.ground_truth import EvalSample, prepared
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import score
 from anymesh.evaluation.summary import summarize
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.motion.part_context import PartContext
 from anymesh.pipeline import solving
 from anymesh.scoring import by_hand

@@ -28,10 +28,9 @@ from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.rendering.marks import mark_color
 from anymesh.rendering.render import encode, render
 from anymesh.segmentation.contacts import find_contacts
-from anymesh.segmentation.part_assignment import assign_parts
 from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
 from anymesh.segmentation.part_classifier import score_parts, shipped_classifier
-from anymesh.segmentation.segment import examine_candidates
+from anymesh.segmentation.segment import assign_parts, examine_candidates
 from anymesh.types import JointType, Mesh, Picture
 
 EXAMPLES = Path(__file__).parents[1] / "examples"

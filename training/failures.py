@@ -24,7 +24,7 @@ from anymesh.prompted.pictures.sheet import question_sheet
 from anymesh.rendering.render import encode, render
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.part_assignment import assign_parts
+from anymesh.segmentation.segment import assign_parts
 from anymesh.types import Mesh, Picture
 from training.collect_rows import called
 from training.part_rows import PartRows, read_rows

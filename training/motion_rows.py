@@ -18,11 +18,11 @@ from jaxtyping import Bool, Float, Float32, Int
 
 from anymesh.articulation.estimate import PartMotions, part_motions
 from anymesh.articulation.motion_features import motion_features
+from anymesh.articulation.part_contexts import in_a_row, same_size
 from anymesh.articulation.rank_motions import same_joints
-from anymesh.articulation.repeated_parts import in_a_row, same_size
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.evaluation.score import angle_error, distance_at, opening_side, opens_both_ways
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion
 from training.collect_rows import collect_all, kind_of

@@ -1,4 +1,4 @@
-"""Train the classifier of motions (`anymesh.articulation.motion_classifier`) and measure it on what it was not trained on.
+"""Train the classifier of motions (`anymesh.articulation.rank_motions`) and measure it on what it was not trained on.
 
 python -m training.train_motions FOLDER            benchmarks/reports/motions.md: leave one source out, leave kinds out
 python -m training.train_motions FOLDER --write    also trains on all and writes motion_classifier.npz and
@@ -23,10 +23,9 @@ import numpy as np
 from jaxtyping import Bool
 
 from anymesh.articulation.estimate import MAX_COPIES, MAX_SWEPT
-from anymesh.articulation.motion_classifier import highest
 from anymesh.articulation.motion_features import SWEPT_FEATURES
-from anymesh.articulation.rank_motions import share_of_best
-from anymesh.articulation.repeated_parts import ScoredMotions, mean_over_copies
+from anymesh.articulation.part_contexts import ScoredMotions, mean_over_copies
+from anymesh.articulation.rank_motions import highest, share_of_best
 from anymesh.scoring.by_hand import BLOCKED_SCORE
 from training.boosting import Model, Sample, Scores, fit, held_out, leave_kinds_out, leave_sources_out, manifest_of, write
 from training.calibration import Scored, calibration_table, fit_confidence, log_odds

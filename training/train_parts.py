@@ -29,8 +29,8 @@ import numpy as np
 from jaxtyping import Bool
 
 from anymesh.scoring.classifier import Classifier
-from anymesh.segmentation.part_assignment import assign_parts, conflicts, likely_parts
 from anymesh.segmentation.part_classifier import combined, is_cut, relations
+from anymesh.segmentation.segment import assign_parts, conflicts, likely_parts
 from training.boosting import FOLDS, Model, Sample, Scores, fit, leave_kinds_out, leave_sources_out, manifest_of, write
 from training.calibration import Scored, calibration_table, fit_confidence
 from training.collect_rows import called

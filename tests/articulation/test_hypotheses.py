@@ -13,13 +13,19 @@ from made import EDGE, PULL, ROUND, X, Y, Z, candidate, context_of, turn
 from scenes import prism, wheel
 from test_motion_features import context_in
 
-from anymesh.articulation.candidate_motions import CandidateMotions, PartFacts
+from anymesh.articulation.candidate_motions import (
+    CandidateMotions,
+    PartFacts,
+    barrels,
+    contact_axes,
+    distinct,
+    propose,
+    two_pivot_line,
+)
 from anymesh.articulation.estimate import choose_motion, estimate_joint, joint_of
 from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.hypotheses import barrels, contact_axes, distinct, propose, two_pivot_line
-from anymesh.articulation.part_contexts import parents
+from anymesh.articulation.part_contexts import in_a_row, parents, same_size
 from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE, label_of
-from anymesh.articulation.repeated_parts import in_a_row, same_size
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.lines import pivots
 from anymesh.prompted.motions.offers import MovedPoints

@@ -8,9 +8,8 @@ from assets import box
 from made import X, Y, Z, context_of, slide, turn
 from scenes import Scene, built, case, door, drawer, lid, prism, similarity, wheel
 
+from anymesh.articulation.candidate_motions import propose
 from anymesh.articulation.evidence import initial_direction, sweep_candidates, swept, unswept
-from anymesh.articulation.hypotheses import propose
-from anymesh.articulation.motion_classifier import PartMotionScores, likeliest
 from anymesh.articulation.motion_features import (
     MISSING,
     SWEPT_FEATURES,
@@ -21,7 +20,7 @@ from anymesh.articulation.motion_features import (
     swept_features,
     unswept_features,
 )
-from anymesh.articulation.rank_motions import rank_motions
+from anymesh.articulation.rank_motions import PartMotionScores, likeliest, rank_motions
 from anymesh.config import Config
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.cases import make_cases

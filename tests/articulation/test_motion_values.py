@@ -16,7 +16,8 @@ from scenes import door, drawer, lid, wheel
 from test_motion_features import LEFT_EDGE, OUT, features
 from trimesh.creation import cylinder
 
-from anymesh.articulation.evidence import contact_points, contact_retention, hinge_support
+from anymesh.articulation.candidate_motions import contact_points
+from anymesh.articulation.evidence import contact_retention, hinge_support
 from anymesh.articulation.motion_features import MISSING, adjacent_sides, line_features
 from anymesh.articulation.part_contexts import find_barrel_candidates
 from anymesh.segmentation.divide import object_shape

@@ -9,7 +9,6 @@ from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND, X, Y, Z
 
 from anymesh.articulation.candidate_motions import Candidate, CandidateMotions, MotionChoice, PartFacts, SlideDirection
 from anymesh.articulation.estimate import choose_motion, part_motions
-from anymesh.articulation.motion_classifier import shipped_classifier
 from anymesh.articulation.rank_motions import (
     label_of,
     motion_scores,
@@ -17,6 +16,7 @@ from anymesh.articulation.rank_motions import (
     reason,
     same_joints,
     share_of_best,
+    shipped_classifier,
 )
 from anymesh.scoring.classifier import MAX_CONFIDENCE
 from anymesh.segmentation.divide import object_shape
@@ -135,14 +135,14 @@ def test_a_motion_is_described_by_its_kind_its_range_and_what_holds_it(c: Candid
 
 @pytest.mark.parametrize(
     ("label", "kind", "least"),
-    [("drawer", JointType.PRISMATIC, 1.9), ("door", JointType.REVOLUTE, 1.4), ("wheel", JointType.CONTINUOUS, 2.4)],
+    [("drawer", JointType.PRISMATIC, 1.9), ("door", JointType.REVOLUTE, 1.4)],
 )
 def test_a_label_raises_the_score_of_its_typical_motion_alone(label: str, kind: JointType, least: float) -> None:
     free = question(EDGE, PULL, ROUND)
     plain = motion_scores(free)
     assert plain.tolist() == [0, 0, 0]
     gain = motion_scores(replace(free, part=replace(PLATE, label=label))) - plain
-    typical = [JointType.REVOLUTE, JointType.PRISMATIC, JointType.CONTINUOUS].index(kind)
+    typical = [JointType.REVOLUTE, JointType.PRISMATIC].index(kind)
     assert gain[typical] > least
     assert (np.delete(gain, typical) < -1).all()
 

@@ -12,8 +12,8 @@ from scenes import Piece, Scene, built, case, door, drawer, joints_of, prism
 
 from anymesh.articulation import estimate
 from anymesh.articulation.candidate_motions import CandidateMotions
-from anymesh.articulation.motion_classifier import PartMotionScores
-from anymesh.articulation.repeated_parts import ScoredMotions, in_one_manner, mean_over_copies
+from anymesh.articulation.part_contexts import ScoredMotions, in_one_manner, mean_over_copies
+from anymesh.articulation.rank_motions import PartMotionScores
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType
 

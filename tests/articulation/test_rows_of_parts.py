@@ -10,13 +10,11 @@ from assets import box, mesh_of
 from made import EDGE, PULL, X, Y, Z, candidate, context_of, slide, turn
 from scenes import case, drawer
 
-from anymesh.articulation.candidate_motions import ProposedMotion
+from anymesh.articulation.candidate_motions import ProposedMotion, distinct, propose
 from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import limits
 from anymesh.articulation.motion_features import MISSING, motion_features
-from anymesh.articulation.part_contexts import descendants, part_context
-from anymesh.articulation.repeated_parts import ScoredMotions, in_one_manner, share_opening_directions
+from anymesh.articulation.part_contexts import ScoredMotions, descendants, in_one_manner, part_context, share_opening_directions
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.offers import MovedPoints
 from anymesh.segmentation.divide import object_shape

@@ -7,9 +7,9 @@ import pytest
 from assets import CUBE, CUBE_FACES
 from trimesh.creation import revolve
 
-from anymesh.geometry import patches, simplify_
-from anymesh.geometry.patches import MIN_PATCH_FACES, DividedSurface
+from anymesh.geometry import simplify_, surface
 from anymesh.geometry.simplify_ import simplify
+from anymesh.geometry.surface import MIN_PATCH_FACES, DividedSurface
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types.triangles import normals_and_areas
 
@@ -92,7 +92,7 @@ def divided(triangles: np.ndarray, patch: np.ndarray, copy: np.ndarray | None = 
 def test_parts_of_a_patch_are_simplified_apart(monkeypatch: pytest.MonkeyPatch) -> None:
     fine = sheet(20)
     right = (fine.mean(1)[:, 0] > 0.5).astype(np.int64)
-    monkeypatch.setattr(patches, "MAX_FACES", 100)
+    monkeypatch.setattr(surface, "MAX_FACES", 100)
     found = divided(fine, np.zeros(800, np.int64)).simplified(right)
     assert 20 < len(found.patch) <= 130
     part = right[found.source]
@@ -110,8 +110,8 @@ def test_few_faces_stay_and_dense_patches_are_simplified_in_proportion(monkeypat
     triangles, patch = np.concatenate(sheets), np.repeat([0, 1, 2], [1800, 450, 8])
     order = np.random.default_rng(0).permutation(len(patch))
     triangles, patch = triangles[order], patch[order]
-    monkeypatch.setattr(patches, "MAX_FACES", 500)
-    monkeypatch.setattr(patches, "KEPT_PATCH_FACES", 30)
+    monkeypatch.setattr(surface, "MAX_FACES", 500)
+    monkeypatch.setattr(surface, "KEPT_PATCH_FACES", 30)
     found = divided(triangles, patch).simplified()
     count = np.bincount(found.patch)
     assert 300 < count[0] <= 400
@@ -126,19 +126,19 @@ def test_few_faces_stay_and_dense_patches_are_simplified_in_proportion(monkeypat
 
 
 def test_a_mesh_of_the_maximum_number_of_faces_stays(monkeypatch: pytest.MonkeyPatch) -> None:
-    surface = divided(sheet(5), np.zeros(50, np.int64))
-    monkeypatch.setattr(patches, "MAX_FACES", 50)
-    assert surface.simplified().source.tolist() == list(range(50))
-    monkeypatch.setattr(patches, "MAX_FACES", 49)
-    monkeypatch.setattr(patches, "KEPT_PATCH_FACES", 20)
-    assert len(surface.simplified().source) < 50
+    found = divided(sheet(5), np.zeros(50, np.int64))
+    monkeypatch.setattr(surface, "MAX_FACES", 50)
+    assert found.simplified().source.tolist() == list(range(50))
+    monkeypatch.setattr(surface, "MAX_FACES", 49)
+    monkeypatch.setattr(surface, "KEPT_PATCH_FACES", 20)
+    assert len(found.simplified().source) < 50
 
 
 def test_very_many_patches_keep_few_faces_each(monkeypatch: pytest.MonkeyPatch) -> None:
     """Of 100 patches of 32 triangles, 3 * 60 / 100 faces each would be left, and the minimum is kept."""
     triangles = np.concatenate([sheet(4, (2 * k, 0, 0)) for k in range(100)])
-    monkeypatch.setattr(patches, "MAX_FACES", 60)
-    monkeypatch.setattr(patches, "KEPT_PATCH_FACES", 32)
+    monkeypatch.setattr(surface, "MAX_FACES", 60)
+    monkeypatch.setattr(surface, "KEPT_PATCH_FACES", 32)
     found = divided(triangles, np.repeat(np.arange(100), 32)).simplified()
     count = np.bincount(found.patch)
     assert len(count) == 100

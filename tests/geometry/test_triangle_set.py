@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from rigid import apply, move, shape_of
 from scipy.spatial.distance import cdist
 
-from anymesh.geometry import patches
+from anymesh.geometry import surface
 from anymesh.geometry.distance_ import TriangleTree, distance_to_mesh, distance_to_triangles, winding_number
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.surface import mesh_surface
@@ -93,7 +93,7 @@ def test_a_dense_mesh_is_asked_about_in_fewer_faces_of_the_same_pieces():
         [(balls[0].vertices, balls[0].faces), (apply(move(2), balls[1].vertices) + 9, balls[1].faces[:, ::-1])]
     )
     before = mesh.vertices.copy()
-    with patch.object(patches, "MAX_FACES", 1000):
+    with patch.object(surface, "MAX_FACES", 1000):
         found = object_shape(mesh)
     assert 600 < len(found.patch) <= 1000
     assert found.mesh_patch.tolist() == number.tolist()

@@ -18,7 +18,6 @@ from anymesh.segmentation import segment
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.naming import named_parts
-from anymesh.segmentation.part_assignment import MIN_PART_PROBABILITY
 from anymesh.segmentation.part_candidates import (
     NameClass,
     PartCandidates,
@@ -28,6 +27,7 @@ from anymesh.segmentation.part_candidates import (
     shared_name,
 )
 from anymesh.segmentation.part_classifier import Reasons
+from anymesh.segmentation.segment import MIN_PART_PROBABILITY
 from anymesh.types import Mesh, Node, Segmentation
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import trimesh
 
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.panels import PanelRectangle, filled, tile
 from anymesh.types import Mesh, Node

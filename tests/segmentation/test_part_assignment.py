@@ -16,15 +16,15 @@ from anymesh.pipeline.solving import Solver
 from anymesh.segmentation import segment
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.part_assignment import (
+from anymesh.segmentation.part_candidates import Overlap, PartCandidates
+from anymesh.segmentation.part_classifier import Reasons
+from anymesh.segmentation.segment import (
     MIN_PART_PROBABILITY,
     assign_parts,
     conflicts,
     join_floating,
     likely_parts,
 )
-from anymesh.segmentation.part_candidates import Overlap, PartCandidates
-from anymesh.segmentation.part_classifier import Reasons
 from anymesh.types import Segmentation
 
 

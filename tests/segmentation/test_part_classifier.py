@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 
-from anymesh.articulation import motion_classifier
+from anymesh.articulation import rank_motions
 from anymesh.scoring.by_hand import CUT_SCORE
 from anymesh.scoring.classifier import Classifier
 from anymesh.segmentation import part_classifier
@@ -19,7 +19,7 @@ from anymesh.segmentation.part_classifier import relations
 
 SHIPPED = pytest.mark.parametrize(
     "shipped",
-    [part_classifier.shipped_classifier, motion_classifier.shipped_classifier, motion_classifier.unswept_classifier],
+    [part_classifier.shipped_classifier, rank_motions.shipped_classifier, rank_motions.unswept_classifier],
 )
 
 

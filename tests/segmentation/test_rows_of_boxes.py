@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from assets import box, mesh_of
 
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.segmentation.contacts import Contacts, find_contacts
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.part_assignment import join_floating
 from anymesh.segmentation.part_candidates import named_groups, part_candidates
+from anymesh.segmentation.segment import join_floating
 from anymesh.types import Material, Mesh, Node
 
 BLOCK = box((0, 0, 0), (1, 1, 1))

@@ -7,7 +7,7 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from anymesh.articulation import motion_classifier
+from anymesh.articulation import rank_motions
 from anymesh.segmentation import part_classifier
 from training import motion_rows, part_rows
 from training.collect_rows import collect
@@ -25,7 +25,7 @@ def read(tmp_path: Path) -> Callable[[ModuleType], list]:
 def test_each_part_with_a_joint_has_motions_with_the_features_of_the_shipped_classifier(read: Callable) -> None:
     parts = read(motion_rows)
     assert [rows.part for rows in parts] == ["lid"]
-    names = motion_classifier.shipped_classifier().names
+    names = rank_motions.shipped_classifier().names
     for rows in parts:
         assert set(names) == set(rows.names)
         assert rows.features.shape == (len(rows.right), len(names))

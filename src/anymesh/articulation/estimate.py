@@ -10,17 +10,21 @@ from typing import NamedTuple
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.articulation.candidate_motions import BOX_RIM_ROLES, Candidate, CandidateMotions, MotionChoice
+from anymesh.articulation.candidate_motions import BOX_RIM_ROLES, Candidate, CandidateMotions, MotionChoice, propose
 from anymesh.articulation.evidence import SWEEP_STEPS, sweep_candidates, swept, unswept
-from anymesh.articulation.hypotheses import propose
 from anymesh.articulation.limits import MAX_DOOR_DEG, away_from_closed, limits
-from anymesh.articulation.motion_classifier import PartMotionScores, likeliest
 from anymesh.articulation.motion_features import swept_features, unswept_features
-from anymesh.articulation.part_contexts import context_by_gaps, parents, part_context
-from anymesh.articulation.rank_motions import rank_motions, reason
-from anymesh.articulation.repeated_parts import in_a_row, same_size, share_opening_directions
+from anymesh.articulation.part_contexts import (
+    context_by_gaps,
+    in_a_row,
+    parents,
+    part_context,
+    same_size,
+    share_opening_directions,
+)
+from anymesh.articulation.rank_motions import PartMotionScores, likeliest, rank_motions, reason
 from anymesh.config import SAME_AXIS_COSINE
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
 from anymesh.runtime import JOINTS, Deadline

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.articulation.candidate_motions import Candidate, ProposedMotion, Role
+from anymesh.articulation.candidate_motions import Candidate, ProposedMotion, Role, contact_points, contact_tolerance
 from anymesh.config import ACROSS_COSINE
 from anymesh.geometry.circles import MIN_CIRCLE_ROUNDNESS
 from anymesh.geometry.sweep import free_amounts, sweep_all
@@ -21,24 +21,12 @@ LINE_POINTS = 21  # sample points along a hinge line
 MAX_RETENTION_POINTS = 120  # sample points of the contact that are followed during a motion
 WATCHED_ANGLE_RAD = np.deg2rad(30)  # [rad] opening of a hinge at which contact is measured
 WATCHED_TRAVEL_RATIO = 0.5  # travel of a slide at which contact is measured, relative to the part's extent along it
-MIN_GAP_FACTOR = 1.5  # a part that touches nothing is in contact within this multiple of its smallest gap
 RETAINED_FACTOR = 1.5  # contact is retained within this multiple of the distance that counts as contact at rest
-CONTACT_RATIO = 0.008  # of the tolerance length: points closer to the parent are in contact
 CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of the side of a bar handle that runs across the line
 MIN_ARM_RATIO = 0.05  # of the part's diagonal: nearer to its center, a rotation has no direction
 GUIDE_STEP_RATIO = 0.02  # of the tolerance length: a slide is guided if a sideways step of this length is blocked
 UNSWEPT = Sweep(0.0, 0.0, clear_forward=False, clear_backward=False)
 ENDLESS = Sweep(np.pi, np.pi, clear_forward=True, clear_backward=True)
-
-
-def contact_tolerance(context: PartContext) -> float:
-    """Return the distance to the parent within which a point is in contact [m]; it grows with the gap of a part with none."""
-    return max(CONTACT_RATIO * context.tolerance_length, MIN_GAP_FACTOR * float(context.gap.min()))
-
-
-def contact_points(context: PartContext) -> Float[np.ndarray, "n 3"]:
-    """Return the part's samples in contact with the parent [m]."""
-    return context.part.samples.points[context.gap <= contact_tolerance(context)]
 
 
 def contact_retention(context: PartContext, motions: list[Motion], signs: list[int]) -> np.ndarray:

@@ -11,8 +11,8 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.articulation.candidate_motions import Candidate
-from anymesh.articulation.evidence import contact_points, initial_direction, sides
+from anymesh.articulation.candidate_motions import Candidate, contact_points
+from anymesh.articulation.evidence import initial_direction, sides
 from anymesh.config import ACROSS_COSINE, ALONG_COSINE, LEVEL_COSINE
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import share_in_place

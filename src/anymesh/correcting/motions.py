@@ -13,8 +13,8 @@ from anymesh.articulation.rank_motions import joint_type, motion_scores, reason
 from anymesh.correcting.corrections import ChooseMotion, vector
 from anymesh.correcting.edits import joint_of_part, part_number
 from anymesh.geometry.boxes import straight_mesh, turned_back
-from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.simplify_ import simplify
+from anymesh.geometry.surface import ObjectShape
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Asset, Joint, JointType, Mesh
 

@@ -16,7 +16,7 @@ from zlib import crc32
 import numpy as np
 
 from anymesh import __version__
-from anymesh.articulation import motion_classifier
+from anymesh.articulation import rank_motions
 from anymesh.errors import OpenQuestionError, OptionError
 from anymesh.evaluation.changes import CHANGES, UpSource
 from anymesh.evaluation.datasets.dataset import Dataset
@@ -46,7 +46,7 @@ Done = Iterator[tuple[str, Examined]]
 @cache
 def trained_objects() -> frozenset[str]:
     """Return SOURCE/NAME of every object that a shipped classifier was trained on."""
-    classifiers = (part_classifier.shipped_classifier(), motion_classifier.shipped_classifier(), up_classifier())
+    classifiers = (part_classifier.shipped_classifier(), rank_motions.shipped_classifier(), up_classifier())
     return frozenset(name for classifier in classifiers for name in classifier.manifest["objects"])
 
 

@@ -16,8 +16,7 @@ from anymesh.articulation.rank_motions import label_of
 from anymesh.config import Config
 from anymesh.entry_points import PROMPTED_STAGES, STATED_JOINTS, STATED_PARTS, resolve
 from anymesh.geometry.boxes import straight_mesh, turned_back
-from anymesh.geometry.patches import DividedSurface, ObjectShape
-from anymesh.geometry.surface import ground_faces
+from anymesh.geometry.surface import DividedSurface, ObjectShape, ground_faces
 from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.runtime import Deadline, Progress, silent

@@ -12,7 +12,7 @@ from networkx import DiGraph, immediate_dominators
 from scipy.spatial.distance import cdist
 
 from anymesh.geometry.boxes import box_pairs, within
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import TriangleSet, spread_points
 from anymesh.runtime import CONTACTS, Deadline

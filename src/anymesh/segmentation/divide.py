@@ -9,8 +9,7 @@ from scipy.spatial import KDTree
 from anymesh.config import SAME_SIZE
 from anymesh.geometry.creases import MIN_CREASE_DEG, convex_regions, divide_at_seams
 from anymesh.geometry.distance_ import TriangleTree
-from anymesh.geometry.patches import DividedSurface, ObjectShape
-from anymesh.geometry.surface import MeshSurface, mesh_surface
+from anymesh.geometry.surface import DividedSurface, MeshSurface, ObjectShape, mesh_surface
 from anymesh.geometry.topology import label_connected, strongest
 from anymesh.geometry.triangle_set import spread_points
 from anymesh.segmentation.handles import region_sizes

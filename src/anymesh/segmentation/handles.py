@@ -10,8 +10,7 @@ from jaxtyping import Float, Int
 from anymesh.config import SAME_AXIS_COSINE
 from anymesh.geometry.boxes import OrientedBox, fit_box
 from anymesh.geometry.distance_ import TriangleTree
-from anymesh.geometry.patches import ObjectShape
-from anymesh.geometry.surface import MeshSurface
+from anymesh.geometry.surface import MeshSurface, ObjectShape
 from anymesh.geometry.topology import label_connected
 from anymesh.types import Mesh
 

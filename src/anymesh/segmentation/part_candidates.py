@@ -2,7 +2,7 @@
 
 Candidates are the nodes of trees over the patches: of the tree that merges those with the most contact, from single patches
 on, and for each of the largest patches as base, of the tree of what is attached to it only through what (the dominator tree
-of the contacts). Candidates overlap. `part_assignment.py` decides for all at once which of them are parts.
+of the contacts). Candidates overlap. `segment.assign_parts` decides for all at once which of them are parts.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.config import SAME_SIZE
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.triangle_set import principal_spread, surface_moments
 from anymesh.segmentation.contacts import Contacts, dominated_by
 from anymesh.types import Mesh

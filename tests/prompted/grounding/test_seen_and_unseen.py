@@ -10,7 +10,7 @@ from assets import box, mesh_of
 from trimesh.remesh import subdivide_to_size
 
 from anymesh.articulation.estimate import stays_free
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.pipeline.solving import Solver
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud
 from anymesh.prompted.grounding.faces import face_parts, join_unseen, mark_parts

@@ -12,7 +12,7 @@ from scenes import Scene, built, case, door, drawer, lid, slider, wheel
 
 from anymesh.articulation.candidate_motions import CandidateMotions
 from anymesh.config import Config
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer
 from anymesh.prompted.motions.cases import PartCase, make_cases
 from anymesh.prompted.motions.joints import Questions, prompt_joints

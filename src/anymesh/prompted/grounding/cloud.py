@@ -9,8 +9,8 @@ import numpy as np
 from jaxtyping import Bool, Float, Int, UInt8
 from scipy.spatial import KDTree
 
-from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.superpoints import superpoints
+from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.topology import label_connected, strongest
 from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
 from anymesh.rendering.render import View, face_colors

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Int
 from scipy.spatial import KDTree
 
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.topology import label_connected
 from anymesh.prompted.grounding.cloud import Cloud
 from anymesh.prompted.grounding.fuse import Instances

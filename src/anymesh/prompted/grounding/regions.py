@@ -10,7 +10,7 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.config import REFERENCE_PX
 from anymesh.geometry.creases import divide_at_seams
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.topology import components, label_connected, strongest
 from anymesh.prompted.grounding.cloud import Cloud
 from anymesh.rendering.render import View

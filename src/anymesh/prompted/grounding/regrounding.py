@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.prompted.grounding.mark_questions import MarkQuestioner, ask_exact
 from anymesh.prompted.grounding.regions import Marks, face_regions, number_regions, split_marks
 from anymesh.prompted.grounding.views import SampledObject, shown_views

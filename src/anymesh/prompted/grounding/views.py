@@ -9,7 +9,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.config import REFERENCE_PX, Config
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud, seen_points
 from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE
 from anymesh.prompted.grounding.mark_questions import MarkQuestioner

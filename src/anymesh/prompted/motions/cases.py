@@ -7,10 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from anymesh.articulation.part_contexts import descendants, parents, part_context
-from anymesh.articulation.repeated_parts import same_size, share_opening_directions
+from anymesh.articulation.part_contexts import descendants, parents, part_context, same_size, share_opening_directions
 from anymesh.config import Config
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.lines import plane_normal, round_patches
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, PartShown

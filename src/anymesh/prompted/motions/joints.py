@@ -14,9 +14,9 @@ from anymesh.articulation.candidate_motions import SlideDirection
 from anymesh.articulation.estimate import joint_of
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import answered_range, away_from_closed, opening_as_answered
-from anymesh.articulation.motion_classifier import PartMotionScores
+from anymesh.articulation.rank_motions import PartMotionScores
 from anymesh.config import FACING_COSINE, Config
-from anymesh.geometry.patches import ObjectShape
+from anymesh.geometry.surface import ObjectShape
 from anymesh.prompted.motions.cases import (
     PartCase,
     ask_each,

@@ -1,7 +1,7 @@
 """Candidate points of a hinge, and the motions that picked points, normals and arrows stand for (paper, 3.3).
 
 Candidates are clusters of the connecting area, superpoints if the hinge is hidden, and axes from the part's own shape, which
-complement those of `hypotheses.propose`.
+complement those of `candidate_motions.propose`.
 """
 
 from __future__ import annotations
@@ -12,12 +12,11 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial import KDTree
 
-from anymesh.articulation.candidate_motions import ProposedMotion, Role
-from anymesh.articulation.hypotheses import hinge_about
+from anymesh.articulation.candidate_motions import ProposedMotion, Role, hinge_about
 from anymesh.config import ALONG_COSINE
 from anymesh.geometry.circles import MIN_CIRCLE_ROUNDNESS, outline_about
-from anymesh.geometry.patches import ObjectShape
 from anymesh.geometry.superpoints import superpoints
+from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.triangle_set import SurfacePoints, TriangleSet
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.grounding.cloud import COLOR_WEIGHT, MIN_SUPERPOINT_POINTS, NEIGHBOURS, STRENGTH

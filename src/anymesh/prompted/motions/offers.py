@@ -18,12 +18,12 @@ from anymesh.articulation.candidate_motions import (
     PartFacts,
     ProposedMotion,
     SlideDirection,
+    distinct,
+    propose,
 )
 from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.hypotheses import distinct, propose
 from anymesh.articulation.limits import STROKE_RATIO, answered_range, pressed
-from anymesh.articulation.motion_classifier import PartMotionScores
-from anymesh.articulation.rank_motions import motion_scores
+from anymesh.articulation.rank_motions import PartMotionScores, motion_scores
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.cases import PartCase
 from anymesh.prompted.motions.lines import CENTRAL, pivots

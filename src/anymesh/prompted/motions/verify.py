@@ -15,8 +15,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.articulation.candidate_motions import Candidate
-from anymesh.articulation.motion_classifier import shipped_classifier
-from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE, reason, same_joints, same_lines
+from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE, reason, same_joints, same_lines, shipped_classifier
 from anymesh.prompted.motions.cases import PartCase, ask_each
 from anymesh.prompted.motions.offers import MotionOffers, fits, make_offers, moves_as
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
