@@ -8,11 +8,10 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.articulation.candidate_motions import ProposedMotion
+from anymesh.articulation.candidate_motions import ProposedMotion, hinge_about, propose
 from anymesh.articulation.estimate import PartMotions, estimate_joint
 from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.hypotheses import hinge_about, propose
-from anymesh.articulation.motion_classifier import PartMotionScores
+from anymesh.articulation.rank_motions import PartMotionScores
 from anymesh.loading.scene_graph import is_generic
 from anymesh.names import legal_names
 from anymesh.pipeline.results import JointResult, SegmentationResult, joint_result, segmentation_result
