@@ -25,6 +25,10 @@ REMOVE_TRANSCRIPT = "prompted.answerers.recordings:remove_transcript"
 # Readers of further formats, and what is said of formats that nothing reads.
 READ_DAE = "formats.dae:read_dae"
 DAE_FRAME = "formats.dae:dae_frame"
+READ_PLY = "formats.ply:read_ply"
+READ_STL = "formats.off_stl:read_stl"
+READ_OFF = "formats.off_stl:read_off"
+LOAD_ZIPPED = "formats.zipped:load_zipped"
 READERS = dict.fromkeys((".usd", ".usda", ".usdc", ".usdz"), "formats.reading:read_isolated")
 REMEDY = "formats.reading:remedy"
 

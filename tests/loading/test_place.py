@@ -46,12 +46,31 @@ def test_placing_is_a_rotation_a_factor_and_a_shift(up, scale) -> None:
     stands(placed.mesh)
 
 
-@pytest.mark.parametrize(("unit", "warned"), [(1.0, False), (90.0, False), (300.0, True)])
-def test_a_large_object_in_the_unit_of_its_file_gets_a_warning(unit: float, warned: bool) -> None:
+@pytest.mark.parametrize(
+    ("unit", "name", "told"),
+    [
+        (1.0, "box.glb", ""),
+        (15.0, "box.glb", ""),
+        (90.0, "box.glb", "metres; if so, give --scale 1"),
+        (300.0, "x.dae", "metres; if so, give --scale 1"),
+        (0.008, "x.dae", "metres; if so"),
+    ],
+)
+def test_an_object_that_is_large_or_small_in_the_unit_of_its_file_gets_a_warning(unit: float, name: str, told: str) -> None:
     """A diagonal of 1.1 units, thus of 330 m."""
-    placed = place_mesh(loaded(unit=unit), up="z")
+    placed = place_mesh(loaded(unit=unit, path=name), up="z")
     assert placed.metric
-    assert any("--scale" in w for w in placed.warnings) == warned
+    assert told in " ".join(placed.warnings)
+    assert any("--scale" in w for w in placed.warnings) == bool(told)
+
+
+@pytest.mark.parametrize(
+    ("name", "unit"), [("cabinet.glb", "centimetres"), ("thing.glb", "centimetres"), ("x/van.glb", "inches")]
+)
+def test_the_likely_unit_is_told(name: str, unit: str) -> None:
+    mesh = mesh_of([box([0, 0, 0], [50, 40, 70] if "van" not in name else [190, 80, 70])])[0]
+    (warning,) = place_mesh(loaded(mesh, path=name, up="z", unit=1.0)).warnings
+    assert f"it is probably in {unit}; if so, give --scale" in warning
 
 
 @pytest.mark.parametrize(("probability", "warned"), [(0.5, True), (0.7, False), (None, False)])

@@ -7,6 +7,7 @@ import zipfile
 import pytest
 
 from anymesh.errors import InputError
+from anymesh.formats import zipped as archives
 from anymesh.loading import load_mesh
 from anymesh.viewer import uploads
 from anymesh.viewer.uploads import plain_name, receive
@@ -73,7 +74,7 @@ def test_links_are_refused(tmp_path) -> None:
 
 
 def test_a_bomb_is_stopped_while_it_unpacks(tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr(uploads, "MAX_UNPACKED_BYTES", 3 << 20)
+    monkeypatch.setattr(archives, "MAX_UNPACKED_BYTES", 3 << 20)
     bomb = zipped({"box.obj": OBJ, "a.bin": bytes(2 << 20), "b.bin": bytes(2 << 20)})
     assert len(bomb) < 10_000
     with pytest.raises(InputError, match="more than 3 MB once unpacked"):
@@ -82,7 +83,7 @@ def test_a_bomb_is_stopped_while_it_unpacks(tmp_path, monkeypatch) -> None:
 
 
 def test_a_header_that_lies_about_its_size_gains_nothing(tmp_path, monkeypatch) -> None:
-    monkeypatch.setattr(uploads, "MAX_UNPACKED_BYTES", 1 << 20)
+    monkeypatch.setattr(archives, "MAX_UNPACKED_BYTES", 1 << 20)
     content = bytearray(zipped({"box.obj": bytes(2 << 20)}))
     at = content.rindex(b"PK\x01\x02") + 24  # the uncompressed size in the central directory
     content[at : at + 4] = (100).to_bytes(4, "little")
@@ -93,7 +94,7 @@ def test_a_header_that_lies_about_its_size_gains_nothing(tmp_path, monkeypatch) 
 
 def test_too_much_too_many_and_nothing(tmp_path, monkeypatch) -> None:
     monkeypatch.setattr(uploads, "MAX_UPLOAD_BYTES", 1 << 20)
-    monkeypatch.setattr(uploads, "MAX_FILES", 5)
+    monkeypatch.setattr(archives, "MAX_FILES", 5)
     for k, (name, content, told) in enumerate(
         [
             ("x.glb", bytes(3 << 20), "3 MB; at most 1 MB"),

@@ -13,7 +13,7 @@ import os
 import re
 import struct
 import warnings
-from collections.abc import Generator
+from collections.abc import Generator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
@@ -32,6 +32,7 @@ MIME_TYPES = {"PNG": "image/png", "JPEG": "image/jpeg"}
 MODES = ("1", "L", "LA", "P", "PA", "RGB", "RGBA")  # that all readers of PNG and JPEG decode alike
 KTX2 = b"\xabKTX 20"
 OBJECT = re.compile(r"\s*<[^>]*>")  # Python's name of a stream in an error, with an address that differs between runs
+ARCHIVE = ".zip"
 FORMATS = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae", *READERS)
 MAX_FACES = 20_000_000
 MAX_BYTES = 4 * 1024**3
@@ -56,7 +57,7 @@ SIGNS = {  # start of files of other formats
 }
 STARTS = {
     ".glb": rb"glTF", ".gltf": SIGNS["glTF"], ".ply": rb"ply", ".off": SIGNS["OFF"], ".dae": rb"(?s).{0,4088}<COLLADA",
-    **dict.fromkeys((".usd", ".usda", ".usdc"), SIGNS["USD"]), ".usdz": rb"PK",
+    **dict.fromkeys((".usd", ".usda", ".usdc"), SIGNS["USD"]), ".usdz": rb"PK", ARCHIVE: rb"PK\x03\x04",
 }  # fmt: skip
 
 
@@ -199,15 +200,15 @@ def quiet_decoder() -> Generator[None]:
         yield
 
 
-def check_file(path: Path) -> bytes:
+def check_file(path: Path, formats: Sequence[str] = FORMATS) -> bytes:
     """Return the bytes of the file if they are plausible for its format. Raise InputError otherwise."""
     if not path.exists():
         raise InputError(f"found no file {path}")
     if not path.is_file():
-        raise InputError(f"{path} is not a file; a mesh file is expected ({', '.join(FORMATS)})")
+        raise InputError(f"{path} is not a file; a mesh file is expected ({', '.join(formats)})")
     suffix = path.suffix.lower()
-    if suffix not in FORMATS:
-        remedy = resolve(REMEDY)(suffix) or f"valid are {', '.join(FORMATS)}"
+    if suffix not in formats:
+        remedy = resolve(REMEDY)(suffix) or f"valid are {', '.join(formats)}"
         raise InputError(f"{path.name}: found the format {suffix or '(none)'}; {remedy}")
     size = path.stat().st_size
     if size == 0:

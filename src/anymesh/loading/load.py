@@ -9,6 +9,7 @@ a box and a fridge. A size is accepted within a factor of 3.
 from __future__ import annotations
 
 import hashlib
+import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass, replace
@@ -19,13 +20,11 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh import entry_points
-from anymesh.entry_points import DAE_FRAME, READ_DAE, resolve
+from anymesh.entry_points import DAE_FRAME, LOAD_ZIPPED, READ_DAE, READ_OFF, READ_PLY, READ_STL, resolve
 from anymesh.errors import AnymeshError, InputError, OptionError
-from anymesh.loading.files import MAX_FACES, FileMesh, Folder, check_file
+from anymesh.loading.files import ARCHIVE, FORMATS, MAX_FACES, FileMesh, Folder, check_file
 from anymesh.loading.gltf import read_gltf
 from anymesh.loading.obj import read_obj
-from anymesh.loading.off_stl import read_off, read_stl
-from anymesh.loading.ply import read_ply
 from anymesh.loading.scene_graph import scene_of_objects
 from anymesh.loading.upright import AUTO, AXES, INFER, Up, infer_up, read_up, up_of
 from anymesh.types import Mesh
@@ -34,9 +33,9 @@ READERS: dict[str, Callable[[bytes, Folder], Mesh]] = {
     ".glb": read_gltf,
     ".gltf": read_gltf,
     ".obj": read_obj,
-    ".ply": read_ply,
-    ".stl": read_stl,
-    ".off": read_off,
+    ".ply": lambda data, folder: resolve(READ_PLY)(data, folder),
+    ".stl": lambda data, folder: resolve(READ_STL)(data, folder),
+    ".off": lambda data, folder: resolve(READ_OFF)(data, folder),
     ".dae": lambda data, folder: resolve(READ_DAE)(data, folder),
 }
 FARTHEST = 1e12  # coordinates above are no plausible lengths
@@ -58,7 +57,7 @@ LONGEST = {
 SMALLER = {"toy", "model", "mini", "miniature", "dollhouse"}  # words that mean that the usual size does not apply
 BELIEVED_FACTOR = 3.0  # a size is accepted within this factor of the usual one
 PLAUSIBLE = (0.02, 12.0)  # [m] diagonals of typical objects, from a knob to a van
-MAX_EXPECTED = 100.0  # [m] a larger diagonal in the unit of the file gets a warning
+EXPECTED = (0.01, 20.0)  # [m] other diagonals in the unit of the file get a warning; as in anymesh check
 MIN_UP_PROBABILITY = 0.6  # an up axis inferred with less gets a warning
 ABSURD = (0.001, 1000.0)  # [m] a format's unit is ignored beyond these diagonals
 GIVEN = (1e-6, 1e6)  # [m] beyond these diagonals, masses and inertias in an output would be lost in rounding, or overflow
@@ -79,7 +78,7 @@ class LoadedMesh:
 
 
 def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: str = "read") -> LoadedMesh:
-    """Read GLB, glTF, OBJ, PLY, STL, OFF or DAE, or a format of `entry_points.READERS`.
+    """Read GLB, glTF, OBJ, PLY, STL, OFF or DAE, a format of `entry_points.READERS`, or a zip of one with what it refers to.
 
     root: the folder within which the files that the mesh refers to may be read, by default its own folder. A texture or a
     material library that cannot be read there is left out with a warning; animation: read, or ignore for a mesh without the
@@ -90,9 +89,13 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: st
     path = Path(path)
     if animation not in ("read", "ignore"):
         raise OptionError(f"--animation: found {animation!r}; valid are read and ignore")
-    data = check_file(path)
+    data = check_file(path, (*FORMATS, ARCHIVE))
     folder = Folder(path, root, animation == "read")
     suffix = path.suffix.lower()
+    if suffix == ARCHIVE:
+        inner, name, warnings = resolve(LOAD_ZIPPED)(path, FORMATS, lambda p, top: load_mesh(p, root=top, animation=animation))
+        sha256, warnings = hashlib.sha256(data).hexdigest(), (*warnings, *inner.warnings)
+        return replace(inner, path=str(path / name), sha256=sha256, warnings=warnings)
     try:
         with np.errstate(over="ignore", invalid="ignore"):
             read = (READERS.get(suffix) or resolve(entry_points.READERS[suffix]))(data, folder)
@@ -218,13 +221,14 @@ def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str, category: str | 
             raise OptionError(f"--scale: found {scale!r}, which {effect}; valid are {GIVEN[0]:g} to {GIVEN[1]:g} m")
         return factor, note, ()
     unit = loaded.unit_in_metres
-    prior = usual_size(category) if category else usual_size(Path(loaded.path).stem) if unit is None else None
+    names = [Path(part).stem for part in Path(loaded.path).parts if part.lower().endswith(ARCHIVE)] + [Path(loaded.path).stem]
+    by_name = next((usual for name in names if (usual := usual_size(name))), None)
+    prior = usual_size(category) if category else by_name if unit is None else None
     if prior is not None:  # a unit in the file has priority over the file's name, but not over the user's category
         return _scale_of_kind(extents, unit, *prior)
     if unit is not None:
         if ABSURD[0] <= diagonal * unit <= ABSURD[1]:
-            large = f"the file's unit makes the object {diagonal * unit:.3g} m large; if that is wrong, set it with --scale"
-            return unit, f"scale {unit:g} (the file's unit)", (large,) if diagonal * unit > MAX_EXPECTED else ()
+            return unit, f"scale {unit:g} (the file's unit)", _doubted(diagonal, unit, float(extents.max()), by_name)
         warning = f"the file's unit makes the object {diagonal * unit:.3g} m large; it was scaled to a diagonal of 1 m"
         return 1 / diagonal, f"scale {1 / diagonal:g} (normalised)", (warning,)
     if PLAUSIBLE[0] <= diagonal <= PLAUSIBLE[1]:
@@ -234,6 +238,18 @@ def _scale(loaded: LoadedMesh, extents: np.ndarray, scale: str, category: str | 
             return factor, f"scale {factor:g} (inferred: a diagonal of {diagonal:.4g} is taken as {name})", ()
     warning = f"no unit makes a diagonal of {diagonal:.3g} plausible; the object was scaled to a diagonal of 1 m"
     return 1 / diagonal, f"scale {1 / diagonal:g} (normalised)", (warning,)
+
+
+def _doubted(diagonal: float, unit: float, longest: float, usual: tuple[str, float] | None) -> tuple[str, ...]:
+    """Return a warning if the file's unit gives no plausible size, with the unit that gives the most plausible one."""
+    if EXPECTED[0] <= diagonal * unit <= EXPECTED[1]:
+        return ()
+    size = usual[1] / longest if usual else 1 / diagonal
+    name, factor = min((("metres", 1.0), *UNITS), key=lambda u: abs(math.log(u[1] / size)))
+    told = f"the file's unit makes the object {diagonal * unit:.3g} m large; plausible is {EXPECTED[0]:g} to {EXPECTED[1]:g} m"
+    if factor == unit:
+        return (f"{told}; if that is wrong, set it with --scale",)
+    return (f"{told}: it is probably in {name}; if so, give --scale {factor:g}",)
 
 
 def _scale_of_kind(extents: np.ndarray, unit: float | None, kind: str, usual: float) -> tuple[float, str, tuple[str, ...]]:

@@ -21,7 +21,7 @@ PACKAGE_URL = re.compile(r"(?i)(?:package|model)://([^/]*)/?(.*)", re.S)
 PACKAGES = ("package", "model")  # schemes of ROS and of Gazebo
 PICTURE_FOLDERS = ("textures", "texture", "tex", "maps", "images", "materials")
 ASIDE = ("textures", "Textures", "texture", "Texture")  # folders beside that of the mesh that are read without `root`
-ABOVE = 2  # folders above that of the mesh, within root, whose folders of pictures are searched
+ABOVE = 4  # folders above that of the mesh, within root, whose folders of pictures are searched
 ENCODINGS = ("cp1252", "latin-1", "cp932", "gbk", "big5", "cp949", "cp1251", "cp1250", "cp437", "cp850", "mac-roman")
 SHOWN = 100  # characters of a reference shown in a message
 
@@ -42,7 +42,7 @@ def resolve_reference(uri: str, bases: Sequence[Path], root: Path, aside: Sequen
     A backslash counts as a slash. Percent-encoded names are decoded if the name as written is missing. If no name is equal,
     the only one that differs in case or encoding is used. `package://NAME/REST` and `model://NAME/REST` mean REST in a folder
     NAME between the first base and root, or in the folder NAME of root. Links are followed before any check. A file that is
-    not there is looked for by its last folders and name: in the bases, and in folders of pictures there and up to two above.
+    not there is looked for by its last folders and name: in the bases, and in folders of pictures there and up to four above.
     """
     scheme = SCHEME.match(uri)
     kind = scheme[1].lower() if scheme else ""

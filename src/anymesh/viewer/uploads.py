@@ -8,19 +8,15 @@ dropped outside the zone, and from sending files that are too large.
 from __future__ import annotations
 
 import re
-import stat
-import zipfile
 from dataclasses import dataclass
 from html import escape
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 from anymesh.errors import InputError
+from anymesh.formats.zipped import MAX_UNPACKED_BYTES, only_mesh, unpack
 from anymesh.loading.files import FORMATS
 
 MAX_UPLOAD_BYTES = 200 << 20  # maximum size of a file [bytes]
-MAX_UNPACKED_BYTES = 1 << 30  # maximum size of all files in a zip [bytes]
-MAX_FILES = 2000  # maximum number of files in a zip
-BLOCK = 1 << 20  # [bytes] unpacked per step
 PLAIN_NAME = re.compile(r"[^A-Za-z0-9._-]+")
 EMPTY_PICTURE = "data:image/gif;base64,R0lGODlhAQABAAAAACwAAAAAAQABAAA="
 STYLE = "border:2px dashed #868e96;border-radius:8px;padding:1.4em 0.8em;margin:0.4em 0.8em;text-align:center;line-height:1.45"
@@ -82,7 +78,7 @@ def receive(name: str, content: bytes, folder: Path) -> Upload:
     inside = folder / "unpacked"
     unpack(path, inside)
     path.unlink()
-    return Upload(_only_mesh(inside), inside)
+    return Upload(only_mesh(inside, FORMATS).mesh, inside)
 
 
 def plain_name(name: str) -> str:
@@ -91,64 +87,6 @@ def plain_name(name: str) -> str:
     plain = PLAIN_NAME.sub("_", last).strip("._") or "mesh"
     stem, dot, suffix = plain.rpartition(".")
     return f"{stem[:60]}{dot}{suffix[:10]}" if dot else plain[:60]
-
-
-def unpack(path: Path, folder: Path) -> None:
-    """Unpack a zip into a new folder.
-
-    Raise InputError if it is broken, encrypted, too large once unpacked, or has a path outside the folder.
-    """
-    folder.mkdir()
-    try:
-        with zipfile.ZipFile(path) as archive:
-            entries = [e for e in archive.infolist() if not e.is_dir()]
-            if len(entries) > MAX_FILES:
-                raise InputError(f"the zip holds {len(entries)} files; at most {MAX_FILES} are unpacked")
-            left = MAX_UNPACKED_BYTES
-            for entry in entries:
-                left = _unpack_entry(archive, entry, folder, left)
-    except InputError:
-        raise
-    except Exception as error:  # the library raises many types of errors for a broken archive
-        reason = " ".join(f"{type(error).__name__}: {error}".split())[:120]
-        raise InputError(f"the zip cannot be unpacked, it is broken, encrypted or of an unknown kind ({reason})") from None
-
-
-def _unpack_entry(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, folder: Path, left: int) -> int:
-    """Write one file and return the remaining number of bytes. Bytes are counted, since headers may be wrong."""
-    target = _inside(entry, folder)
-    if target is None:
-        return left
-    target.parent.mkdir(parents=True, exist_ok=True)
-    with archive.open(entry) as source, target.open("xb") as sink:
-        while block := source.read(BLOCK):
-            left -= len(block)
-            if left < 0:
-                raise InputError(f"the zip holds more than {_size(MAX_UNPACKED_BYTES)} once unpacked")
-            sink.write(block)
-    return left
-
-
-def _inside(entry: zipfile.ZipInfo, folder: Path) -> Path | None:
-    """Return the path of an entry, None for hidden files that some systems add. Raise InputError for an unsafe one."""
-    name = entry.filename
-    place = PurePosixPath(name)
-    unsafe = place.is_absolute() or ".." in place.parts or re.search(r"[\\:\x00-\x1f]", name) is not None
-    if unsafe or stat.S_ISLNK(entry.external_attr >> 16):
-        raise InputError(f"the zip has an unsafe entry, {name[:60]!r}; valid are plain files within the zip")
-    if place.parts[0] == "__MACOSX" or any(part.startswith(".") for part in place.parts):
-        return None
-    return folder / place
-
-
-def _only_mesh(folder: Path) -> Path:
-    """Return the only mesh file in a folder. Raise InputError if there is none, or several."""
-    meshes = sorted(p for p in folder.rglob("*") if p.is_file() and p.suffix.lower() in FORMATS)
-    if len(meshes) != 1:
-        names = ", ".join(p.relative_to(folder).as_posix() for p in meshes[:4])
-        listed = f"{len(meshes)} meshes ({names}{', ...' if len(meshes) > 4 else ''})" if meshes else "no mesh"
-        raise InputError(f"the zip holds {listed}; valid is exactly one of {', '.join(FORMATS)}, with what it refers to")
-    return meshes[0]
 
 
 def _size(count: int) -> str:
