@@ -70,7 +70,17 @@ def test_an_angle(tmp_path):
 
 
 def test_a_whole_turn_between_two_keys(tmp_path):
-    assert only(read(tmp_path, animation("door/rotationY.ANGLE", [0, 1], [0, 360]), TURNED)[0]).type is JointType.CONTINUOUS
+    joint = only(read(tmp_path, animation("door/rotationY.ANGLE", [0, 1], [1080, 1440]), TURNED)[0])
+    assert joint.type is JointType.CONTINUOUS
+    np.testing.assert_allclose(joint.axis, (0, 1, 0), atol=1e-6)
+    np.testing.assert_allclose(joint.origin, PIVOT, atol=1e-6)
+
+
+def test_a_pivot_of_several_translations(tmp_path):
+    names, places = ("translate", "rotatePivot", "back"), ((0.25, 0, 0), (0, 0, 0.2), (0, 0, -0.2))
+    first, pivot, back = (f'<translate sid="{n}">{words(p)}</translate>' for n, p in zip(names, places, strict=True))
+    turned = f'{first}{pivot}<rotate sid="rotateY">0 1 0 0</rotate>{back}<translate sid="shape">0 0 0.2</translate>'
+    assert_hinge(only(read(tmp_path, animation("door/rotateY.ANGLE", [0, 1], [0, 90]), turned)[0]), (0, 1, 0), PIVOT, (0, 90))
 
 
 def test_matrices(tmp_path):

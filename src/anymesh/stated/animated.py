@@ -202,8 +202,11 @@ def _fit(motion: np.ndarray, keyed: np.ndarray, box: np.ndarray, pivot: np.ndarr
     quaternion = Rotation.from_matrix(R).as_quat()
     sine = quaternion[:, :3]
     moved = R @ center + motion[:, :3, 3] - center
-    if 2 * np.arcsin(min(float(np.linalg.norm(sine, axis=1).max()), 1.0)) < MIN_TURN_RAD:
+    size_of_sine = np.linalg.norm(sine, axis=1)
+    if 2 * np.arcsin(min(float(size_of_sine.max()), 1.0)) < MIN_TURN_RAD:
         return _slide(moved, keyed, center, size)
+    if size_of_sine[keyed].max() < size_of_sine.max() / 2:  # whole turns between the keys
+        keyed = np.ones(len(keyed), bool)
     axis = np.linalg.svd(sine[keyed], full_matrices=False)[2][0]
     if np.linalg.norm(sine - np.outer(sine @ axis, axis), axis=1)[keyed].max() > MAX_SWING:
         return "turns about several axes"
