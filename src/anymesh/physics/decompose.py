@@ -20,11 +20,12 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.geometry.simplify_ import simplify
-from anymesh.geometry.topology import components
+from anymesh.geometry.topology import components, without_cracks
 from anymesh.isolation import DECOMPOSER, ChildError, ChildPool, Failure
-from anymesh.physics.convex import fitted, hull_of, planes, shifted
-from anymesh.physics.solids_ import decompose_solid
-from anymesh.physics.split import patch_of, solid_mesh, split_surface
+from anymesh.physics.convex import as_hull, fitted, hull_of, planes, shifted, thinned
+from anymesh.physics.openings import NONE, Openings, openings_of
+from anymesh.physics.solids_ import FACETED_PLANES, decompose_solid
+from anymesh.physics.split import concave_planes, patch_of, solid_mesh, split_surface
 from anymesh.types import Box, Cylinder, Hull, Shape
 from anymesh.types.triangles import CUBE_CORNERS, normals_and_areas, unshared
 
@@ -33,8 +34,12 @@ SOLID_FACES = 1000  # faces of a solid that is cut exactly
 AROUND_FACES = 500  # maximum faces of a hull that is tested for components inside; larger ones are smooth, and need much memory
 CELLS = 4  # cells per side of a link's bounds: small components in one cell share a hull
 SLIVER = 1e-9  # of the squared diagonal: cleaning removes faces with a smaller area
-VERSION = b"9"  # change it if the same surface would give other shapes
+VERSION = b"10"  # change it if the same surface would give other shapes
 DIGITS = 30  # binary digits of the coordinates of a component, so that copies at different places become equal
+OPEN_PIECES = 64  # maximum number of pieces of a component with openings
+MAX_LOST = 0.1  # of a radius beyond what is allowed: more pieces that lose more are not worth it
+FEW_PIECES = 10  # of a faceted ring that needs no other division
+ROUND_FACES = 128  # of a surface with a round opening: with more, it is smooth
 TINY = 1e-12  # [m] minimum size of a component
 BATCH_FACES = 2000  # faces of small components per call
 PER_FACE = 2e-5  # [s] added to the limit of a call per face, since simplifying millions of faces takes longer than the division
@@ -139,20 +144,64 @@ def component_shapes(component: Component, resolution: Resolution, method: Metho
     whole = patch_of(triangles, resolution.wall)
     if whole is None:
         return ()
-    if whole.gap <= resolution.gap:
-        return (fitted(hull_of(component.triangles.reshape(-1, 3)) or whole.hull),)
-    limits = {"gap": resolution.gap, "wall": resolution.wall, "max_pieces": resolution.max_pieces}
-    hulls: list[Hull] = []
+    exact = hull_of(component.triangles.reshape(-1, 3)) or whole.hull
+    openings = openings_of(triangles, exact, resolution.gap, solid=component.solid)
+    if whole.gap <= resolution.gap and not openings.lost(exact).any():
+        return (fitted(exact),)
+    closed = None
     if component.solid and method is not Method.SURFACE:
         closed = _closed(triangles if method is Method.SOLID else cleaned(triangles))
-        hulls = [] if closed is None else decompose_solid(*closed, **limits)
-    return tuple(fitted(hull) for hull in hulls or split_surface(triangles, **limits))
+    few = resolution.max_pieces
+    smooth = _is_smooth(triangles if closed is None else closed[0][closed[1]], openings)
+    plain = () if smooth else _divided(triangles, closed, resolution, few, NONE)
+    lost = 0.0 if smooth else _lost(plain, openings)
+    if not (smooth or (openings.round.any() and (lost > 0 or len(plain) > FEW_PIECES))):
+        return plain
+    opened = _divided(triangles, closed, resolution, max(few, OPEN_PIECES), openings)
+    left = _lost(opened, openings)
+    return opened if smooth or (left <= MAX_LOST and (left, len(opened)) < (lost, len(plain))) else plain
+
+
+def _divided(
+    triangles: np.ndarray,
+    closed: tuple[np.ndarray, np.ndarray] | None,
+    resolution: Resolution,
+    most: int,
+    openings: Openings,
+) -> tuple[Shape, ...]:
+    hulls = []
+    if closed is not None:
+        hulls = decompose_solid(*closed, gap=resolution.gap, wall=resolution.wall, max_pieces=most, openings=openings)
+    if not hulls:
+        hulls = split_surface(triangles, gap=resolution.gap, wall=resolution.wall, max_pieces=most, openings=openings)
+    return tuple(_fitted(hull, openings) for hull in hulls)
+
+
+def _is_smooth(triangles: np.ndarray, openings: Openings) -> bool:
+    """Return whether a surface has openings and many sides, so that cuts along these take long and lead nowhere."""
+    if openings.round.any() and len(triangles) > ROUND_FACES:
+        return True
+    return len(openings) > 0 and len(concave_planes(triangles, FACETED_PLANES)) > FACETED_PLANES
+
+
+def _lost(shapes: Sequence[Shape], openings: Openings) -> float:
+    """Return the largest share of a radius that a shape takes of an opening beyond what is allowed, rounded."""
+    return round(max((float(openings.lost(as_hull(shape)).max(initial=0.0)) for shape in shapes), default=0.0), 2)
+
+
+def _fitted(hull: Hull, openings: Openings) -> Shape:
+    """Return the box or cylinder that fits a hull, unless it reaches into openings; else the hull, with few corners."""
+    shape = fitted(hull)
+    return thinned(hull) if openings.lost(as_hull(shape)).any() else shape
 
 
 def _closed(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray] | None:
     """Return the vertices and faces of a closed surface with few faces; None if it is not closed."""
     for few in (simplify(triangles, SOLID_FACES), triangles):  # simplification may open a surface
         vertices, faces = solid_mesh(few)
+        joined = without_cracks(vertices, faces) if len(faces) else vertices
+        if joined is not vertices:
+            vertices, faces = solid_mesh(joined[faces])
         parts = components(vertices, faces) if len(faces) else None
         if parts is not None and (parts.solid & parts.agree).all():
             return vertices, faces

@@ -19,6 +19,7 @@ from anymesh.errors import MissingExtraError
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.triangle_set import sample_surface
 from anymesh.physics.convex import hull_of, volume
+from anymesh.physics.openings import KERF, NONE, Openings
 from anymesh.physics.split import SAMPLES, Plane, concave_planes, cutting_planes, hull_volume, least_volume_first, outline
 from anymesh.types import Hull
 from anymesh.types.triangles import normals_and_areas
@@ -31,7 +32,6 @@ FACETED_PLANES = 32  # distinct planes at concave edges; a solid with more is sm
 PLANES_PER_CUT = 16  # planes at concave edges tried per cut, those with the longest edges first
 SMOOTH_PLANES = 8  # the same for a smooth solid
 CONVEX = 1e-6  # relative difference between the volumes of a solid and its hull below which it is convex
-KERF = 2e-5  # half the width of a cut, relative to the diagonal; a cut without width leaves thin layers where it meets a face
 FEW = 12  # faces of a hull whose centers are tested first
 TOUCH = 3 * KERF  # distance between the bounds of touching pieces, relative to the diagonal
 MAX_WORK = 1_500_000  # faces of the pieces that are cut or compared with their hulls, plus FACES_PER_CUT for each cut
@@ -43,6 +43,11 @@ class _Budget:
 
     def __init__(self, work: int = MAX_WORK) -> None:
         self._work = self._left = work
+
+    @property
+    def half_left(self) -> bool:
+        """Whether at least half of the work is left."""
+        return 2 * self._left >= self._work
 
     def spend(self, work: int) -> None:
         """Subtract some work; raise TimeoutError if none is left."""
@@ -65,13 +70,19 @@ class _SolidPiece:
 
 
 def decompose_solid(
-    vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], *, gap: float, wall: float, max_pieces: int
+    vertices: Float[np.ndarray, "V 3"],
+    faces: Int[np.ndarray, "F 3"],
+    *,
+    gap: float,
+    wall: float,
+    max_pieces: int,
+    openings: Openings = NONE,
 ) -> list[Hull]:
     """Return hulls of pieces of a closed solid that are within `gap` of it, or of `max_pieces` pieces.
 
     Empty if the surface is not manifold. The same input gives the same hulls.
 
-    gap: maximum distance of a hull from the surface [m]; wall: minimum spacing of cutting planes [m].
+    gap: maximum distance of a hull from the surface [m]; wall: minimum spacing of cutting planes [m]; openings: that must stay.
 
     Raise TimeoutError if that takes too much work, MissingExtraError without manifold3d.
     """
@@ -82,8 +93,9 @@ def decompose_solid(
     if solid is None:
         return []
     budget, planes = _Budget(), concave_planes(unit[faces], FACETED_PLANES)
-    pieces = _cut(solid, planes, gap / size, wall / size, SPLIT_RATIO * max_pieces, budget)
-    merged = _merge_pieces(pieces, gap / size, max_pieces, budget)
+    open_ = openings.moved(-low, 1 / size)
+    pieces = _cut(solid, planes, gap / size, wall / size, SPLIT_RATIO * max_pieces, budget, open_)
+    merged = _merge_pieces(pieces, gap / size, max_pieces, budget, open_)
     return [Hull(p.hull.vertices * size + low, p.hull.faces) for p in merged]
 
 
@@ -96,16 +108,24 @@ def _manifold(vertices: np.ndarray, faces: np.ndarray) -> Manifold | None:
     return solid if solid.status() == Error.NoError and solid.volume() > 0 else None
 
 
-def _cut(solid: Manifold, planes: Sequence[Plane], gap: float, wall: float, most: int, budget: _Budget) -> list[_SolidPiece]:
+def _cut(
+    solid: Manifold,
+    planes: Sequence[Plane],
+    gap: float,
+    wall: float,
+    most: int,
+    budget: _Budget,
+    openings: Openings = NONE,
+) -> list[_SolidPiece]:
     """Cut the piece with the largest gap until all are within `gap` or there are `most` pieces."""
     done: list[_SolidPiece] = []
-    waiting = [(-piece.gap, k, piece) for k, piece in enumerate(_pieces(solid))]
+    waiting = [(-piece.gap, k, piece) for k, piece in enumerate(_pieces(solid, gap, openings))]
     number = itertools.count(len(waiting))
     heapq.heapify(waiting)
     while waiting:
         piece = heapq.heappop(waiting)[2]
-        few = len(done) + len(waiting) + 1 < most
-        halves = _halves(piece, planes, wall, budget) if piece.gap > gap and few else []
+        few = len(done) + len(waiting) + 1 < most and (budget.half_left or not len(openings))
+        halves = _halves(piece, planes, gap, wall, budget, openings) if piece.gap > gap and few else []
         if not halves:
             done.append(piece)
         for half in halves:
@@ -113,12 +133,12 @@ def _cut(solid: Manifold, planes: Sequence[Plane], gap: float, wall: float, most
     return done
 
 
-def _pieces(solid: Manifold) -> list[_SolidPiece]:
+def _pieces(solid: Manifold, gap: float = 0.0, openings: Openings = NONE) -> list[_SolidPiece]:
     """Return the connected pieces of a solid, without those that are flat."""
-    return [piece for part in solid.decompose() if (piece := _piece(part)) is not None]
+    return [piece for part in solid.decompose() if (piece := _piece(part, gap, openings)) is not None]
 
 
-def _piece(solid: Manifold) -> _SolidPiece | None:
+def _piece(solid: Manifold, gap: float, openings: Openings) -> _SolidPiece | None:
     if solid.volume() <= KERF * solid.surface_area():
         return None
     mesh = solid.to_mesh64()
@@ -127,30 +147,50 @@ def _piece(solid: Manifold) -> _SolidPiece | None:
     if hull is None:
         return None
     convex = solid.volume() >= (1 - CONVEX) * volume(hull)
-    return _SolidPiece(triangles, hull, 0.0 if convex else _gap(hull, triangles), solid)
+    return _SolidPiece(triangles, hull, 0.0 if convex else _excess(hull, triangles, gap, openings), solid)
 
 
-def _gap(hull: Hull, triangles: np.ndarray, limit: float = np.inf) -> float:
-    """Return the maximum distance of sample points of a hull from surfaces inside it, or any distance above `limit`."""
+def _excess(hull: Hull, triangles: np.ndarray, gap: float, openings: Openings, limit: float = np.inf) -> float:
+    """Return `_gap`, or more than `gap` for a hull that reaches into openings."""
+    lost = float(openings.lost(hull).max(initial=0.0))
+    return gap + lost if lost > 0 else _gap(hull, triangles, limit, openings)
+
+
+def _gap(hull: Hull, triangles: np.ndarray, limit: float = np.inf, openings: Openings = NONE) -> float:
+    """Return the maximum distance of sample points of a hull from surfaces inside it, or any distance above `limit`.
+
+    In openings, what their balls allow is subtracted.
+    """
     sides = hull.vertices[hull.faces]
     largest = np.argsort(-normals_and_areas(sides)[1], kind="stable")[:FEW]
-    first = float(distance_to_triangles(sides[largest].mean(1), triangles).max())
+    middle = sides[largest].mean(1)
+    first = float((distance_to_triangles(middle, triangles) - openings.slack(middle)).max())
     if first > limit:
         return first
     points = np.concatenate([sample_surface(sides, SAMPLES, 0).points, sides.mean(1)])
-    return float(distance_to_triangles(points, triangles).max())
+    return float((distance_to_triangles(points, triangles) - openings.slack(points)).max())
 
 
-def _halves(piece: _SolidPiece, planes: Sequence[Plane], wall: float, budget: _Budget) -> list[_SolidPiece]:
-    """Return the pieces on both sides of the plane that leaves the least volume in their hulls; empty if no plane divides."""
+def _halves(
+    piece: _SolidPiece, planes: Sequence[Plane], gap: float, wall: float, budget: _Budget, openings: Openings
+) -> list[_SolidPiece]:
+    """Return the pieces on both sides of the plane that leaves the least volume in their hulls; empty if no plane divides.
+
+    If the piece's hull reaches into openings, the plane is used by which they lose least.
+    """
     assert piece.solid is not None  # only merged pieces have none
-    candidates = list(_candidates(piece, planes, wall))
-    for k in least_volume_first(outline(piece.triangles), candidates):
+    outlined = outline(piece.triangles)
+    # of a smooth solid, the other planes at concave edges are those of its many sides
+    main = planes[:SMOOTH_PLANES] if len(planes) > FACETED_PLANES else planes
+    ordered = openings.cuts(piece.hull, outlined, list(_concave(piece, main)))
+    if not ordered:
+        candidates = [*_candidates(piece, planes, wall), *openings.halving(openings.near(piece.hull), outlined[0])]
+        ordered = [candidates[k] for k in least_volume_first(outlined, candidates)]
+    for normal, offset in ordered:
         budget.spend(FACES_PER_CUT + 2 * len(piece.triangles))
-        normal, offset = candidates[k]
         above = piece.solid.trim_by_plane(tuple(normal.tolist()), offset + KERF)
         below = piece.solid.trim_by_plane(tuple((-normal).tolist()), KERF - offset)
-        sides = [_pieces(above), _pieces(below)]
+        sides = [_pieces(above, gap, openings), _pieces(below, gap, openings)]
         if all(sides):
             return sides[0] + sides[1]
     return []
@@ -158,41 +198,46 @@ def _halves(piece: _SolidPiece, planes: Sequence[Plane], wall: float, budget: _B
 
 def _candidates(piece: _SolidPiece, planes: Sequence[Plane], wall: float) -> Iterator[Plane]:
     """Yield planes at concave edges of the whole solid that pass through a piece, and others if it has few or is smooth."""
-    smooth = len(planes) > FACETED_PLANES
-    points = piece.hull.vertices
-    count = 0
-    for normal, offset in planes:
-        along = points @ normal
-        if along.min() < offset - KERF and along.max() > offset + KERF:
-            yield normal, offset
-            count += 1
-        if count == (SMOOTH_PLANES if smooth else PLANES_PER_CUT):
-            break
-    if smooth or count == 0:
+    through = list(_concave(piece, planes))
+    yield from through
+    if len(planes) > FACETED_PLANES or not through:
         yield from cutting_planes(piece.triangles, wall)
 
 
-def _merge_pieces(pieces: Sequence[_SolidPiece], gap: float, most: int, budget: _Budget) -> list[_SolidPiece]:
+def _concave(piece: _SolidPiece, planes: Sequence[Plane]) -> Iterator[Plane]:
+    """Yield the first planes at concave edges of the whole solid that pass through a piece."""
+    points = piece.hull.vertices
+    most = SMOOTH_PLANES if len(planes) > FACETED_PLANES else PLANES_PER_CUT
+    for normal, offset in planes:
+        along = points @ normal
+        if most and along.min() < offset - KERF and along.max() > offset + KERF:
+            yield normal, offset
+            most -= 1
+
+
+def _merge_pieces(
+    pieces: Sequence[_SolidPiece], gap: float, most: int, budget: _Budget, openings: Openings = NONE
+) -> list[_SolidPiece]:
     """Merge touching pieces while their common hull is within `gap` of them, or there are more than `most`.
 
-    Pairs whose common hull adds the least volume are merged first.
+    Pairs whose common hull adds the least volume are merged first; beyond `gap`, those that take the least of the openings.
     """
     kept = dict(enumerate(pieces))
     number = itertools.count(len(kept))
     queue: list[tuple[float, int, int]] = []
-    refused: list[tuple[float, int, int]] = []
+    refused: list[tuple[float, float, int, int]] = []
     for a, b in itertools.combinations(kept, 2):
         _queue_pair(queue, kept, a, b)
     while queue or (refused and len(kept) > most):
         forced = not queue
-        pair = heapq.heappop(refused if forced else queue)
+        pair = heapq.heappop(refused)[1:] if forced else heapq.heappop(queue)
         _, a, b = pair
-        both = _joined(kept[a], kept[b], gap) if a in kept and b in kept else None
+        both = _joined(kept[a], kept[b], gap, openings) if a in kept and b in kept else None
         if both is None:
             continue
         budget.spend(len(both.triangles))
         if both.gap > gap and not forced:
-            heapq.heappush(refused, pair)
+            heapq.heappush(refused, (openings.taken(both.hull), *pair))
             continue
         del kept[a], kept[b]
         new = next(number)
@@ -213,9 +258,9 @@ def _queue_pair(queue: list[tuple[float, int, int]], pieces: dict[int, _SolidPie
     heapq.heappush(queue, (common - volume(first) - volume(second), a, b))
 
 
-def _joined(first: _SolidPiece, second: _SolidPiece, limit: float) -> _SolidPiece | None:
+def _joined(first: _SolidPiece, second: _SolidPiece, limit: float, openings: Openings) -> _SolidPiece | None:
     hull = hull_of(np.concatenate([first.hull.vertices, second.hull.vertices]))
     if hull is None:
         return None
     triangles = np.concatenate([first.triangles, second.triangles])
-    return _SolidPiece(triangles, hull, _gap(hull, triangles, limit))
+    return _SolidPiece(triangles, hull, _excess(hull, triangles, limit, openings, limit))

@@ -18,6 +18,7 @@ from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.topology import edge_pairs, weld
 from anymesh.geometry.triangle_set import sample_surface
 from anymesh.physics.convex import DIRECTIONS, cut, hull_of
+from anymesh.physics.openings import NONE, Openings, Plane
 from anymesh.types import Hull
 from anymesh.types.triangles import normals_and_areas, unshared
 
@@ -25,7 +26,6 @@ SAMPLES = 200  # sample points of a hull for its distance from the surface
 PLACES = 5  # positions of a cutting plane along each direction
 EXACT = 3  # planes whose hulls are computed from all points, after a selection from the furthest points
 DIGITS = 9  # of relative lengths and volumes that are compared; planes with equal ones keep their order
-Plane = tuple[np.ndarray, float]  # unit normal and offset
 MIN_CONCAVE_ANGLE_DEG = 10.0  # [deg] minimum fold at an edge that counts as concave
 SAME_PLANE = (0.9999, 1e-5)  # cosine of the normals, and offset as a share of the diagonal
 
@@ -39,8 +39,11 @@ class Patch:
     gap: float
 
 
-def patch_of(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Patch | None:
-    """Return the patch of some triangles; a flat one gets a hull of `wall` [m] behind it. None if there is no surface."""
+def patch_of(triangles: Float[np.ndarray, "n 3 3"], wall: float, openings: Openings = NONE) -> Patch | None:
+    """Return the patch of some triangles; a flat one gets a hull of `wall` [m] behind it. None if there is no surface.
+
+    What the balls of openings allow is subtracted from the distance; a hull that reaches into them has an infinite one.
+    """
     if len(triangles) == 0:
         return None
     normals, areas = normals_and_areas(triangles)
@@ -50,15 +53,18 @@ def patch_of(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Patch | None
         return None
     sides = hull.vertices[hull.faces]
     points = np.concatenate([sample_surface(sides, SAMPLES, 0).points, sides.mean(1)])
-    return Patch(triangles, hull, float(distance_to_triangles(points, triangles).max()))
+    gap = float((distance_to_triangles(points, triangles) - openings.slack(points)).max())
+    return Patch(triangles, hull, np.inf if openings.lost(hull).any() else gap)
 
 
-def split_surface(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float, max_pieces: int) -> list[Hull]:
+def split_surface(
+    triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: float, max_pieces: int, openings: Openings = NONE
+) -> list[Hull]:
     """Return hulls of pieces that are within `gap` [m] of the surface, or of `max_pieces` pieces.
 
-    Thin pieces are `wall` [m] thick.
+    Thin pieces are `wall` [m] thick; openings: that must stay.
     """
-    first = patch_of(triangles, wall)
+    first = patch_of(triangles, wall, openings)
     done, waiting = [], [] if first is None else [first]
     while waiting:
         worst = max(range(len(waiting)), key=lambda k: waiting[k].gap)
@@ -66,7 +72,7 @@ def split_surface(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: fl
         if patch.gap <= max(gap, 2 * wall) or len(done) + len(waiting) + 1 >= max_pieces:
             done.append(patch)
             continue
-        halves = _halves(patch, wall)
+        halves = _halves(patch, wall, openings)
         if len(halves) < 2:
             done.append(patch)
         else:
@@ -74,13 +80,16 @@ def split_surface(triangles: Float[np.ndarray, "n 3 3"], *, gap: float, wall: fl
     return [patch.hull for patch in done]
 
 
-def _halves(patch: Patch, wall: float) -> list[Patch]:
-    """Return the two pieces of a cut by the plane that leaves the least volume in both hulls."""
-    planes = list(cutting_planes(patch.triangles, wall))
-    best = least_volume_first(outline(patch.triangles), planes, wall)
+def _halves(patch: Patch, wall: float, openings: Openings) -> list[Patch]:
+    """Return the two pieces of a cut by the plane that leaves the least volume in both hulls, or that opens most."""
+    outlined = outline(patch.triangles)
+    best = openings.cuts(patch.hull, outlined)[:1]
+    if not best:
+        planes = [*cutting_planes(patch.triangles, wall), *openings.halving(openings.near(patch.hull), outlined[0])]
+        best = [planes[k] for k in least_volume_first(outlined, planes, wall)[:1]]
     if not best:
         return []
-    pieces = (patch_of(piece, wall) for piece in cut(patch.triangles, *planes[best[0]]))
+    pieces = (patch_of(piece, wall, openings) for piece in cut(patch.triangles, *best[0]))
     return [piece for piece in pieces if piece is not None]
 
 
@@ -203,7 +212,20 @@ def _distinct(
     They are ordered by the sum of the weights of each and its duplicates.
     """
     weight = np.round(weight / max(float(weight.sum()), 1e-300), DIGITS)
-    left = np.argsort(-weight, kind="stable")
+    planes = _grouped(normal, offset, weight, weight, size, most)
+    if len(planes) > most:  # so that a floor comes before the many planes of the round wall on it
+        signed = np.sign(normal[np.arange(len(normal)), np.abs(normal).argmax(1)])
+        cells = np.round(np.c_[normal * signed[:, None] / 0.02, offset * signed / (0.002 * size)]).astype(np.int64)
+        cell = np.unique(cells, axis=0, return_inverse=True)[1].reshape(-1)
+        planes = _grouped(normal, offset, weight, np.bincount(cell, weight)[cell], size, most)
+    return [(n, o) for _, n, o in sorted(planes, key=lambda plane: -round(plane[0], DIGITS))]
+
+
+def _grouped(
+    normal: np.ndarray, offset: np.ndarray, weight: np.ndarray, first: np.ndarray, size: float, most: int
+) -> list[tuple[float, np.ndarray, float]]:
+    """Return the weight, normal and offset of distinct planes, starting with those where `first` is highest."""
+    left = np.argsort(-np.round(first, DIGITS), kind="stable")
     planes: list[tuple[float, np.ndarray, float]] = []
     while len(left) and len(planes) <= most:
         n, o = normal[left[0]], float(offset[left[0]])
@@ -212,4 +234,4 @@ def _distinct(
         same[0] = True
         planes.append((float(weight[left[same]].sum()), n, o))
         left = left[~same]
-    return [(n, o) for _, n, o in sorted(planes, key=lambda plane: -round(plane[0], DIGITS))]
+    return planes
