@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 from PIL import Image
-from trimesh.visual.gloss import specular_to_pbr
 
 from anymesh.types import Material
 
@@ -19,6 +18,8 @@ def from_gloss(material: Material, diffuse: tuple[float, ...], specular: tuple[f
 
     diffuse: RGBA, specular: RGB, linear. What states no specular colour is no metal and keeps its diffuse picture.
     """
+    from trimesh.visual.gloss import specular_to_pbr  # when needed: it takes a while
+
     base, shiny = material.textures.get("base_color"), material.textures.get("metallic_roughness")
     rest = {slot: t for slot, t in material.textures.items() if slot != "metallic_roughness"}
     if shiny is None and specular is None:

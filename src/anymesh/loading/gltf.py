@@ -20,7 +20,7 @@ from anymesh.loading.scene_graph import is_generic, leave_out_warning
 from anymesh.types import Mesh, Node
 
 READ = (
-    "KHR_texture_transform", "KHR_mesh_quantization", "EXT_texture_webp", "KHR_draco_mesh_compression",
+    "KHR_texture_transform", "KHR_mesh_quantization", "KHR_texture_basisu", "KHR_draco_mesh_compression",
     "EXT_meshopt_compression", "KHR_meshopt_compression", "EXT_mesh_gpu_instancing", "KHR_node_visibility", "MSFT_lod",
     "KHR_lights_punctual",
 )  # fmt: skip
@@ -40,7 +40,7 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
     tree = parse_json(name, data)
     buffers = Buffers(tree, binary, folder)
     for extension in tree.get("extensionsRequired", []):
-        if extension not in READ and not extension.startswith("KHR_materials_"):
+        if extension not in READ and not extension.startswith(("KHR_materials_", "EXT_texture_", "MSFT_texture_")):
             folder.warn(f"the file requires the extension {extension}, which is not read")
     labels = unique_names(str(m.get("name") or f"mesh_{k}") for k, m in enumerate(tree["meshes"]))
     meshes = GltfMeshes(tree, buffers, folder, read_materials(tree, buffers, folder), labels)

@@ -93,7 +93,7 @@ class GltfMeshes:
         faces = _faces(p.get("mode", TRIANGLES), index.astype(np.int64))
         if not len(faces):
             return None
-        look = self.looks[p["material"]] if "material" in p else GltfMaterial(None)
+        look = self.looks[p["material"]] if 0 <= p.get("material", -1) < len(self.looks) else GltfMaterial(None)
 
         def corners(key: str) -> np.ndarray | None:
             try:
