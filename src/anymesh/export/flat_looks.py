@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 import numpy as np
-from jaxtyping import Float, Int
+from jaxtyping import Float32, Int
 
 from anymesh.rendering.render import texel
 from anymesh.types import Material, Mesh, Texture
@@ -17,7 +17,6 @@ from anymesh.types.mesh import CLAMP, REPEAT, to_linear, to_srgb
 
 MAX_SIDE = 4096  # [px] of a picture that is laid out anew
 BESIDE = 1e-3  # of a picture: coordinates that leave it by less stay
-PLAIN = (0.0, 1.0)  # window of coordinates that one copy of a picture covers
 OWN = ("normal", "emissive")  # pictures of OBJ and MuJoCo beside the base colour
 
 
@@ -120,32 +119,36 @@ def tiled(mesh: Mesh) -> Mesh:
     return replace(mesh, corner_uv=uv, corner_more_uv=None, materials=tuple(materials))
 
 
-def _laid_out(textures: Mapping[str, Texture], uv: Float[np.ndarray, "F 3 2"], faces: np.ndarray) -> dict[str, Texture]:
+def _laid_out(textures: Mapping[str, Texture], uv: Float32[np.ndarray, "F 3 2"], faces: np.ndarray) -> dict[str, Texture]:
     """Return pictures that repeat over the coordinates of some faces, which are changed to fit them."""
-    low, high = uv[faces].min((0, 1)), uv[faces].max((0, 1))
-    windows = [_window({t.wrap[axis] for t in textures.values()}, float(low[axis]), float(high[axis])) for axis in (0, 1)]
-    if windows == [PLAIN, PLAIN]:
+    low, high = uv[faces].min((0, 1)).tolist(), uv[faces].max((0, 1)).tolist()
+    wraps = [{t.wrap[axis] for t in textures.values() if t.uv_set == 0} for axis in (0, 1)]
+    if all(_fits(wraps[axis], low[axis], high[axis]) for axis in (0, 1)):
         return dict(textures)
-    textures = {slot: t for slot, t in textures.items() if t.uv_set == 0}
+    pixels = {slot: t.pixels() for slot, t in textures.items() if t.uv_set == 0}
+    sides = np.max([p.shape[1::-1] for p in pixels.values()], 0).tolist()
+    windows = [_window(wraps[axis], low[axis], high[axis], sides[axis]) for axis in (0, 1)]
     start, size = np.array(windows).T
     uv[faces] = (uv[faces] - start) / size
-    return {slot: _repainted(t, start, size) for slot, t in textures.items()}
+    return {slot: _repainted(textures[slot], p, start, size) for slot, p in pixels.items()}
 
 
-def _window(wraps: set[str], low: float, high: float) -> tuple[float, float]:
-    """Return start and size of the coordinates that a picture has to cover along an axis."""
-    if wraps <= {REPEAT} or (low >= -BESIDE and high <= 1 + BESIDE):
-        return PLAIN
+def _fits(wraps: set[str], low: float, high: float) -> bool:
+    return wraps <= {REPEAT} or (low >= -BESIDE and high <= 1 + BESIDE)
+
+
+def _window(wraps: set[str], low: float, high: float, side: int) -> tuple[float, float]:
+    """Return start and size of the coordinates that pictures of `side` texels have to cover along an axis."""
+    if _fits(wraps, low, high):
+        return 0.0, 1.0
     if CLAMP not in wraps:
         return 0.0, 2.0
-    start = float(np.floor(64 * low - 1) / 64)  # with an edge, since filters reach over it
-    return start, float(np.ceil(64 * high + 1) / 64) - start
+    start = float(np.floor(low * side) - 1)  # with an edge, since filters reach over it
+    return start / side, (float(np.ceil(high * side)) + 1 - start) / side
 
 
-def _repainted(texture: Texture, start: np.ndarray, size: np.ndarray) -> Texture:
-    pixels = texture.pixels()
-    shape = np.array(pixels.shape[1::-1])
-    wide, tall = np.minimum(np.ceil(shape * size), MAX_SIDE).astype(int)
+def _repainted(texture: Texture, pixels: np.ndarray, start: np.ndarray, size: np.ndarray) -> Texture:
+    wide, tall = np.minimum(np.rint(pixels.shape[1::-1] * size), MAX_SIDE).astype(int)
     u = start[0] + (np.arange(wide) + 0.5) / wide * size[0]
     v = start[1] + (1 - (np.arange(tall) + 0.5) / tall) * size[1]
     x, y = texel(u, pixels.shape[1], texture.wrap[0]), texel(1 - v, pixels.shape[0], texture.wrap[1])

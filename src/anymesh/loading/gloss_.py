@@ -34,5 +34,9 @@ def from_gloss(material: Material, diffuse: tuple[float, ...], specular: tuple[f
             rest[slot] = like.painted(np.asarray(made[key]))
     color = tuple(float(c) for c in made.get("baseColorFactor", (1.0, 1.0, 1.0, 1.0)))
     return replace(
-        material, base_color=color, metallic=made["metallicFactor"], roughness=made["roughnessFactor"], textures=rest
+        material,
+        base_color=color,
+        metallic=float(made["metallicFactor"]),
+        roughness=float(made["roughnessFactor"]),
+        textures=rest,
     )

@@ -83,12 +83,12 @@ def read_materials(tree: dict[str, Any], buffers: Buffers, folder: Folder) -> li
     if left:
         named = ", ".join(f"{name} of {count}" for name, count in sorted(left.items()))
         folder.warn(f"what {named} of {len(materials)} materials adds to their look is left out")
-    primitives = [p for mesh in tree["meshes"] for p in mesh["primitives"]]
-    if any(key.startswith("COLOR_") and key != "COLOR_0" for p in primitives for key in p["attributes"]):
+    primitives = [p for mesh in tree["meshes"] for p in mesh.get("primitives", ())]
+    if any(key.startswith("COLOR_") and key != "COLOR_0" for p in primitives for key in p.get("attributes", ())):
         folder.warn("further vertex colours (COLOR_1) are left out; COLOR_0 counts")
     missing = sum(not 0 <= p.get("material", 0) < max(len(materials), "material" not in p) for p in primitives)
     if missing:
-        folder.warn(f"{missing} primitives refer to a material that the file does not hold, and have none")
+        folder.warn(f"{missing} of {len(primitives)} primitives refer to a material that the file does not hold, and have none")
     variants = tree.get("extensions", {}).get("KHR_materials_variants", {}).get("variants", [])
     if variants:
         named = ", ".join(repr(str(v.get("name", ""))) for v in variants[:9])
