@@ -1,6 +1,6 @@
 """Measure what each score that is set by hand (`anymesh.scoring.by_hand`) costs when it is removed.
 
-python -m benchmarks.by_hand DATASET [DATASET ...] [--seconds LIMIT]
+python -m benchmarks.by_hand DATASET [DATASET ...] [--change CHANGE] [--seconds LIMIT]
 
 Each object is solved end to end by geometry, without names and with the true names of its parts. Patches, candidates and swept
 motions do not depend on these scores, so they are computed once. After LIMIT no further object is begun. Prints a table.
@@ -20,6 +20,7 @@ from unittest.mock import patch
 from anymesh.articulation import estimate
 from anymesh.articulation.candidate_motions import CandidateMotions
 from anymesh.articulation.rank_motions import motion_scores
+from anymesh.evaluation.changes import changed
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.ground_truth import EvalSample, prepared
 from anymesh.evaluation.record import Record
@@ -101,6 +102,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="What each score that is set by hand is worth.")
     parser.add_argument("datasets", nargs="+", metavar="DATASET", help="as for `anymesh eval`")
     parser.add_argument("--seconds", type=float, default=float("inf"), help="after which no further object is begun")
+    parser.add_argument("--change", default="none", help="of the meshes, as for `anymesh eval`")
     options = parser.parse_args()
     end, rows = time.monotonic() + options.seconds, {"nothing": {}, **dict(removals())}
     records: dict[str, tuple[list[Record], list[Record]]] = {row: ([], []) for row in rows}
@@ -109,7 +111,7 @@ def main() -> None:
         if time.monotonic() > end:
             break
         with tempfile.TemporaryDirectory() as folder:
-            for row, plain, known in measured(prepared(data.truth(name, Path(folder))), rows):
+            for row, plain, known in measured(changed(options.change, prepared(data.truth(name, Path(folder)))), rows):
                 records[row][0].append(plain)
                 records[row][1].append(known)
     whole = [summarize(some) for some in records["nothing"]]
