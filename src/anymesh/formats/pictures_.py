@@ -44,6 +44,17 @@ def merged(base: Texture | None, **channels: Channel | None) -> Texture:
     return Texture(buffer.getvalue(), "image/png", "_".join(dict.fromkeys(t.name for t in only.values() if t.name)))
 
 
+def has_alpha(texture: Texture) -> bool:
+    """Return whether a picture is see-through anywhere."""
+    return bool((np.asarray(_opened(texture.data))[..., 3] < 255).any())
+
+
+def is_normal_map(texture: Texture) -> bool:
+    """Return whether a picture shows directions rather than heights: mostly light blue."""
+    red, green, blue = np.asarray(_opened(texture.data).resize((64, 64)))[..., :3].reshape(-1, 3).mean(0)
+    return bool(blue > 180 and abs(red - 128) < 40 and abs(green - 128) < 40)
+
+
 def _opened(data: bytes) -> Image.Image:
     with quiet_decoder():
         return Image.open(io.BytesIO(data)).convert("RGBA")

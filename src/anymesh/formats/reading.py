@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import atexit
+import gc
 import tempfile
 from functools import cache
 from importlib import import_module
@@ -13,13 +14,14 @@ from anymesh.errors import InputError, MissingExtraError
 from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
 from anymesh.loading.files import FileMesh, Folder
 
-LIMITS = ChildLimits(seconds=600.0, memory=16 << 30)
+LIMITS = ChildLimits(seconds=600.0, memory=16 << 30, calls=64)
 USD = ("anymesh.formats.usd_", "read_usd", "pxr", "usd")
 READERS = {  # module, function, the library that it needs, the extra that brings it
     ".usd": USD,
     ".usda": USD,
     ".usdc": USD,
     ".usdz": USD,
+    ".fbx": ("anymesh.formats.fbx_", "read_fbx", "ufbx", "fbx"),
 }
 
 
@@ -56,7 +58,11 @@ def read_isolated(data: bytes, folder: Folder) -> FileMesh:
 
 
 def read_here(module: str, function: str, folder: Folder, work: Path) -> tuple[FileMesh, Folder]:
-    """Read in this process, and return the folder with its warnings too."""
+    """Read in this process, and return the folder with its warnings too.
+
+    The process ends without collecting its garbage, since objects of ufbx are freed wrongly then.
+    """
+    gc.disable()
     return getattr(import_module(module), function)(folder, work), folder
 
 
