@@ -20,7 +20,7 @@ from pathlib import Path
 import anymesh
 from anymesh.checking.engines import ENGINES, sweep_in
 from anymesh.checking.engines.driving import SweepReport
-from anymesh.checking.engines.robot import find_description
+from anymesh.checking.engines.locate import find_description
 from anymesh.errors import AnymeshError, InputError, MissingExtraError
 
 ROOT = Path(__file__).parents[1]

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 from scipy.spatial import ConvexHull, QhullError
 
-from anymesh.checking.content import Content, joined, rigid_groups
+from anymesh.checking.content import Content, joined, rigid_groups, siblings
 from anymesh.checking.engines.robot import Inertial, RobotLink
 from anymesh.checking.report import Finding, failure, warning
 from anymesh.geometry.distance_ import distance_to_triangles, winding_number
@@ -34,14 +34,21 @@ def check_inertia(content: Content) -> Iterator[Finding]:
     """Check that masses are positive, tensors are possible, centres of mass are in the link, and magnitudes fit the shape."""
     given = [(b, b.inertial) for b in content.robot.links if b.inertial is not None]
     moved = {link for j in content.robot.moving for link in content.robot.carried(j.child)}
-    for link in content.robot.links:
-        shaped = bool(link.visuals or link.collisions)
-        if link.inertial is None and shaped and link.name in moved:
-            yield failure(INERTIA, link.name, "it moves and has no inertia; engines reject it or use their own")
-        elif link.inertial is None and shaped and content.robot.format == "URDF":  # in an MJCF it belongs to the world
-            yield warning(INERTIA, link.name, "it has no inertia; engines that let the base move need one")
     groups = rigid_groups(content.robot)
     masses = {link.name: i.mass for link, i in given}
+    solid = {link.name for link in content.robot.links if link.collisions}
+    for link in content.robot.links:
+        shaped = bool(link.visuals or link.collisions)
+        if link.inertial is not None or not shaped:
+            continue
+        if any(masses.get(name, 0) > 0 for name in groups[link.name]) or link.name not in moved:
+            if content.robot.format == "URDF":  # in an MJCF it belongs to the world
+                yield warning(INERTIA, link.name, "it has no inertia; engines that take links by themselves need one")
+        elif groups[link.name] & solid:
+            problem = "it moves and has no inertia; MuJoCo and PyBullet make one up, others reject it or leave the link out"
+            yield warning(INERTIA, link.name, problem)
+        else:
+            yield failure(INERTIA, link.name, "it moves and has no inertia and no collision shape; engines reject it")
     for link, inertial in given:
         if inertial.mass == 0 and (link.name not in moved or sum(masses.get(n, 0) for n in groups[link.name]) > 0):
             yield warning(INERTIA, link.name, "its mass is 0 kg; engines that take links by themselves need one above 0")
@@ -118,7 +125,9 @@ def check_collision(content: Content, contacts: Mapping[tuple[str, str], float] 
     for joint in robot.moving:
         body = groups[joint.child]
         if any(content.visuals[name] for name in body) and not any(content.collisions[name] for name in body):
-            yield failure(COLLISION, joint.child, "it moves and has no collision shape; nothing can touch it")
+            problem = "it moves and has no collision shape; nothing can touch it"
+            told = warning if robot.format == "MJCF" or not any(content.collisions.values()) else failure
+            yield told(COLLISION, joint.child, problem)
     for link in robot.links:
         yield from _cavity(content, link.name)
     adjacent = joined(robot)
@@ -129,6 +138,8 @@ def check_collision(content: Content, contacts: Mapping[tuple[str, str], float] 
         problem = f"at rest it penetrates {a!r} by {depth:.3g} m (convex collision shapes)"
         if pair in adjacent or len(pair & set(groups)) < 2:
             yield warning(COLLISION, b, f"{problem}; engines that test contacts between joined links push them apart")
+        elif not siblings(robot, a, b):
+            yield warning(COLLISION, b, f"{problem}; where several joints place links, another posture may be free of it")
         else:
             yield failure(
                 COLLISION, b, f"{problem}; they are pushed apart, at most {OVERLAP * content.diagonal:.2g} m is valid"

@@ -9,9 +9,10 @@ from anymesh.checking.bodies import check_collision, check_inertia
 from anymesh.checking.content import Content, read_content
 from anymesh.checking.engines import check_engine
 from anymesh.checking.engines.driving import SweepReport
+from anymesh.checking.engines.locate import MJCF, find_description, kind_of
 from anymesh.checking.engines.mjcf_ import read_mjcf
 from anymesh.checking.engines.mujoco_ import rest_contacts
-from anymesh.checking.engines.robot import MJCF, Robot, find_description, kind_of, read_urdf
+from anymesh.checking.engines.robot import Robot, read_urdf
 from anymesh.checking.joints import check_direction, check_joints, check_motion
 from anymesh.checking.report import CheckReport, Finding, Severity, failure
 from anymesh.checking.schema_ import NAME, SCHEMA, check_asset_json, check_files, check_naming, check_tree

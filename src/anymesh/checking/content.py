@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.checking.engines.robot import Geometry, Robot, find_file, shape_triangles
+from anymesh.checking.engines.locate import find_file
+from anymesh.checking.engines.robot import Geometry, Robot, shape_triangles
 from anymesh.errors import InputError
-from anymesh.loading.files import Folder, check_file
-from anymesh.loading.load import READERS
+from anymesh.loading.load import read_in_metres
 from anymesh.types import Mesh
 
 
@@ -91,8 +91,8 @@ def read_content(robot: Robot) -> Content:
         content = known[shape.file]
         if content is None:
             return None
-        T = shape.T_link_shape @ np.diag([*shape.scale, 1.0])
-        return Solid(shape.file, content[0].triangles @ T[:3, :3].T + T[:3, 3], content[0], content[1])
+        mesh = content[0].transformed(shape.T_link_shape @ np.diag([*shape.scale, 1.0]))  # turns faces of a mirrored mesh
+        return Solid(shape.file, mesh.triangles, mesh, content[1])
 
     def solids(link: str, shapes: tuple[Geometry, ...]) -> tuple[Solid, ...]:
         return tuple(s for shape in shapes if (s := solid(link, shape)) is not None)
@@ -103,16 +103,8 @@ def read_content(robot: Robot) -> Content:
 
 
 def _read(path: Path, folder: Path) -> tuple[Mesh, tuple[str, ...]]:
-    data = check_file(path)
     inside = path.parent.resolve().is_relative_to(folder.resolve())
-    files = Folder(path, folder if inside else path.parent.parent)
-    try:
-        mesh = READERS[path.suffix.lower()](data, files)
-    except InputError:
-        raise
-    except Exception as error:  # readers raise many types of errors for a broken file
-        raise InputError(f"{path.name} is broken or truncated ({type(error).__name__}: {error})") from None
-    return mesh, tuple(files.warnings)
+    return read_in_metres(path, folder if inside else path.parent.parent)
 
 
 def rigid_groups(robot: Robot) -> dict[str, frozenset[str]]:
@@ -127,9 +119,24 @@ def rigid_groups(robot: Robot) -> dict[str, frozenset[str]]:
 
 
 def joined(robot: Robot) -> frozenset[frozenset[str]]:
-    """Return the pairs of links that are in the same rigid group, or whose groups are connected by a joint."""
+    """Return the pairs of links that are in the same rigid group, or whose groups are connected by a joint.
+
+    Links without shapes between two joints, as joints with several axes are written, do not separate groups.
+    """
     group = rigid_groups(robot)
+    shaped = {link.name for link in robot.links if link.visuals or link.collisions}
+    above = {name: j for j in robot.joints if j.type != "fixed" for name in group[j.child]}
     pairs = {frozenset((a, b)) for names in group.values() for a in names for b in names}
     for joint in robot.joints:
-        pairs |= {frozenset((a, b)) for a in group[joint.parent] for b in group[joint.child]}
+        parent, seen = joint.parent, 0
+        while not group[parent] & shaped and parent in above and seen < len(robot.joints):
+            parent, seen = above[parent].parent, seen + 1
+        pairs |= {frozenset((a, b)) for a in group[parent] for b in group[joint.child]}
     return frozenset(pairs)
+
+
+def siblings(robot: Robot, a: str, b: str) -> bool:
+    """Return whether one joint each places two links relative to a common one, and no other joint does."""
+    group = rigid_groups(robot)
+    above = {name: j.parent for j in robot.joints if j.type != "fixed" for name in group[j.child]}
+    return a in above and b in above and group[above[a]] == group[above[b]]

@@ -44,7 +44,7 @@ def check_joints(robot: Robot, diagonal: float) -> Iterator[Finding]:
             yield failure(JOINTS, joint.name, f"its type is {joint.type!r}; valid are {', '.join(TYPES)}")
         elif joint.moves:
             yield from _axis(joint)
-            yield from _limits(joint, diagonal)
+            yield from _limits(joint, diagonal, accepted=robot.format == "MJCF" or joint.name in robot.followers)
             if robot.format == "URDF":  # in an MJCF they belong to motors, not to joints
                 yield from _strength(joint)
         elif joint.type != "fixed":
@@ -65,11 +65,13 @@ def _vector(joint: RobotJoint) -> str:
     return "(" + ", ".join(f"{v:.4g}" for v in joint.axis) + ")"
 
 
-def _limits(joint: RobotJoint, diagonal: float) -> Iterator[Finding]:
+def _limits(joint: RobotJoint, diagonal: float, *, accepted: bool) -> Iterator[Finding]:
+    """Check limits. accepted: whether engines accept a joint without them."""
     if joint.type == "continuous":
         return
     if joint.limits is None:
-        yield failure(JOINTS, joint.name, f"it has no limits; a {joint.type} joint needs lower and upper")
+        told = warning if accepted else failure
+        yield told(JOINTS, joint.name, f"it has no limits; a {joint.type} joint needs lower and upper")
         return
     lower, upper = joint.limits
     shown = f"its limits are {lower:.4g} to {upper:.4g}"
@@ -125,7 +127,8 @@ def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: Triangle
         other = free_amount(obstacles, motion, -sign, most, STEPS)[0]
         way = "positive" if sign > 0 else "negative"
         problem = f"{way} motion drives {joint.child!r} into {joint.parent!r} after {free:.3g} of {most:.3g} {unit}"
-        if other >= FREER * free and other >= STOPPED * most:
+        covered = -joint.range[0] if sign > 0 else joint.range[1]  # what the joint may move the other way already
+        if other >= FREER * free and other >= STOPPED * most > covered:
             free_for = f"the opposite direction is free for {other:.3g} {unit}"
             yield failure(DIRECTION, joint.name, f"{problem}; {free_for}, so the axis is reversed")
         else:
@@ -143,9 +146,14 @@ def check_motion(path: Path, engine: str) -> tuple[list[Finding], SweepReport | 
         return [warning(MOTION, engine, str(error))], None
     except InputError as error:
         return [failure(MOTION, engine, str(error))], None
-    findings = [failure(MOTION, j.name, f"{report.engine}: {fault}") for j in report.joints for fault in j.faults]
+    findings = [
+        failure(MOTION, j.name, f"{report.engine}: {fault}") for j in report.joints if not j.posture for fault in j.faults
+    ]
+    for j in (j for j in report.joints if j.posture):
+        findings.append(warning(MOTION, j.name, f"{report.engine}: {j.faults[0]} with the other joints at rest"))
     if report.ok:
-        opened = [f"{j.name} after {' and '.join(j.opened)} opened" for j in report.joints if j.opened]
-        note = f" ({'; '.join(opened)})" if opened else ""
+        opened = [f"{j.name} after {' and '.join(j.opened)} moved" for j in report.joints if j.opened]
+        left = [f"{name} is not driven: {why}" for name, why in report.undriven]
+        note = f" ({'; '.join((*opened, *left))})" if opened or left else ""
         findings.append(Finding(MOTION, Severity.OK, report.engine, f"{len(report.joints)} joints reach both limits{note}"))
     return findings, report

@@ -13,7 +13,8 @@ from typing import Any
 from xml.etree import ElementTree
 
 from anymesh.checking.content import Content
-from anymesh.checking.engines.robot import PACKAGE, Robot
+from anymesh.checking.engines.locate import PACKAGES
+from anymesh.checking.engines.robot import Robot
 from anymesh.checking.report import Finding, failure, warning
 from anymesh.names import legal_name
 
@@ -64,7 +65,7 @@ def check_files(content: Content) -> Iterator[Finding]:
                 yield warning(SCHEMA, link.name, f"the mesh path {file} is absolute; a relative path works everywhere")
             elif "\\" in file:
                 yield warning(SCHEMA, link.name, f"the mesh path {file} has backslashes; forward slashes work everywhere")
-            elif "://" in file and not file.startswith(PACKAGE):
+            elif "://" in file and not PACKAGES.match(file):
                 yield warning(SCHEMA, link.name, f"the mesh path {file} is a URL; engines read relative paths and package://")
 
 

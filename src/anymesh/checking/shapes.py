@@ -11,7 +11,7 @@ import numpy as np
 from PIL import Image
 
 from anymesh.checking.content import Content, Solid
-from anymesh.checking.engines.robot import find_file
+from anymesh.checking.engines.locate import find_file
 from anymesh.checking.report import Finding, failure, warning
 from anymesh.geometry.topology import components
 from anymesh.types.triangles import normals_and_areas

@@ -107,12 +107,11 @@ class DaeSurface:
             if array is None:
                 array = next((a for a in source if a.tag in ("float_array", "int_array")), ET.Element("none"))
             names = [p.get("name") for p in (() if accessor is None else accessor)]
-            used = [k for k, name in enumerate(names) if name] or list(range(max(len(names), 1)))
             stride, first = whole(accessor, "stride", max(len(names), 1)), whole(accessor, "offset")
             count = whole(accessor, "count", 2**40)
             data = floats(array.text or "")[max(first, 0) :]
-            if accessor is None or stride < 1:
-                stride, used = 3, [0, 1, 2]
+            stride = 3 if accessor is None else min(max(stride, 1), MAX_OFFSET)
+            used = [k for k, name in enumerate(names) if name] or list(range(stride))
             rows = data[: len(data) // stride * stride].reshape(-1, stride)[: max(count, 0)]
             self._sources[id(source)] = rows[:, [k for k in used if k < stride]]
         return self._sources[id(source)]

@@ -113,6 +113,23 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: st
     return LoadedMesh(mesh, str(path), sha256, framed.up, framed.unit, notes, folder.digest())
 
 
+def read_in_metres(path: Path, root: Path | None) -> tuple[Mesh, tuple[str, ...]]:
+    """Return the mesh as engines and viewers of robots read it, and the reader's warnings.
+
+    The unit of COLLADA is applied, but its up axis is not (see docs/check.md); other formats are read without conversion.
+    root: as of `load_mesh`. Raise InputError.
+    """
+    data, folder, suffix = check_file(path), Folder(path, root), path.suffix.lower()
+    try:
+        mesh, (_, metres) = READERS[suffix](data, folder), _frame(suffix, data)
+    except InputError:
+        raise
+    except Exception as error:  # readers raise many types of errors for broken files
+        cause = " ".join(f"{type(error).__name__}: {error}".split())[:150]
+        raise InputError(f"{path.name} is broken or truncated ({cause})") from None
+    return (mesh if metres in (None, 1.0) else mesh.transformed(np.diag([metres] * 3 + [1.0]))), tuple(folder.warnings)
+
+
 def _with_usable_uv(mesh: Mesh, folder: Folder) -> Mesh:
     """Return the mesh with texture coordinates that are not finite, or too large to mean a place, replaced by 0."""
     for name, uv in (("corner_uv", mesh.corner_uv), ("corner_more_uv", mesh.corner_more_uv)):

@@ -12,9 +12,10 @@ from drawn import chest
 
 from anymesh.checking.engines import ENGINES, sweep_in
 from anymesh.checking.engines.driving import STEP, drive, from_record, motors_of, readable
+from anymesh.checking.engines.locate import find_file
 from anymesh.checking.engines.mjcf_ import read_mjcf
 from anymesh.checking.engines.mujoco_ import rest_contacts, sweep_joints
-from anymesh.checking.engines.robot import Geometry, find_file, read_urdf, shape_triangles
+from anymesh.checking.engines.robot import Geometry, read_urdf, shape_triangles
 from anymesh.errors import InputError, MissingExtraError, OptionError
 from anymesh.export import write_asset
 from anymesh.geometry.topology import components

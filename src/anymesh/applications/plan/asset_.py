@@ -11,8 +11,8 @@ from jaxtyping import Float
 
 from anymesh.applications.plan.plans import PlanError
 from anymesh.applications.plan.robot_ import bodies_below, single_joints
+from anymesh.checking.engines.locate import find_description
 from anymesh.checking.engines.mujoco_ import read_spec
-from anymesh.checking.engines.robot import find_description
 from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco
 from anymesh.types import JointType, Motion

@@ -16,7 +16,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.applications.plan.robot_packages_ import RobotFiles
-from anymesh.checking.engines.robot import find_file
+from anymesh.checking.engines.locate import find_file
 from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco, name_elements
 

@@ -16,8 +16,8 @@ from anymesh.applications.plan.film_ import tiled
 from anymesh.applications.policy.controller_ import TRIES, Attempt, move_joint
 from anymesh.applications.policy.objects_ import find_assets, moving_joints, object_at_rest
 from anymesh.applications.policy.simulation_ import ScenePicture
+from anymesh.checking.engines.locate import find_description
 from anymesh.checking.engines.mujoco_ import sweep_joints
-from anymesh.checking.engines.robot import find_description
 from anymesh.errors import AnymeshError, OptionError
 from anymesh.evaluation.record import OBJECTS, ResultsFolder
 from anymesh.names import legal_name, legal_names, listed

@@ -12,8 +12,8 @@ from jaxtyping import Float
 from anymesh.applications.plan.asset_ import ArticulatedObject, description, open_object
 from anymesh.applications.plan.robot_ import single_joints
 from anymesh.applications.policy.tasks import AJAR, MAX_OPENING, MAX_TURN, JointGoal, PolicyTask, joint_goal
+from anymesh.checking.engines.locate import kind_of
 from anymesh.checking.engines.mujoco_ import read_spec
-from anymesh.checking.engines.robot import kind_of
 from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco
 from anymesh.types import JointType, Motion

@@ -48,20 +48,25 @@ class JointSweep:
     drift: float
     off: float
     faults: tuple[str, ...]
-    opened: tuple[str, ...] = ()  # joints that were opened first, because their links were in the way
+    opened: tuple[str, ...] = ()  # joints that were moved first, because their links were in the way
+    posture: bool = False  # whether its faults depend on the positions of further joints, as of the arms of a robot
 
     @property
     def ok(self) -> bool:
-        return not self.faults
+        return self.posture or not self.faults
 
 
 @dataclass(frozen=True)
 class SweepReport:
-    """All joints of an asset in one engine. excluded: pairs of links whose contact was not tested, and why."""
+    """All joints of an asset in one engine. excluded: pairs of links whose contact was not tested, and why.
+
+    undriven: joints that were not driven themselves, and why.
+    """
 
     engine: str
     joints: tuple[JointSweep, ...]
     excluded: tuple[tuple[str, str, str], ...]
+    undriven: tuple[tuple[str, str], ...] = ()
 
     @property
     def ok(self) -> bool:
@@ -72,7 +77,8 @@ def from_record(record: Mapping[str, Any]) -> SweepReport:
     """Restore the report from plain values, as `dataclasses.asdict` makes them."""
     lists: list[dict[str, Any]] = [dict(j, faults=tuple(j["faults"]), opened=tuple(j["opened"])) for j in record["joints"]]
     joints = tuple(JointSweep(**values) for values in lists)
-    return SweepReport(record["engine"], joints, tuple((a, b, why) for a, b, why in record["excluded"]))
+    excluded, undriven = ((tuple(entry) for entry in record[key]) for key in ("excluded", "undriven"))
+    return SweepReport(record["engine"], joints, tuple(excluded), tuple(undriven))
 
 
 @dataclass(frozen=True)
@@ -186,15 +192,15 @@ def drive(world: EngineWorld, robot: Robot) -> SweepReport:
     A joint that fails is tried again with others opened (such as a drawer behind a door), which the report states. A joint that
     the engine does not know is a fault, and so are limits that differ from the file.
     """
-    motors, extent = motors_of(robot), _extent(robot)
+    motors, extent, followers = motors_of(robot), _extent(robot), robot.followers
     sweeps = []
-    for joint in robot.moving:
+    for joint in (j for j in robot.moving if j.name not in followers):
         if joint.name in world.limits:
             sweeps.append(_cleared(world, robot, joint, motors, extent))
         else:
             missing = ("the engine does not know this joint",)
             sweeps.append(JointSweep(joint.name, joint.type, *joint.range, 0.0, 0.0, None, "", 0.0, 0.0, missing))
-    return SweepReport(world.engine, tuple(sweeps), ())
+    return SweepReport(world.engine, tuple(sweeps), (), tuple((name, f"follows {m.leader}") for name, m in followers.items()))
 
 
 def _extent(robot: Robot) -> float:
@@ -208,8 +214,8 @@ def _extent(robot: Robot) -> float:
 def _cleared(world: EngineWorld, robot: Robot, joint: RobotJoint, motors: Mapping[str, Motor], extent: float) -> JointSweep:
     """Sweep a joint at rest; if that fails, with one other joint opened that may be in the way, or with all of those."""
     sweep = _swept(world, robot, joint, motors, extent, ())
-    related = robot.carried(joint.child)
-    others = [j for j in robot.moving if j.name in world.limits and j.child not in related]
+    related, followers = robot.carried(joint.child), robot.followers
+    others = [j for j in robot.moving if j.name in world.limits and j.child not in related and j.name not in followers]
     free = [j.name for j in others if joint.child not in robot.carried(j.child)]
     tries = [(name,) for name in free] + ([tuple(free)] if len(free) > 1 else [])
     for opened in tries if sweep.faults else ():
@@ -227,19 +233,25 @@ def _swept(
     reached, drift, off = {}, 0.0, 0.0
     names, ranges = list(world.limits), {j.name: j.range for j in robot.moving}
     index = names.index(joint.name)
-    others = np.arange(len(names)) != index
-    targets = np.zeros(len(names))
+    followers = robot.followers
+    others = np.array([name != joint.name and name not in followers for name in names])
     open_at = np.array([ranges[name][1] if name in opened else 0.0 for name in names])
+
+    def coupled(targets: np.ndarray) -> np.ndarray:
+        led = dict(zip(names, targets.tolist(), strict=True))
+        led = robot.coupled({name: at for name, at in led.items() if name not in followers})
+        return np.array([led[name] for name in names])
+
     world.reset()
     for share in _smooth(max(motors[name].seconds for name in opened)) if opened else ():
-        targets = share * open_at
-        world.step(targets)
+        world.step(coupled(share * open_at))
+    targets = open_at.copy()
     smooth = _smooth(motors[joint.name].seconds)
     start = 0.0
     for goal in (upper, lower):
         for command in (*(start + (goal - start) * smooth), *[goal] * HOLD_STEPS):
             targets[index] = command
-            world.step(targets)
+            world.step(coupled(targets))
         now = world.positions()
         drift = max(drift, float(np.abs((now - open_at)[others]).max(initial=0.0)))
         off = max(off, _off(world, robot, joint, now))

@@ -6,15 +6,58 @@ shapes between them. Positions are relative to the rest pose of the file (its `r
 
 from __future__ import annotations
 
+from collections.abc import Generator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.checking.engines.mujoco_ import load_errors, read_spec
-from anymesh.checking.engines.robot import Geometry, Inertial, Robot, RobotJoint, RobotLink, shape_triangles
+from anymesh.checking.engines.locate import find_file
+from anymesh.checking.engines.robot import Geometry, Inertial, Mimic, Robot, RobotJoint, RobotLink, shape_triangles
+from anymesh.errors import InputError
+from anymesh.loading.load import read_in_metres
 from anymesh.mujoco_ import load_mujoco, name_elements
+
+READ = (".obj", ".stl", ".msh")  # mesh formats that MuJoCo reads
+
+
+@contextmanager
+def load_errors(mujoco: Any, path: Path) -> Generator[None]:
+    """Turn MuJoCo's errors about a file into InputError."""
+    try:
+        yield
+    except (ValueError, mujoco.FatalError, InputError) as error:
+        raise InputError(f"MuJoCo cannot load {path}: {' '.join(str(error).split())}") from error
+
+
+def read_spec(mujoco: Any, path: Path) -> Any:
+    """Read the file as an editable model, with package:// resolved, and meshes of other formats inserted as data.
+
+    Raise ValueError or InputError if it cannot be read.
+    """
+    spec = mujoco.MjSpec.from_file(str(path))
+    folder = path.parent / spec.meshdir
+    for mesh in spec.meshes:
+        if not mesh.file or (Path(mesh.file).suffix.lower() in READ and "://" not in mesh.file):
+            continue
+        mesh_path = find_file(mesh.file, folder)
+        if mesh_path is None:
+            raise InputError(f"the mesh {mesh.file} is not there")
+        if mesh_path.suffix.lower() in READ:
+            mesh.file = str(mesh_path.resolve())
+        else:
+            content = read_in_metres(mesh_path, None)[0]
+            mesh.file, mesh.uservert, mesh.userface = "", content.vertices.reshape(-1), content.faces.reshape(-1)
+    return spec
+
+
+def without_ground(spec: Any, mujoco: Any) -> None:
+    """Let planes and height fields of the world touch nothing: they are no part of an asset."""
+    for geom in spec.worldbody.geoms:
+        if geom.type in (mujoco.mjtGeom.mjGEOM_PLANE, mujoco.mjtGeom.mjGEOM_HFIELD):
+            geom.contype = geom.conaffinity = 0
 
 
 def read_mjcf(path: Path) -> Robot:
@@ -43,6 +86,7 @@ class _Reader:
             int(mujoco.mjtJoint.mjJNT_BALL): "ball",
             int(mujoco.mjtJoint.mjJNT_FREE): "floating",
         }
+        self.flat = (int(mujoco.mjtGeom.mjGEOM_PLANE), int(mujoco.mjtGeom.mjGEOM_HFIELD))  # the ground
         self.frames = {b: self._frame(b) for b in range(model.nbody)}
 
     def robot(self, path: Path, name: str, pictures: tuple[str, ...]) -> Robot:
@@ -65,7 +109,8 @@ class _Reader:
         """Return whether the world is a link: it has shapes, several bodies, or a body with joints to it."""
         tops = [b for b in range(1, self.model.nbody) if self.model.body_parentid[b] == 0]
         held = [self._kind(j) for b in tops for j in self._of(b)]
-        return len(tops) != 1 or bool(self.model.body_geomnum[0]) or any(kind != "floating" for kind in held)
+        solid = any(int(t) not in self.flat for t in self.model.geom_type[: int(self.model.body_geomnum[0])])
+        return len(tops) != 1 or solid or any(kind != "floating" for kind in held)
 
     def _name(self, body: int) -> str:
         return self.model.body(body).name
@@ -101,9 +146,19 @@ class _Reader:
             elif kind == "revolute":
                 kind = "continuous"
             axis = T[:3, :3].T @ self.data.xaxis[joint]
-            joints.append(RobotJoint(label, kind, before, child, np.linalg.inv(at) @ T, axis, limits))
+            mimic = self._mimic(joint)
+            joints.append(RobotJoint(label, kind, before, child, np.linalg.inv(at) @ T, axis, limits, mimic=mimic))
             at, before = T, child
         return joints
+
+    def _mimic(self, joint: int) -> Mimic | None:
+        """Return how an equality lets a joint follow another one; None if none does, or not linearly."""
+        for e in range(self.model.neq):
+            kind, values = self.model.eq_type[e], self.model.eq_data[e]
+            couples = kind == self.mujoco.mjtEq.mjEQ_JOINT and self.model.eq_obj2id[e] >= 0 and self.model.eq_active0[e]
+            if couples and self.model.eq_obj1id[e] == joint and not values[2:5].any():
+                return Mimic(self.model.joint(int(self.model.eq_obj2id[e])).name, float(values[1]), float(values[0]))
+        return None
 
     def _inertial(self, body: int) -> Inertial | None:
         mass = float(self.model.body_mass[body])

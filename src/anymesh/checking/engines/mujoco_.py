@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Generator
-from contextlib import contextmanager
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -20,48 +19,18 @@ from anymesh.checking.engines.driving import (
     motor_faults,
     place_faults,
 )
-from anymesh.checking.engines.robot import find_file
-from anymesh.errors import InputError
-from anymesh.loading import load_mesh
+from anymesh.checking.engines.mjcf_ import load_errors, read_spec, without_ground
 from anymesh.mujoco_ import is_unstable, load_mujoco, name_elements
 
 TOUCH = 1e-4  # share of the asset's extent: bodies with deeper penetration at rest overlap
 MOTOR_FREQUENCY_1S = 30.0  # [rad/s] natural frequency of a motor whose motion takes 1 s; lower for a longer one
 MAX_MOTOR_FREQUENCY = 100.0  # [rad/s], for light links with much friction; rotor inertia is added to keep it
 MAX_MOTION_SECONDS = 20.0  # [s] maximum duration of a motion; heavy links with little effort are slow
-READ = (".obj", ".stl", ".msh")  # mesh formats that MuJoCo reads
 LEGS = (1.0, 1.0, -1.0, -1.0)  # sequence of motor targets: +1 upper limit, -1 lower; a repeated one holds the position
+TRIES = 5  # positions of another joint that may be in the way
+ARM_JOINTS = 2  # other joints between two links: more are the posture of an arm, which its user chooses
+Coupling = tuple[str, str, np.ndarray]  # a joint, its leader ("" for none), and coefficients of a polynomial
 LIGHT = 1e-9  # [kg, kg m2] for links without inertia in the file, where only the rest pose is used
-
-
-@contextmanager
-def load_errors(mujoco: Any, path: Path) -> Generator[None]:
-    """Turn MuJoCo's errors about a file into InputError."""
-    try:
-        yield
-    except (ValueError, mujoco.FatalError, InputError) as error:
-        raise InputError(f"MuJoCo cannot load {path}: {' '.join(str(error).split())}") from error
-
-
-def read_spec(mujoco: Any, path: Path) -> Any:
-    """Read the file as an editable model, with package:// resolved, and meshes of other formats inserted as data.
-
-    Raise ValueError or InputError if it cannot be read.
-    """
-    spec = mujoco.MjSpec.from_file(str(path))
-    folder = path.parent / spec.meshdir
-    for mesh in spec.meshes:
-        if not mesh.file or (Path(mesh.file).suffix.lower() in READ and "://" not in mesh.file):
-            continue
-        mesh_path = find_file(mesh.file, folder)
-        if mesh_path is None:
-            raise InputError(f"the mesh {mesh.file} is not there")
-        if mesh_path.suffix.lower() in READ:
-            mesh.file = str(mesh_path.resolve())
-        else:
-            content = load_mesh(mesh_path).mesh
-            mesh.file, mesh.uservert, mesh.userface = "", content.vertices.reshape(-1), content.faces.reshape(-1)
-    return spec
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,9 +44,8 @@ class MujocoBench:
     ranges: np.ndarray  # (all joints, 2) [rad or m]
     seconds: np.ndarray  # (all joints,) duration of a motion from limit to limit
     rest_depth: dict[tuple[int, int], float]  # pair of bodies -> penetration at rest [m]
-    anchors: np.ndarray  # (all joints, 3) at rest
-    axes: np.ndarray  # (all joints, 3) at rest
-    places: np.ndarray  # (geoms, 3) at rest
+    followers: Mapping[int, tuple[int, np.ndarray]]  # joint -> the one that it follows, and coefficients of the polynomial
+    undriven: Mapping[int, str]  # joints that are not driven themselves -> why
 
     @property
     def extent(self) -> float:
@@ -86,11 +54,24 @@ class MujocoBench:
     def body(self, index: int) -> str:
         return self.model.body(index).name
 
+    def posture(self, moved: Mapping[int, float]) -> np.ndarray:
+        """Return qpos with some joints moved, and with those that follow, within their limits."""
+        q = np.array(self.model.qpos0)
+        address = self.model.jnt_qposadr
+        for joint, position in moved.items():
+            q[address[joint]] = position
+        for _ in range(len(self.followers)):  # leaders may follow others
+            for joint, (leader, coefficients) in self.followers.items():
+                x = 0.0 if leader < 0 else q[address[leader]] - self.model.qpos0[address[leader]]
+                wanted = self.model.qpos0[address[joint]] + np.polynomial.polynomial.polyval(x, coefficients)
+                q[address[joint]] = np.clip(wanted, *self.ranges[joint])
+        return q
+
 
 def make_bench(mujoco: Any, path: Path) -> tuple[MujocoBench, tuple[tuple[str, str, str], ...]]:
     """Create the bench, and the pairs of links that are not tested against each other, with the reason."""
     spec = read_spec(mujoco, path)
-    _strip(spec, mujoco)
+    couplings, loops = _strip(spec, mujoco)
     spec.compiler.fusestatic = False  # links keep their names and their neighbours
     spec.option.gravity = (0, 0, 0)
     spec.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
@@ -106,15 +87,16 @@ def make_bench(mujoco: Any, path: Path) -> tuple[MujocoBench, tuple[tuple[str, s
         excluded.append((model.body(a).name, model.body(b).name, "overlap at rest"))
         spec.add_exclude(bodyname1=excluded[-1][0], bodyname2=excluded[-1][1])
     limited = model.jnt_limited.astype(bool)[:, None]
-    ranges = np.where(limited, model.jnt_range, (-np.pi, np.pi)).reshape(-1, 2)
+    unlimited = np.where(model.jnt_type == mujoco.mjtJoint.mjJNT_SLIDE, model.stat.extent, np.pi)[:, None] * (-1.0, 1.0)
+    ranges = np.where(limited, model.jnt_range, unlimited).reshape(-1, 2)
     single = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
     joints = tuple(k for k in range(model.njnt) if int(model.jnt_type[k]) in single)
+    followers, undriven = _coupled(model, joints, couplings, loops)
     seconds = _add_motors(mujoco, spec, model, ranges, joints)
     model = spec.compile()
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    rest = (depths(model, data), data.xanchor.copy(), data.xaxis.copy(), data.geom_xpos.copy())
-    return MujocoBench(mujoco, model, data, joints, ranges, seconds, *rest), tuple(excluded)
+    return MujocoBench(mujoco, model, data, joints, ranges, seconds, depths(model, data), followers, undriven), tuple(excluded)
 
 
 def _joined(model: Any) -> list[tuple[int, int]]:
@@ -126,15 +108,56 @@ def _joined(model: Any) -> list[tuple[int, int]]:
     return direct + [pair for pair in fixed if pair not in direct]
 
 
-def _strip(spec: Any, mujoco: Any) -> None:
-    """Remove actuators, sensors, keyframes and free joints, and name unnamed elements."""
-    for things in (spec.keys, spec.sensors, spec.actuators):
+def _strip(spec: Any, mujoco: Any) -> tuple[list[Coupling], list[tuple[str, str]]]:
+    """Remove actuators, sensors, keyframes, tendons, free and ball joints, equalities, the ground; name unnamed elements.
+
+    Return the joints that equalities couple, and the pairs of bodies that they hold together.
+    """
+    name_elements(spec)
+    kinds, objects = mujoco.mjtEq, mujoco.mjtObj
+    couplings, loops = [], []
+    mocap = {body.name for body in spec.bodies if body.mocap}
+    for e in spec.equalities:
+        if e.active and e.type == kinds.mjEQ_JOINT:
+            couplings.append((e.name1, e.name2, np.array(e.data[:5])))
+        elif e.active and e.type in (kinds.mjEQ_CONNECT, kinds.mjEQ_WELD):
+            sites = e.objtype == objects.mjOBJ_SITE
+            bodies = [spec.site(name).parent.name if sites else name or "world" for name in (e.name1, e.name2)]
+            loops += [] if mocap & set(bodies) else [(bodies[0], bodies[1])]
+    for things in (spec.keys, spec.sensors, spec.actuators, spec.equalities, spec.tendons):
         for thing in list(things):
             spec.delete(thing)
     for joint in list(spec.joints):
-        if joint.type == mujoco.mjtJoint.mjJNT_FREE:
+        if joint.type in (mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL):
             spec.delete(joint)
-    name_elements(spec)
+    without_ground(spec, mujoco)
+    return couplings, loops
+
+
+def _coupled(
+    model: Any, joints: tuple[int, ...], couplings: list[Coupling], loops: list[tuple[str, str]]
+) -> tuple[dict[int, tuple[int, np.ndarray]], dict[int, str]]:
+    followers: dict[int, tuple[int, np.ndarray]] = {}
+    undriven: dict[int, str] = {}
+    for name, leader_name, coefficients in couplings:
+        joint, leader = model.joint(name).id, model.joint(leader_name).id if leader_name else -1
+        if joint in joints and leader in (*joints, -1) and joint not in followers and joint != leader:
+            followers[joint] = leader, coefficients
+            undriven[joint] = f"follows {leader_name}" if leader_name else "held by the file"
+    for bodies in loops:
+        above = [_bodies_to_root(model, model.body(name).id) for name in bodies]
+        for body in set(above[0]) ^ set(above[1]):
+            first = int(model.body_jntadr[body])
+            loop = range(first, first + int(model.body_jntnum[body])) if first >= 0 else ()
+            undriven |= {k: f"part of a closed loop of {bodies[0]} and {bodies[1]}" for k in loop if k in joints}
+    return followers, undriven
+
+
+def _bodies_to_root(model: Any, body: int) -> list[int]:
+    bodies = [body]
+    while bodies[-1] > 0:
+        bodies.append(int(model.body_parentid[bodies[-1]]))
+    return bodies
 
 
 def _add_motors(mujoco: Any, spec: Any, model: Any, ranges: np.ndarray, joints: tuple[int, ...]) -> np.ndarray:
@@ -178,60 +201,81 @@ def sweep_joints(path: Path, *, steps: int = 100) -> SweepReport:
 
     There is no gravity; a free joint of an MJCF's root is removed. Links collide as the convex hulls of their collision meshes,
     so links that are connected by a joint, and links that overlap at rest, are not tested against each other; the report lists
-    them.
+    them. Joints that follow others move with these.
     Continuous joints make half a turn each way. A joint that is blocked by another link (such as a tray behind a door) is tried
-    again with that link's joint opened, which the report states.
+    again with the joints between the two links moved, which the report states.
     Raise InputError if MuJoCo cannot load the file, MissingExtraError without MuJoCo.
     """
     mujoco = load_mujoco()
     with load_errors(mujoco, path):
         bench, excluded = make_bench(mujoco, Path(path))
-    joints = tuple(_cleared_sweep(bench, index, steps) for index in bench.joints)
-    return SweepReport(f"mujoco {mujoco.__version__}", joints, excluded)
+    joints = tuple(_cleared_sweep(bench, index, steps) for index in bench.joints if index not in bench.undriven)
+    undriven = tuple((bench.model.joint(k).name, why) for k, why in bench.undriven.items())
+    return SweepReport(f"mujoco {mujoco.__version__}", joints, excluded, undriven)
 
 
 def _cleared_sweep(bench: MujocoBench, index: int, steps: int) -> JointSweep:
-    """Sweep a joint at rest, or if another joint's link is in the way, with that joint at its upper limit."""
-    model = bench.model
-    posture = np.array(model.qpos0)
-    opened: list[str] = []
-    sweep = _sweep(bench, index, steps, posture)
-    for _ in range(len(bench.joints) - 1):
-        blocking = [k for k in bench.joints if bench.body(int(model.jnt_bodyid[k])) == sweep.against and k != index]
-        free = [k for k in blocking if not _carried(model, int(model.jnt_bodyid[k]))[model.jnt_bodyid[index]]]
-        if not sweep.faults or not free or model.joint(free[0]).name in opened:
+    """Sweep a joint at rest, or if another link is in the way, with joints between the two links moved."""
+    moved: dict[int, float] = {}
+    first = sweep = _sweep(bench, index, steps, moved)
+    between = _between(bench, index, sweep.against) if sweep.faults else []
+    for _ in between:
+        own = [
+            k
+            for k in _between(bench, index, sweep.against)
+            if bench.body(int(bench.model.jnt_bodyid[k])) == sweep.against and k not in moved
+        ]
+        if not sweep.faults or not own:
             break
-        opened.append(model.joint(free[0]).name)
-        posture[model.jnt_qposadr[free[0]]] = bench.ranges[free[0], 1]
-        sweep = replace(_sweep(bench, index, steps, posture), opened=tuple(opened))
+        moved[own[0]] = float(bench.ranges[own[0], 1])
+        opened = tuple(bench.model.joint(k).name for k in moved)
+        sweep = replace(_sweep(bench, index, steps, moved), opened=opened)
+    if not sweep.faults or len(between) >= ARM_JOINTS:
+        return sweep if not sweep.faults else replace(first, posture=True)
+    for other in between:
+        for position in np.linspace(*bench.ranges[other][::-1], TRIES):
+            tried = _sweep(bench, index, steps, {other: float(position)})
+            if not tried.faults:
+                return replace(tried, opened=(bench.model.joint(other).name,))
     return sweep
 
 
-def _sweep(bench: MujocoBench, index: int, steps: int, posture: np.ndarray) -> JointSweep:
+def _between(bench: MujocoBench, index: int, against: str) -> list[int]:
+    """Return the other driven joints on which the place of a joint's link relative to another link depends."""
+    model = bench.model
+    names = [bench.body(b) for b in range(model.nbody)]
+    if against not in names:
+        return []
+    mine, other = (_bodies_to_root(model, b) for b in (int(model.jnt_bodyid[index]), names.index(against)))
+    carried = _carried(model, int(model.jnt_bodyid[index]))
+    apart = (set(mine) ^ set(other)) | set(np.flatnonzero(carried).tolist())
+    return [k for k in bench.joints if k != index and k not in bench.undriven and int(model.jnt_bodyid[k]) in apart]
+
+
+def _sweep(bench: MujocoBench, index: int, steps: int, moved: Mapping[int, float]) -> JointSweep:
     model = bench.model
     lower, upper = (float(v) for v in bench.ranges[index])
     turns = model.jnt_type[index] == bench.mujoco.mjtJoint.mjJNT_HINGE
     kind = "prismatic" if not turns else "revolute" if model.jnt_limited[index] else "continuous"
-    penetration, against = _placed(bench, index, np.linspace(lower, upper, steps), posture)
-    reached, drift, off, blew_up = _driven(bench, index, posture)
+    penetration, against = _placed(bench, index, np.linspace(lower, upper, steps), moved)
+    reached, drift, off, blew_up = _driven(bench, index, moved)
     sweep = JointSweep(model.joint(index).name, kind, lower, upper, *reached, penetration, against, drift, off, faults=())
     return replace(sweep, faults=_faults(bench, sweep, blew_up))
 
 
-def _placed(bench: MujocoBench, index: int, positions: np.ndarray, posture: np.ndarray) -> tuple[float, str]:
+def _placed(bench: MujocoBench, index: int, positions: np.ndarray, moved: Mapping[int, float]) -> tuple[float, str]:
     """Return the maximum penetration beyond that at rest [m] along the joint's range, and the other link."""
     model, data = bench.model, bench.data
     worst, against = 0.0, ""
-    moved = _carried(model, int(model.jnt_bodyid[index]))
+    led = _carried(model, int(model.jnt_bodyid[index]))
     for position in positions:
         bench.mujoco.mj_resetData(model, data)
-        data.qpos[:] = posture
-        data.qpos[model.jnt_qposadr[index]] = position
+        data.qpos[:] = bench.posture({**moved, index: float(position)})
         bench.mujoco.mj_fwdPosition(model, data)
         for pair, depth in depths(model, data).items():
             growth = depth - bench.rest_depth.get(pair, 0.0)
             if growth > worst:
-                worst, against = growth, bench.body(pair[1] if moved[pair[0]] else pair[0])
+                worst, against = growth, bench.body(pair[1] if led[pair[0]] else pair[0])
     return worst, against
 
 
@@ -243,46 +287,55 @@ def _carried(model: Any, body: int) -> np.ndarray:
     return carried
 
 
-def _driven(bench: MujocoBench, index: int, posture: np.ndarray) -> tuple[tuple[float, float], float, float, bool]:
-    """Drive the joint to the upper limit, then to the lower one, while motors hold the other joints in `posture`.
+def _driven(bench: MujocoBench, index: int, moved: Mapping[int, float]) -> tuple[tuple[float, float], float, float, bool]:
+    """Drive the joint to the upper limit, then to the lower one; motors hold the other joints, or move them as they follow.
 
     Return the lower and upper position that it reached, `drift` and `off` of the sweep, and whether it became unstable.
     """
     mujoco, model, data = bench.mujoco, bench.model, bench.data
+    addresses = model.jnt_qposadr[list(bench.joints)]
     mujoco.mj_resetData(model, data)
-    data.qpos[:] = posture
-    for motor, joint in enumerate(bench.joints):
-        data.ctrl[motor] = posture[model.jnt_qposadr[joint]]
-    address, own_motor = model.jnt_qposadr[index], bench.joints.index(index)
+    data.qpos[:] = start_posture = bench.posture(moved)
+    data.ctrl[:] = start_posture[addresses]
+    address = model.jnt_qposadr[index]
     geoms = np.flatnonzero(model.geom_bodyid == model.jnt_bodyid[index])
-    others = np.arange(model.nq) != address
+    mujoco.mj_kinematics(model, data)
+    place = data.xaxis[index].copy(), data.xanchor[index].copy(), data.geom_xpos[geoms].copy()
+    others = np.ones(model.nq, bool)
+    others[[address, *(model.jnt_qposadr[k] for k in bench.followers)]] = False
     lower, upper = bench.ranges[index]
-    reached, drift, off, blew_up, start = {1.0: 0.0, -1.0: 0.0}, 0.0, 0.0, False, 0.0
+    reached, drift, off, blew_up, start = {1.0: 0.0, -1.0: 0.0}, 0.0, 0.0, False, float(start_posture[address])
     smooth = (1 - np.cos(np.linspace(0, np.pi, round(bench.seconds[index] / model.opt.timestep)))) / 2
     for way in LEGS:
         goal = float(upper if way > 0 else lower)
         for command in start + (goal - start) * smooth:
-            data.ctrl[own_motor] = command
+            if bench.followers:
+                data.ctrl[:] = bench.posture({**moved, index: command})[addresses]
+            data.ctrl[bench.joints.index(index)] = command
             mujoco.mj_step(model, data)
-            drift = max(drift, float(np.abs((data.qpos - posture)[others]).max(initial=0.0)))
+            drift = max(drift, float(np.abs((data.qpos - start_posture)[others]).max(initial=0.0)))
         start = goal
         mujoco.mj_forward(model, data)
         blew_up |= is_unstable(data)
-        off = max(off, _off(bench, index, float(data.qpos[address]), data.geom_xpos[geoms], geoms))
+        step = float(data.qpos[address] - model.qpos0[address])
+        off = max(off, _off(model.jnt_type[index] == mujoco.mjtJoint.mjJNT_SLIDE, step, place, data.geom_xpos[geoms]))
         reached[way] = float(data.qpos[address])
     return (reached[-1.0], reached[1.0]), drift, off, bool(blew_up)
 
 
-def _off(bench: MujocoBench, index: int, position: float, places: np.ndarray, geoms: np.ndarray) -> float:
-    """Compute the distance of the link's shapes from their positions by the joint alone [m]."""
-    axis, anchor, rest = bench.axes[index], bench.anchors[index], bench.places[geoms]
-    if bench.model.jnt_type[index] == bench.mujoco.mjtJoint.mjJNT_SLIDE:
-        expected = rest + position * axis
+def _off(slides: bool, step: float, place: tuple[np.ndarray, np.ndarray, np.ndarray], now: np.ndarray) -> float:
+    """Compute the distance of the link's shapes from their positions by the joint alone [m].
+
+    step: from where place was taken: the joint's axis, its anchor and the positions of the shapes; now: their positions.
+    """
+    axis, anchor, start = place
+    if slides:
+        expected = start + step * axis
     else:
-        r = rest - anchor
-        turned = np.cos(position) * r + np.sin(position) * np.cross(axis, r)
-        expected = anchor + turned + (1 - np.cos(position)) * (r @ axis)[:, None] * axis
-    return float(np.linalg.norm(places - expected, axis=1).max(initial=0.0))
+        r = start - anchor
+        turned = np.cos(step) * r + np.sin(step) * np.cross(axis, r)
+        expected = anchor + turned + (1 - np.cos(step)) * (r @ axis)[:, None] * axis
+    return float(np.linalg.norm(now - expected, axis=1).max(initial=0.0))
 
 
 def _faults(bench: MujocoBench, sweep: JointSweep, blew_up: bool) -> tuple[str, ...]:
@@ -307,6 +360,7 @@ def rest_contacts(path: Path) -> dict[tuple[str, str], float]:
         spec.compiler.discardvisual = False
         spec.compiler.boundmass = spec.compiler.boundinertia = LIGHT
         spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
+        without_ground(spec, mujoco)
         name_elements(spec)
         model = spec.compile()
     data = mujoco.MjData(model)

@@ -5,12 +5,10 @@ The reader is tolerant: what can be read is kept, and all faults are recorded fo
 
 from __future__ import annotations
 
-import json
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from urllib.parse import unquote
+from typing import NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
@@ -22,9 +20,8 @@ from anymesh.types import JointType, Motion
 MOVING = ("revolute", "continuous", "prismatic")
 SIZES = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length"), "capsule": ("radius", "length")}
 Element = ElementTree.Element
-PACKAGE = "package://"
-URDF, MJCF = ".urdf", ".mjcf"
-OPENING = re.compile(rb"<(robot|mujoco)[\s>/]")
+XACRO = "xacro}"  # end of the namespace of macros
+DEFAULT_MIMIC = (("multiplier", "1"), ("offset", "0"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,6 +59,14 @@ class RobotLink:
     inertial: Inertial | None = None
 
 
+class Mimic(NamedTuple):
+    """How a joint follows another one: its position is offset + multiplier * that of the leader [rad or m]."""
+
+    leader: str
+    multiplier: float = 1.0
+    offset: float = 0.0
+
+
 @dataclass(frozen=True, eq=False)
 class RobotJoint:
     """A joint as written. T_parent_joint: (4, 4) at position 0; axis: in the joint frame, any length.
@@ -81,6 +86,7 @@ class RobotJoint:
     velocity: float | None = None
     friction: float = 0.0
     damping: float = 0.0
+    mimic: Mimic | None = None
 
     @property
     def moves(self) -> bool:
@@ -122,6 +128,23 @@ class Robot:
         return tuple(j for j in self.joints if j.moves)
 
     @property
+    def followers(self) -> dict[str, Mimic]:
+        """Return the moving joints that follow a moving one, and how."""
+        names = {j.name for j in self.moving}
+        return {j.name: j.mimic for j in self.moving if j.mimic is not None and j.mimic.leader in names - {j.name}}
+
+    def coupled(self, positions: Mapping[str, float]) -> dict[str, float]:
+        """Return positions of joints with those of the joints that follow them, within their limits, added if not given."""
+        result, joints = dict(positions), {j.name: j for j in self.moving}
+        waiting = {name: m for name, m in self.followers.items() if name not in result}
+        for _ in range(len(waiting)):
+            for name, m in [(n, m) for n, m in waiting.items() if m.leader not in waiting]:
+                low, high = joints[name].range
+                result[name] = min(max(m.offset + m.multiplier * result.get(m.leader, 0.0), low), high)
+                del waiting[name]
+        return result
+
+    @property
     def roots(self) -> tuple[str, ...]:
         children = {j.child for j in self.joints}
         return tuple(link.name for link in self.links if link.name not in children)
@@ -135,7 +158,11 @@ class Robot:
         return frozenset(links)
 
     def placements(self, positions: Mapping[str, float]) -> dict[str, Float[np.ndarray, "4 4"]]:
-        """Return transforms from each link's frame to the root's, with unnamed joints at 0. The file must hold a tree."""
+        """Return transforms from each link's frame to the root's; joints without a position are at 0, or follow others.
+
+        The file must hold a tree.
+        """
+        positions = self.coupled(positions)
         placements = {name: np.eye(4) for name in self.roots}
         waiting = list(self.joints)
         while waiting:
@@ -193,6 +220,8 @@ def read_urdf(path: Path) -> Robot:
         raise InputError(f"{path.name} cannot be read: {' '.join(str(error).split())}; valid is an XML file") from None
     if root.tag != "robot":
         raise InputError(f"{path.name} holds a <{root.tag}>; a URDF holds a <robot>")
+    if root.find("link") is None and any(XACRO in element.tag for element in root.iter()):
+        raise InputError(f"{path.name} holds macros of xacro; expand them with `xacro {path.name} -o robot.urdf`")
     reader = _Reader()
     links = tuple(reader.link(element) for element in root.findall("link"))
     joints = tuple(reader.joint(element) for element in root.findall("joint"))
@@ -270,7 +299,15 @@ class _Reader:
             self.optional(limit, "velocity"),
             friction,
             damping,
+            self.mimic(element),
         )
+
+    def mimic(self, element: Element) -> Mimic | None:
+        mimic = element.find("mimic")
+        if mimic is None:
+            return None
+        values = [self.numbers(mimic.get(key, text), (0.0,), f"mimic {key}")[0] for key, text in DEFAULT_MIMIC]
+        return Mimic(mimic.get("joint") or "", *values)
 
     def optional(self, element: Element | None, key: str) -> float | None:
         text = None if element is None else element.get(key)
@@ -307,68 +344,3 @@ def _rotation(roll: float, pitch: float, yaw: float) -> Float[np.ndarray, "3 3"]
     about_x = np.array([[1, 0, 0], [0, cr, -sr], [0, sr, cr]])
     about_y = np.array([[cp, 0, sp], [0, 1, 0], [-sp, 0, cp]])
     return np.array([[cy, -sy, 0], [sy, cy, 0], [0, 0, 1]]) @ about_y @ about_x
-
-
-def find_file(reference: str, folder: Path) -> Path | None:
-    """Return the file that `reference` names, relative to the description's folder; None if there is none.
-
-    package://NAME/REST is searched as NAME/REST and as REST in the folder and all its parents, as in ROS packages. Backslashes
-    count as slashes.
-    """
-    reference = reference.replace("\\", "/")
-    if reference.startswith(PACKAGE):
-        whole = unquote(reference.removeprefix(PACKAGE))
-        rest = whole.partition("/")[2]
-        above = (folder.resolve(), *folder.resolve().parents)
-        tried = [place / name for place in above for name in (whole, rest) if name]
-    else:
-        plain = unquote(reference.removeprefix("file://")) if reference.startswith("file://") else reference
-        tried = [folder / plain]
-    return next((path for path in tried if path.is_file()), None)
-
-
-def find_description(path: Path) -> Path:
-    """Find the URDF or MJCF at `path`, or in the folder `path`: the one named by asset.json, else the only one.
-
-    A URDF takes precedence over an MJCF. Raise InputError if there is none, or several without an asset.json.
-    """
-    path = Path(path)
-    if path.is_file():
-        if kind_of(path) is None:
-            raise InputError(f"{path.name} is neither URDF nor MJCF; valid are files with <robot> or <mujoco> at the top")
-        return path
-    if not path.is_dir():
-        raise InputError(f"{path} is not there; valid are a folder of an asset, a URDF or an MJCF")
-    named = _named(path)
-    if named is not None:
-        return named
-    files = [p for p in sorted(path.iterdir()) if p.suffix.lower() in (URDF, ".xml", MJCF) and kind_of(p) is not None]
-    for kind in (URDF, MJCF):
-        some = [p for p in files if kind_of(p) == kind]
-        if len(some) == 1:
-            return some[0]
-        if some:
-            raise InputError(f"{path} holds {', '.join(p.name for p in some)}; say which")
-    raise InputError(f"{path} holds no URDF and no MJCF; one is needed")
-
-
-def kind_of(path: Path) -> str | None:
-    """Return URDF or MJCF by the content of a file, or None; a file with the suffix .urdf is a URDF, valid or not."""
-    if path.suffix.lower() == URDF:
-        return URDF
-    try:
-        match = OPENING.search(path.read_bytes()[:100_000])
-    except OSError:
-        return None
-    if match is None:
-        return None
-    return URDF if match[1] == b"robot" else MJCF
-
-
-def _named(folder: Path) -> Path | None:
-    try:
-        name = json.loads((folder / "asset.json").read_text(encoding="utf-8"))["name"]
-    except (OSError, ValueError, KeyError, TypeError):
-        return None
-    urdf = folder / f"{name}{URDF}"
-    return urdf if urdf.is_file() else None

@@ -10,12 +10,9 @@ import numpy as np
 import trimesh
 
 from anymesh.errors import InputError
-from anymesh.loading.files import Folder, check_file
 from anymesh.loading.join import simple_mesh
-from anymesh.loading.load import READERS
+from anymesh.loading.load import read_in_metres
 from anymesh.types import Material, Mesh
-
-UNIT = re.compile(rb"""<unit[^>]*\bmeter\s*=\s*["']([0-9.eE+-]+)""")
 
 
 def box(extents: Sequence[float] | np.ndarray, material: Material | None = None) -> Mesh:
@@ -68,16 +65,8 @@ def read_visual(path: Path, root: Path) -> Mesh:
 
     As in robot viewers, the unit of COLLADA is applied, but its up axis is not; other formats are read without conversion.
     """
-    data = check_file(path)
     within = path.parent.resolve().is_relative_to(root.resolve())
-    try:
-        mesh = READERS[path.suffix.lower()](data, Folder(path, root if within else None))
-    except InputError:
-        raise
-    except Exception as error:  # readers raise many types of errors for a broken file
-        reason = " ".join(f"{type(error).__name__}: {error}".split())[:150]
-        raise InputError(f"{path.name} is broken or truncated ({reason})") from None
+    mesh = read_in_metres(path, root if within else None)[0]
     if not np.isfinite(mesh.vertices).all():
         raise InputError(f"{path.name}: found a vertex that is not finite (NaN or infinite)")
-    unit = UNIT.search(data) if path.suffix.lower() == ".dae" else None
-    return mesh.transformed(np.diag([*[float(unit[1])] * 3, 1.0])) if unit else mesh
+    return mesh
