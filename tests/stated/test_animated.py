@@ -200,7 +200,7 @@ def test_what_is_no_joint_is_named(tmp_path, tracks, why):
     assert warnings == (f"animations that are no joint of one axis are left out: Door ({why})",)
 
 
-def test_broken_and_other_channels_are_counted_and_refuse_nothing(tmp_path):
+def test_broken_and_other_channels_are_counted(tmp_path):
     g, door = cabinet()
     g.turn(door, [0, 90])
     g.animate(door, "weights", [0, 1], [0, 1])
@@ -211,6 +211,14 @@ def test_broken_and_other_channels_are_counted_and_refuse_nothing(tmp_path):
     assert [w[0] for w in warnings] == ["1", "2"]
     g.doc["animations"] = [{"channels": 5}]
     assert "broken" in read(g, tmp_path)[1][0]
+
+
+def test_a_pointer_stands_for_a_channel(tmp_path):
+    g, door = cabinet()
+    g.turn(door, [0, 90])
+    pointer = {"KHR_animation_pointer": {"pointer": f"/nodes/{door}/rotation"}}
+    g.doc["animations"][0]["channels"][0]["target"] = {"path": "pointer", "extensions": pointer}
+    assert_hinge(only(read(g, tmp_path)[0]), (0, 1, 0), PIVOT, (0, 90))
 
 
 def test_joints_are_ignored_on_request(tmp_path):

@@ -116,6 +116,13 @@ def test_joints_of_the_first_version_name_their_constraints(tmp_path):
     assert_hinge(only(read(g, tmp_path)[0]), (0, 1, 0), PIVOT, (0, np.rad2deg(1.2)))
 
 
+def test_a_physics_joint_counts_before_an_animation(tmp_path):
+    g, door = cabinet()
+    g.join(None, door, HINGE)
+    g.turn(door, [0, 30])
+    assert only(read(g, tmp_path)[0]).limits == pytest.approx((-0.2, 1.5))
+
+
 def test_what_is_no_joint_of_a_tree_is_counted(tmp_path):
     g, door = cabinet()
     g.join(None, door, [{"linearAxes": [0, 1, 2], "min": 0, "max": 0}])  # a ball

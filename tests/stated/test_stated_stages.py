@@ -8,6 +8,7 @@ from assets import box, cabinet, mesh_of, slanted
 from scenes_that_move import cabinet as scene
 
 from anymesh import pipeline
+from anymesh.errors import OptionError
 from anymesh.export.glb import glb_bytes
 from anymesh.export.links import split_links
 from anymesh.export.model import ExportConfig
@@ -101,5 +102,9 @@ def test_stages_keep_the_stated_joint(tmp_path):
     assert (joint.name, joint.reason, joint.confidence) == ("Door_joint", 'from the animation "Open"', 1.0)
     assert joint.limits == pytest.approx((0, np.deg2rad(85)))
     np.testing.assert_allclose(joint.axis, Z, atol=1e-6)
+    (other,) = pipeline.joints(tmp_path / "steps", animation="ignore")
+    assert (other.child, "animation" in other.reason) == ("Door", False)
+    with pytest.raises(OptionError, match="valid are read and ignore"):
+        pipeline.joints(tmp_path / "steps", animation="none")
     pipeline.segment(path, tmp_path / "steps", animation="ignore", force=True)
     assert all("animation" not in joint.reason for joint in pipeline.joints(tmp_path / "steps"))

@@ -8,6 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from anymesh.cli.options import (
+    Animation,
     Answering,
     Folder,
     Formats,
@@ -129,6 +130,7 @@ def joints(
     folder: Folder,
     *,
     answering: Annotated[dict[str, Any], OptionsOf(AnswererOptions, without=("parts_list", "at_least", "proposer"))],
+    animation: Animation = "read",
     time: Time,
     json_: Json = False,
     quiet: Quiet = False,
@@ -137,7 +139,7 @@ def joints(
     from anymesh import pipeline
 
     with Shown(quiet or json_) as progress:
-        estimated_joints = pipeline.joints(folder, progress=progress, **time, **answering)
+        estimated_joints = pipeline.joints(folder, animation=animation, progress=progress, **time, **answering)
     rows = [joint_row(j) for j in estimated_joints]
     print_result({"out": str(folder), "joints": rows}, rows, JOINT_COLUMNS, json_, quiet)
 

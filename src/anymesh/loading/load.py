@@ -77,6 +77,13 @@ class LoadedMesh:
     references: str = ""  # digest of the other files that were read, and of the warnings
 
 
+def reads_joints(animation: str) -> bool:
+    """Return whether joints that a file states are read, by the option. Raise OptionError if it is not valid."""
+    if animation not in ("read", "ignore"):
+        raise OptionError(f"--animation: found {animation!r}; valid are read and ignore")
+    return animation == "read"
+
+
 def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: str = "read") -> LoadedMesh:
     """Read GLB, glTF, OBJ, PLY, STL, OFF or DAE, a format of `entry_points.READERS`, or a zip of one with what it refers to.
 
@@ -87,10 +94,8 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: st
     Raise InputError, with one line, for anything that is no usable mesh, and OptionError for a root that is not valid.
     """
     path = Path(path)
-    if animation not in ("read", "ignore"):
-        raise OptionError(f"--animation: found {animation!r}; valid are read and ignore")
     data = check_file(path, (*FORMATS, ARCHIVE))
-    folder = Folder(path, root, animation == "read")
+    folder = Folder(path, root, reads_joints(animation))
     suffix = path.suffix.lower()
     if suffix == ARCHIVE:
         inner, name, warnings = resolve(LOAD_ZIPPED)(path, FORMATS, lambda p, top: load_mesh(p, root=top, animation=animation))

@@ -14,6 +14,7 @@ from anymesh.export import Base, Driven, Format
 from anymesh.export.formats import DEFAULT, ExportOptions
 from anymesh.export.package import check_zip, write_package, write_zip
 from anymesh.isolation import AHEAD, shared_pool
+from anymesh.loading.load import reads_joints
 from anymesh.pipeline.answering import AnswererSetup, choose_answerer, object_name
 from anymesh.pipeline.options import Answering, PlacementOptions
 from anymesh.pipeline.results import LoadResult
@@ -106,6 +107,7 @@ def new_run(
 def joints(
     folder: str | Path,
     *,
+    animation: str = "read",
     time_limit: float = DEFAULT_SECONDS,
     progress: Progress = silent,
     **answering: Unpack[Answering],
@@ -116,7 +118,8 @@ def joints(
     with RunFolder.open(Path(folder)) as kept, _kept_transcript(kept, who):
         run = Run(kept, who, deadline, progress)
         recognized, segmented = kept.recognition(), Keyed(kept.need(SEGMENTATION), kept.key(SEGMENTATION))
-        solver = run.solver(recognized.sized(kept.need(MESH)).mesh)
+        mesh = recognized.sized(kept.need(MESH)).mesh
+        solver = run.solver(mesh if reads_joints(animation) else mesh.without_joints())
         return estimate_joints(run, solver, recognized, segmented).joints
 
 

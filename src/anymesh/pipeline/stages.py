@@ -127,7 +127,8 @@ def estimate_joints(
             run.folder.save(SEGMENTATION, segmented.key, replace(parts, segmentation=estimated.segmentation))
         return estimated
 
-    key = stage_key(JOINTS, previous=segmented.key, config={**run.who.settings(), "limit": run.deadline.limit})
+    settings = {**run.who.settings(), "limit": run.deadline.limit} | ({"stated": True} if solver.mesh.joints else {})
+    key = stage_key(JOINTS, previous=segmented.key, config=settings)
     return run.answered(JOINTS, key, "joints", compute)
 
 
