@@ -1,5 +1,10 @@
 """Test which nodes of a scene are one object, how it is named, and what is not part of it."""
 
+# ruff: noqa: E501
+
+import sys
+from pathlib import Path
+
 import numpy as np
 import pytest
 from mesh_files import FACES, POINTS
@@ -8,6 +13,9 @@ from anymesh.loading.files import Folder
 from anymesh.loading.join import join, simple_mesh
 from anymesh.loading.scene_graph import is_generic, scene_of_objects
 from anymesh.types import Material, Mesh, Node
+
+sys.path.insert(0, str(Path(__file__).parents[1] / "formats"))
+from tables import check_table
 
 ROOT = ("Sketchfab_model", "root", "GLTF_SceneRootNode")
 FBX = (*ROOT, "x.fbx", "RootNode")
@@ -112,3 +120,38 @@ def test_names_that_programs_give() -> None:
     generic = "Object_4 mesh_0_3 defaultMaterial Cube.001 polySurface12 ID7 Group#3 cabinet.fbx Box01 12 RootNode".split()
     assert [name for name in generic if not is_generic(name)] == []
     assert [name for name in "Door base body Boxer panel_2 Grouper 门 Handle.001".split() if is_generic(name)] == []
+
+
+NAMES: dict[str, tuple[list[tuple], dict[str, int], int]] = {  # nodes, faces in boxes by name, number of warnings
+    "`Object_4`, `mesh_0_3`, `defaultMaterial`, `Cube.001`, `polySurface12`": (
+        [(("Case", "mesh_0_3"), "a"), (("Lid", "defaultMaterial"), "b")], {"Case": 1, "Lid": 1}, 0),
+    "`Door_Oak_0`, `Door_1`, `DoorShape` below `Door`": (
+        [(("Case", "CaseShape"), "a"), (("Door", "Door_Oak_0"), "Oak"), (("Door", "Door_1"), "b")], {"Case": 1, "Door": 2}, 0),
+    "such nodes below a plural (`Doors`, `Door set`)": (
+        [("Case", "a"), (("Door set", "Cube"), "b"), (("Door set", "Cube.001"), "b")], {"Case": 1, "Door set": 1, "Door set_1": 1}, 0),
+    "a name above all that is there": ([(("All", "Cube"), "a"), (("All", "Box02"), "b")], {"Cube": 1, "Box02": 1}, 0),
+    "nodes without names of their own": ([("Cube", "a", "Lid"), ("Cube.001", "b", "Case")], {"Lid": 1, "Case": 1}, 0),
+    "`door_oak`, `door_steel` beside each other": ([("door_oak", "oak"), ("door_steel", "steel")], {"door_oak": 1, "door_steel": 1}, 0),
+    "the number that Sketchfab adds to each name": ([((*ROOT, "Lid_7", "Object_9"), "a"), ((*ROOT, "Case_8", "Object_10"), "b")],
+                                                     {"Lid": 1, "Case": 1}, 0),
+    "`_LOD0` to `_LOD3`, `LOD1_`, groups of that name": ([("Lid_LOD0", "a"), ("Lid_LOD3", "a"), ("Case", "a")], {"Lid": 1, "Case": 1}, 1),
+    "`UCX_`, `UBX_`, `USP_`, `UCP_`, `MCDCX_`, `-colonly`, `-convcolonly`": (
+        [("Lid", "a"), *((f"{p}Lid_00", "a") for p in ("UCX_", "UBX_", "USP_", "UCP_", "MCDCX_")), ("a-colonly", "a")], {"Lid": 1}, 1),
+    "`collider` or `collision` as first or last word": ([("Lid", "a"), ("Lid Collider", "a"), ("collision_1", "a")], {"Lid": 1}, 1),
+    "`-col`, `-convcol`": ([("Lid", "a"), ("Lid-convcol", "a"), ("Case-col", "a")], {"Lid": 1, "Case-col": 1}, 1),
+    "`Camera.Target`, `SpotLightHelper`, `GridHelper`": ([("Lid", "a"), ("Camera.Target", "a"), ("GridHelper", "a")], {"Lid": 1}, 1),
+    "nothing else in the file": ([("Lid_collision", "a")], {"Lid_collision": 1}, 0),
+    "names in other scripts": ([(("دولاب", "Object_3"), "a"), (("门", "Object_4"), "a")], {"دولاب": 1, "门": 1}, 0),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("row", NAMES)
+def test_each_row_of_the_table_on_names_is_true(row, folder) -> None:
+    nodes, expected, warnings = NAMES[row]
+    mesh = scene(*nodes, folder=folder)
+    assert counts(mesh) == {name: n * len(FACES) for name, n in expected.items()}
+    assert len(folder.warnings) == warnings
+
+
+def test_the_table_on_names_has_these_rows() -> None:
+    check_table("Names, levels of detail and helpers", NAMES)

@@ -46,6 +46,20 @@ def test_nodes_without_faces_are_no_parts_and_names_become_legal_and_unique() ->
     assert names(parts_from_nodes(mesh)) == ["a_b_2", "a_b", "part"]
 
 
+def test_an_object_of_one_node_per_material_is_one_part() -> None:
+    materials = (Material("oak"), Material("steel"), Material("door"))
+    mesh = replace(with_nodes("lid_oak", "body", "lid.Steel"), face_material=np.array([0, 2, 1])[PIECE], materials=materials)
+    assert names(parts_from_nodes(mesh)) == ["body", "lid"]
+    parts = replace(with_nodes("case_oak", "case_door", "x"), face_material=np.array([0, 2, 1])[PIECE], materials=materials)
+    assert names(parts_from_nodes(parts)) == ["case_door", "case_oak", "x"]  # the material is called like a part
+
+
+@pytest.mark.parametrize("parts", ["auto", "nodes"])
+def test_names_in_other_scripts_are_among_the_reasons(parts) -> None:
+    found = Solver(with_nodes("柜门", "柜体", "ручка")).parts(parts).segmentation
+    assert all(any(name in part.reason for part in found.parts) for name in ("柜门", "柜体", "ручка"))
+
+
 @pytest.mark.parametrize("kind", [np.int64, np.uint8, np.int32])
 def test_labels_from_npy(kind, tmp_path) -> None:
     np.save(tmp_path / "l.npy", (2 * PIECE).astype(kind))

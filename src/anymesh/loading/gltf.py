@@ -165,7 +165,7 @@ def _transforms(translation: Any, rotation: Any, scale: Any) -> Float[np.ndarray
     return T
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class GltfScene:
     """What is placed of a scene.
 
@@ -178,6 +178,7 @@ class GltfScene:
     names: list[str]
     placed: list[Mesh] = field(default_factory=list)
     home: list[int | None] = field(default_factory=list)
+    faces: int = 0
     _read: dict[Any, Any] = field(default_factory=dict)
 
     def place(self, index: int) -> None:
@@ -185,7 +186,7 @@ class GltfScene:
         node = self.meshes.tree["nodes"][index]
         number, name = node["mesh"], self.meshes.folder.path.name
         weights = tuple(node.get("weights") or item(self.meshes.tree["meshes"], number).get("weights") or ())
-        pose = self._pose(node.get("skin")) if self._has_weights(number) else None
+        pose = self._pose(node.get("skin"), number)
         key = (number, weights, node.get("skin") if pose else None)
         if key not in self._read:
             self._read[key] = self.meshes.read(number, weights, pose)
@@ -198,7 +199,8 @@ class GltfScene:
             self._place_skinned(mesh, bone, pose, index)
             return
         transforms = self._instances(node, self.at[index].T)
-        if len(transforms) * len(mesh.faces) + sum(len(m.faces) for m in self.placed) > MAX_FACES:
+        self.faces += len(transforms) * len(mesh.faces)
+        if self.faces > MAX_FACES:
             raise InputError(f"{name} places more than {MAX_FACES} faces, which is the most that is handled")
         for k, T in enumerate(transforms):
             if not np.isfinite(T).all():
@@ -207,13 +209,12 @@ class GltfScene:
             self.placed.append(replace(mesh.transformed(T), nodes=(Node(own, label, path=path if len(path) > 1 else ()),)))
             self.home.append(index)
 
-    def _has_weights(self, number: int) -> bool:
-        primitives = item(self.meshes.tree["meshes"], number)["primitives"]
-        return all("JOINTS_0" in p.get("attributes", {}) and "WEIGHTS_0" in p["attributes"] for p in primitives)
-
-    def _pose(self, number: int | None) -> Pose | None:
-        """Return the rest pose of a skin; None, with a warning, if it cannot be read."""
+    def _pose(self, number: int | None, mesh: int) -> Pose | None:
+        """Return the rest pose of a mesh's skin; None, with a warning, if it cannot be read."""
         if number is None:
+            return None
+        if not all({"JOINTS_0", "WEIGHTS_0"} <= p["attributes"].keys() for p in self.meshes.tree["meshes"][mesh]["primitives"]):
+            self.meshes.folder.warn("a mesh with a skin has no joints or weights, and is placed without its bones")
             return None
         try:
             skin = item(self.meshes.tree.get("skins", []), number)

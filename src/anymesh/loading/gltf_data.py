@@ -16,7 +16,7 @@ from anymesh.errors import InputError
 from anymesh.loading.files import MAX_FACES, Folder
 
 TYPES = {5120: "<i1", 5121: "<u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
-COMPRESSED = ("EXT_meshopt_compression", "KHR_meshopt_compression", "MESHOPT_compression")
+COMPRESSED = ("EXT_meshopt_compression", "KHR_meshopt_compression")
 MAX_DECODED = 2**29  # [bytes] of one compressed buffer view
 WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4, "MAT4": 16}
 

@@ -21,7 +21,7 @@ from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.runtime import Deadline, Progress, silent
 from anymesh.segmentation.divide import divide_surface, object_shape
-from anymesh.segmentation.naming import GIVEN, parts_from_file, parts_from_nodes, whole_as_base
+from anymesh.segmentation.naming import GIVEN, parts_from_file, parts_from_nodes, whole_as_base, with_names_of_file
 from anymesh.segmentation.segment import segment_parts
 from anymesh.types import Joint, JointType, Mesh, Segmentation
 from anymesh.types.motion import Recognition
@@ -189,12 +189,15 @@ class Solver:
 
         parts: auto, nodes, none (all of it is the base), or a file of face labels.
         """
-        if parts == "auto":
-            result = self.answers.find_parts(recognition, progress)
-            return resolve(STATED_PARTS)(self.mesh, result) if self.mesh.joints else result
-        if parts == "nodes":
-            result = segmentation_result(parts_from_nodes(self.mesh), GIVEN)
-            return resolve(STATED_PARTS)(self.mesh, result) if self.mesh.joints else result
+        if parts in ("auto", "nodes"):
+            nodes = parts == "nodes"
+            result = (
+                segmentation_result(parts_from_nodes(self.mesh), GIVEN)
+                if nodes
+                else self.answers.find_parts(recognition, progress)
+            )
+            result = resolve(STATED_PARTS)(self.mesh, result) if self.mesh.joints else result
+            return replace(result, segmentation=with_names_of_file(self.mesh, result.segmentation))
         given = whole_as_base(self.mesh) if parts == "none" else parts_from_file(self.mesh, Path(parts))
         return segmentation_result(given, GIVEN)
 

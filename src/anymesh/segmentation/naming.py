@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import io
 import json
+import re
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -12,11 +14,12 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.errors import InputError, OptionError
-from anymesh.names import legal_names
+from anymesh.names import legal_names, listed
 from anymesh.types import Mesh, Part, Segmentation
-from anymesh.vocabulary import recognize
+from anymesh.vocabulary import is_fixed_name, recognize
 
 GIVEN = "given"
+SHOWN = 10  # names of the file in the reason of a part
 NPY, ZIP = b"\x93NUMPY", b"PK"  # first bytes of a file of the format
 
 
@@ -50,9 +53,36 @@ def named_parts(
 
 def parts_from_nodes(mesh: Mesh) -> Segmentation:
     """Return the scene's nodes as parts; the root is the node named "base", else the one with the largest box."""
-    present = np.unique(mesh.face_node)
-    names = [mesh.nodes[n].name for n in present]
-    return _segmentation(mesh, np.searchsorted(present, mesh.face_node), names)
+    present, number = np.unique(mesh.face_node, return_inverse=True)
+    objects = _without_materials(mesh, [int(n) for n in present])
+    names = list(dict.fromkeys(objects))
+    return _segmentation(mesh, np.array([names.index(name) for name in objects])[number.reshape(-1)], names)
+
+
+def _without_materials(mesh: Mesh, present: Sequence[int]) -> list[str]:
+    """Return the names of nodes, without the material's where an object is one node per material (`door_oak`, `door_steel`)."""
+    names, stems = [mesh.nodes[n].name for n in present], list[str]()
+    for n, name in zip(present, names, strict=True):
+        used = np.unique(mesh.face_material[mesh.face_node == n])
+        material = mesh.materials[used[0]].name if len(used) == 1 and used[0] >= 0 else ""
+        part_word = recognize(material) is not None or is_fixed_name(material)
+        end = re.search(rf"[\W_]+{re.escape(material)}$", name, re.IGNORECASE) if material and not part_word else None
+        stems.append(name[: end.start()] if end else "")
+    return [stem if stem and stems.count(stem) > 1 else name for stem, name in zip(stems, names, strict=True)]
+
+
+def with_names_of_file(mesh: Mesh, segmentation: Segmentation) -> Segmentation:
+    """Return the parts with names of the file among their reasons, where these are in scripts that no link can have."""
+    named: dict[int, list[str]] = {}
+    for n, node in enumerate(mesh.nodes):
+        faces = mesh.face_node == n if not node.name.isascii() else np.zeros(0, bool)
+        if faces.any():
+            named.setdefault(int(np.bincount(segmentation.face_part[faces]).argmax()), []).append(node.name)
+    parts = []
+    for k, part in enumerate(segmentation.parts):
+        texts = [f'"{name}"' for name in named.get(k, [])]
+        parts.append(replace(part, reason=f"{part.reason}; in the file: {listed(texts, SHOWN)}") if texts else part)
+    return replace(segmentation, parts=tuple(parts)) if named else segmentation
 
 
 def whole_as_base(mesh: Mesh) -> Segmentation:
