@@ -16,6 +16,7 @@ from anymesh.finishing.texture import Carried, Retexturer, paint_new
 from anymesh.rendering.render import face_colors, render
 from anymesh.types import Asset, Material, Mesh, Part, Segmentation, Texture
 from anymesh.types.camera import Camera
+from anymesh.types.mesh import CLAMP
 
 EYES = ((-1.5, -1.5, 1.2), (1.6, -1.2, 0.3), (0.3, 1.8, 1.5))
 
@@ -128,6 +129,19 @@ def test_metal_roughness_and_light_are_baked_where_they_differ() -> None:
     np.testing.assert_allclose(at[steel, 5:], 0, atol=1)
     alike = replace(mesh, materials=tuple(Material(str(k)) for k in range(3)))
     assert set(bake(alike, size=64)[0].materials[0].textures) == {"base_color"}
+
+
+def test_a_picture_is_baked_by_its_own_coordinates_and_clamped() -> None:
+    rows = np.zeros((4, 4, 3), np.uint8)
+    rows[:, 2:] = (0, 255, 255)
+    rough = Texture(png(rows), "image/png", wrap=(CLAMP, CLAMP), uv_set=1)
+    material = Material(metallic=1.0, roughness=1.0, textures={"metallic_roughness": rough})
+    right = np.full((12, 3, 2), 3, np.float32)  # beyond the right edge, which is rough metal
+    mesh = replace(cabinet().mesh.subset(np.arange(12)), materials=(material,), face_material=np.zeros(12, int))
+    for uv, value in ((right, 255), (-right, 0)):
+        baked, _ = bake(replace(mesh, corner_more_uv=uv), size=64)
+        assert baked.corner_more_uv is None
+        assert set(picture(baked, "metallic_roughness")[..., 1:].ravel().tolist()) == {value}
 
 
 def test_what_is_seen_through_stays_so() -> None:

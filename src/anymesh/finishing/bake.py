@@ -69,10 +69,23 @@ def sampler(mesh: Mesh) -> Sampler:
     if see_through(mesh).any():
         meshes[ALPHA] = replace(plain, materials=tuple(_opacity(m) for m in plain.materials))
     if any(METAL in m.textures for m in used) or len({(m.roughness, m.metallic) for m in used}) > 1:
-        meshes[METAL] = replace(plain, materials=tuple(_shown(m, WHITE, METAL) for m in plain.materials))
+        placed = replace(plain, corner_uv=_placed(plain, METAL))
+        meshes[METAL] = replace(placed, materials=tuple(_shown(m, WHITE, METAL) for m in plain.materials))
     if any(any(m.emissive) for m in used):
-        meshes[LIGHT] = replace(plain, materials=tuple(_shown(m, (*m.emissive, 1.0), LIGHT) for m in plain.materials))
+        placed = replace(plain, corner_uv=_placed(plain, LIGHT))
+        meshes[LIGHT] = replace(placed, materials=tuple(_shown(m, (*m.emissive, 1.0), LIGHT) for m in plain.materials))
     return Sampler(meshes)
+
+
+def _placed(mesh: Mesh, slot: str) -> Float32[np.ndarray, "F 3 2"] | None:
+    """Return the texture coordinates of the pictures in a slot."""
+    uv = mesh.corner_uv
+    for k, material in enumerate(mesh.materials):
+        number = material.textures[slot].uv_set if slot in material.textures else 0
+        if number and uv is not None and mesh.corner_more_uv is not None:
+            own = mesh.corner_more_uv[..., 2 * number - 2 : 2 * number]
+            uv = np.where((mesh.face_material == k)[:, None, None], own, uv)
+    return uv
 
 
 def see_through(mesh: Mesh) -> Bool[np.ndarray, " F"]:
@@ -92,12 +105,10 @@ def _opacity(material: Material) -> Material:
     share = material.base_color[3] if material.alpha_mode != "OPAQUE" else 1.0
     texture = material.textures.get(BASE)
     with_holes = texture is not None and material.alpha_mode != "OPAQUE"
-    picture = np.full((1, 1), 255, np.uint8)
-    if with_holes:
-        with Image.open(io.BytesIO(texture.data)) as image:
-            picture = np.asarray(image.convert("RGBA"))[..., 3]
+    picture = texture.pixels()[..., 3] if with_holes else np.full((1, 1), 255, np.uint8)
     grey = np.rint(picture * share).astype(np.uint8)
-    return replace(material, base_color=WHITE, textures={BASE: Texture(png(grey), "image/png")})
+    shown = Texture(png(grey), "image/png") if texture is None else replace(texture, data=png(grey), mime="image/png")
+    return replace(material, base_color=WHITE, textures={BASE: shown})
 
 
 def png(pixels: UInt8[np.ndarray, ...]) -> bytes:
@@ -235,6 +246,7 @@ def bake(mesh: Mesh, *, size: int = 1024, padding: int = 2) -> tuple[Mesh, tuple
         face_material=seen.astype(np.int64),
         corner_uv=atlas_uv(layout),
         corner_color=None,
+        corner_more_uv=None,
     )
     return baked, tuple(notes)
 
