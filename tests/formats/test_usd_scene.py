@@ -11,7 +11,7 @@ pytest.importorskip("pxr")
 from usda import BOUND, QUAD, material, mesh, picture, read, texture, xform
 
 from anymesh.errors import InputError
-from anymesh.formats.usd_ import read_usd
+from anymesh.formats.usd.stage_ import read_usd
 from anymesh.loading import load_mesh
 from anymesh.loading.files import Folder
 from anymesh.types import JointType

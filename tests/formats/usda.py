@@ -5,7 +5,7 @@ from pathlib import Path
 
 from PIL import Image
 
-from anymesh.formats.usd_ import read_usd
+from anymesh.formats.usd.stage_ import read_usd
 from anymesh.loading.files import FileMesh, Folder
 
 QUAD = """int[] faceVertexCounts = [4]

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from anymesh.formats.pictures_ import Channel, merged
-from anymesh.formats.usd_layers_ import Layers
+from anymesh.formats.usd.layers_ import Layers
 from anymesh.loading.files import Folder, picture_file
 from anymesh.loading.references import SHOWN
 from anymesh.types import Material, Texture

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.formats.usd_geometry_ import kind_of, value
+from anymesh.formats.usd.geometry_ import kind_of, value
 from anymesh.types import JointType, Mesh, StatedJoint
 
 WORLD = ""  # path of what no rigid body holds

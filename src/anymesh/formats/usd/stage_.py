@@ -11,10 +11,10 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.errors import InputError
-from anymesh.formats.usd_geometry_ import PRIMITIVES, UsdTriangles, array, kind_of, polygon_mesh, primitive, value
-from anymesh.formats.usd_joints_ import add_joints
-from anymesh.formats.usd_layers_ import Layers, load_pxr
-from anymesh.formats.usd_materials_ import UV_NAMES, StageMaterials, UsdLook
+from anymesh.formats.usd.geometry_ import PRIMITIVES, UsdTriangles, array, kind_of, polygon_mesh, primitive, value
+from anymesh.formats.usd.joints_ import add_joints
+from anymesh.formats.usd.layers_ import Layers, load_pxr
+from anymesh.formats.usd.materials_ import UV_NAMES, StageMaterials, UsdLook
 from anymesh.loading.files import MAX_FACES, FileMesh, Folder
 from anymesh.loading.join import join, rgba, unit
 from anymesh.types import Material, Mesh, Node
