@@ -30,6 +30,7 @@ COLORS = (
     ("r", "g", "b", "a"),
 )
 UV = (("texture_u", "texture_v"), ("s", "t"), ("u", "v"), ("texture_s", "texture_t"), ("tx", "ty"))
+CORNER_UV = ("texcoord", "texcoords", "texture_coordinates", "uv", "t")  # lists of faces
 READ = ("vertex", "face", "tristrips")
 PICTURE = re.compile(r"(?i)texture\s?file:?\s+(.+?)\s*$")  # in a comment, as MeshLab and others write it
 BESIDE = (".png", ".jpg", ".jpeg")  # of a picture that is named like the mesh
@@ -117,7 +118,7 @@ def _color(
 
 
 def _uv(vertex: Columns, face: Columns, faces: np.ndarray, triangles: np.ndarray) -> np.ndarray | None:
-    lists = face.get("texcoord")
+    lists = next((face[key] for key in CORNER_UV if isinstance(face.get(key), tuple)), None)
     if isinstance(lists, tuple):
         values, counts = lists
         if len(values) == 2 * (triangles.max() + 1) or (counts % 2 == 0).all():

@@ -105,20 +105,20 @@ def _inside(entry: zipfile.ZipInfo, folder: Path) -> Path | None:
     return folder / place
 
 
-def only_mesh(folder: Path, formats: Sequence[str]) -> Unpacked:
-    """Return the only mesh in a folder, or in the only zip in it; of one in several formats, the best of them.
+def only_mesh(folder: Path, formats: Sequence[str], *, outer: bool = True) -> Unpacked:
+    """Return the only mesh in a folder, or, if outer, in the only zip in it; of one in several formats, the best of them.
 
     Raise InputError if there is none, or several.
     """
     files = sorted(p for p in folder.rglob("*") if p.is_file())
     meshes = [p for p in files if p.suffix.lower() in formats]
     archives = [p for p in files if p.suffix.lower() == ".zip"]
-    if not meshes and len(archives) == 1:  # as Sketchfab gives source/model.zip beside textures/
+    if outer and not meshes and len(archives) == 1:  # as Sketchfab gives source/model.zip beside textures/
         inner = archives[0].with_suffix("")
         inner = inner.with_name(f"{inner.name}_zip") if inner.exists() else inner
         unpack(archives[0], inner)
         archives[0].unlink()
-        return replace(only_mesh(inner, formats), root=folder) if any(inner.iterdir()) else only_mesh(folder, formats)
+        return replace(only_mesh(inner, formats, outer=False), root=folder)
     names = [p.relative_to(folder).as_posix() for p in meshes]
     if len({FORMAT_WORDS.sub("", p.stem.casefold()) for p in meshes}) == 1:
         ranks = [BEST_FIRST.index(p.suffix.lower()) if p.suffix.lower() in BEST_FIRST else len(BEST_FIRST) for p in meshes]

@@ -140,7 +140,7 @@ class _Library:
     def _has_normals(self, texture: Texture) -> bool:
         """Return whether a bump picture is one of normals, which are mostly blue."""
         red, green, blue = np.asarray(_opened(texture).convert("RGB").resize((32, 32)), float).reshape(-1, 3).mean(0)
-        normals = blue > 150 and max(abs(red - 128), abs(green - 128)) < 60 and blue > max(red, green) + 20
+        normals = bool(blue > 150 and max(abs(red - 128), abs(green - 128)) < 60 and blue > max(red, green) + 20)
         if not normals:
             self.unread["bump pictures of heights, not of normals"] += 1
         return normals

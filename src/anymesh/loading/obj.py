@@ -6,6 +6,7 @@ Each object is a node, or each group where groups tell apart what is in one obje
 from __future__ import annotations
 
 import math
+import re
 from collections import Counter
 
 import numpy as np
@@ -23,6 +24,7 @@ SWITCHES = {"o": 0, "g": 1, "usemtl": 2}
 NAMED = {"l": "lines", "p": "points", "curv": "curves", "curv2": "curves", "surf": "free-form surfaces"}
 NO_MATERIAL = ("", "None", "(null)")  # as exporters write it
 MAX_NAMED = 8  # kinds of lines in a warning
+COMMENT = re.compile(r"(?<![.,])#")  # 1.#IND is a number that is not finite
 MAX_INDEX = 1 << 60
 BROKEN = -2  # index of a texture coordinate or normal that does not exist
 
@@ -93,7 +95,7 @@ def _read(folder: Folder, text: str) -> _Lines:
         try:
             if key in tables:
                 tables[key].append([math.nan] * 3)
-                tables[key][-1] = _row(rest.split("#", 1)[0], MIN_NUMBERS[key], folder)
+                tables[key][-1] = _row(rest, MIN_NUMBERS[key], folder)
             elif key == "f":
                 corners = [_corner(word, lines) for word in rest.split("#", 1)[0].split()]
                 lines.corners += corners
@@ -127,6 +129,8 @@ def _warn_of_others(folder: Folder, lines: _Lines) -> None:
 
 
 def _row(text: str, least: int, folder: Folder) -> list[float]:
+    if "#" in text:
+        text = COMMENT.split(text, maxsplit=1)[0]
     try:
         row = [float(x) for x in text.split()]
     except ValueError:

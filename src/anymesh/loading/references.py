@@ -159,8 +159,12 @@ def readable(name: str) -> str:
         name.encode()
     except UnicodeEncodeError:
         raw = name.encode("utf-8", "surrogateescape")
-        wide = re.search(rb"[\x81-\x9f]|[\xa0-\xff]{2}", raw)  # alone, a letter with an accent
-        for encoding in ("cp932", "gb2312", "gbk", "cp1252", "latin-1") if wide else ("cp1252", "latin-1"):
+        likely = ("cp1252",)  # a letter with an accent stands alone
+        if re.search(rb"[\x81-\x9f]", raw):
+            likely = ("cp932", "gbk", "cp1252")
+        elif re.search(rb"[\xa0-\xff]{2}", raw):
+            likely = ("gb2312", "gbk", "cp932", "cp1252")
+        for encoding in (*likely, "latin-1"):
             with suppress(UnicodeDecodeError):
                 return raw.decode(encoding)
     return name
