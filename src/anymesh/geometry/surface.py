@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int, Shaped
 
 from anymesh.geometry.distance_ import TriangleTree, winding_number
+from anymesh.geometry.holes import missing_triangles
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.topology import MAX_CRACK_RATIO, Components, components, label_connected, weld, without_cracks
 from anymesh.geometry.triangle_set import TriangleSet, spread_directions, spread_points
@@ -137,10 +138,14 @@ def plain_triangles(
 ) -> tuple[Float[np.ndarray, "K 3 3"], Int[np.ndarray, " K"]]:
     """Return some triangles without copies and cracks, wound outwards, and which they are.
 
+    Triangles that are missing from closed surfaces are added, each as a copy of one beside it (`missing_triangles`).
+
     diagonal: of the object that they are part of [m].
     """
     vertices, faces, kept, parts = _plain(*unshared(triangles), diagonal)
-    return vertices[np.where(parts.flip[:, None], faces[:, ::-1], faces)], kept
+    plain = vertices[np.where(parts.flip[:, None], faces[:, ::-1], faces)]
+    missing, beside = (np.zeros((0, 3, 3)), np.zeros(0, np.int64)) if parts.solid.all() else missing_triangles(plain)
+    return np.concatenate([plain, missing]), np.concatenate([kept, kept[beside]])
 
 
 def open_surface(

@@ -25,7 +25,7 @@ from anymesh.isolation import DECOMPOSER, ChildError, ChildPool, Failure
 from anymesh.physics.convex import as_hull, fitted, hull_of, planes, shifted, thinned
 from anymesh.physics.openings import NONE, Openings, openings_of
 from anymesh.physics.solids_ import FACETED_PLANES, decompose_solid
-from anymesh.physics.split import concave_planes, patch_of, solid_mesh, split_surface
+from anymesh.physics.split import MIN_CONCAVE_ANGLE_DEG, concave_planes, patch_of, solid_mesh, split_surface
 from anymesh.types import Box, Cylinder, Hull, Shape
 from anymesh.types.triangles import CUBE_CORNERS, normals_and_areas, unshared
 
@@ -39,7 +39,8 @@ DIGITS = 30  # binary digits of the coordinates of a component, so that copies a
 OPEN_PIECES = 64  # maximum number of pieces of a component with openings
 MAX_LOST = 0.1  # of a radius beyond what is allowed: more pieces that lose more are not worth it
 FEW_PIECES = 10  # of a faceted ring that needs no other division
-ROUND_FACES = 128  # of a surface with a round opening: with more, it is smooth
+SMOOTH_ANGLE_DEG = 1.0  # [deg] minimum fold between two sides of a smooth surface
+ROUND_FACES, CURVED_FACES = 128, 400  # of a surface with a round opening, and with others: with more, it may be smooth
 TINY = 1e-12  # [m] minimum size of a component
 BATCH_FACES = 2000  # faces of small components per call
 PER_FACE = 2e-5  # [s] added to the limit of a call per face, since simplifying millions of faces takes longer than the division
@@ -151,37 +152,37 @@ def component_shapes(component: Component, resolution: Resolution, method: Metho
     closed = None
     if component.solid and method is not Method.SURFACE:
         closed = _closed(triangles if method is Method.SOLID else cleaned(triangles))
-    few = resolution.max_pieces
-    smooth = _is_smooth(triangles if closed is None else closed[0][closed[1]], openings)
-    plain = () if smooth else _divided(triangles, closed, resolution, few, NONE)
+    surface = triangles if closed is None else closed[0][closed[1]]
+    smooth = _is_smooth(surface, openings)
+    plain = () if smooth else _divided(triangles, closed, resolution, resolution.max_pieces, NONE)
     lost = 0.0 if smooth else _lost(plain, openings)
-    if not (smooth or (openings.round.any() and (lost > 0 or len(plain) > FEW_PIECES))):
+    curved = openings.round.any() or _has_many_sides(surface, SMOOTH_ANGLE_DEG)
+    if not smooth and not (curved and (lost > MAX_LOST or (openings.round.any() and (lost > 0 or len(plain) > FEW_PIECES)))):
         return plain
-    opened = _divided(triangles, closed, resolution, max(few, OPEN_PIECES), openings)
+    opened = _divided(triangles, closed, resolution, max(resolution.max_pieces, OPEN_PIECES), openings)
     left = _lost(opened, openings)
     return opened if smooth or (left <= MAX_LOST and (left, len(opened)) < (lost, len(plain))) else plain
 
 
 def _divided(
-    triangles: np.ndarray,
-    closed: tuple[np.ndarray, np.ndarray] | None,
-    resolution: Resolution,
-    most: int,
-    openings: Openings,
+    triangles: np.ndarray, closed: tuple[np.ndarray, np.ndarray] | None, how: Resolution, most: int, openings: Openings
 ) -> tuple[Shape, ...]:
-    hulls = []
-    if closed is not None:
-        hulls = decompose_solid(*closed, gap=resolution.gap, wall=resolution.wall, max_pieces=most, openings=openings)
-    if not hulls:
-        hulls = split_surface(triangles, gap=resolution.gap, wall=resolution.wall, max_pieces=most, openings=openings)
-    return tuple(_fitted(hull, openings) for hull in hulls)
+    limits = {"gap": how.gap, "wall": how.wall, "max_pieces": most, "openings": openings}
+    hulls = [] if closed is None else decompose_solid(*closed, **limits)
+    return tuple(_fitted(hull, openings) for hull in hulls or split_surface(triangles, **limits))
 
 
 def _is_smooth(triangles: np.ndarray, openings: Openings) -> bool:
     """Return whether a surface has openings and many sides, so that cuts along these take long and lead nowhere."""
-    if openings.round.any() and len(triangles) > ROUND_FACES:
-        return True
-    return len(openings) > 0 and len(concave_planes(triangles, FACETED_PLANES)) > FACETED_PLANES
+    if not len(openings):
+        return False
+    if len(triangles) > (ROUND_FACES if openings.round.any() else CURVED_FACES):
+        return openings.round.any().item() or _has_many_sides(triangles, SMOOTH_ANGLE_DEG)
+    return _has_many_sides(triangles)
+
+
+def _has_many_sides(triangles: np.ndarray, min_angle: float = MIN_CONCAVE_ANGLE_DEG) -> bool:
+    return len(concave_planes(triangles, FACETED_PLANES, min_angle)) > FACETED_PLANES
 
 
 def _lost(shapes: Sequence[Shape], openings: Openings) -> float:

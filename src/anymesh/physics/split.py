@@ -185,8 +185,12 @@ def hull_volume(points: np.ndarray, wall: float = 0.0) -> float:
     return 0.0
 
 
-def concave_planes(triangles: Float[np.ndarray, "n 3 3"], most: int) -> list[tuple[np.ndarray, float]]:
+def concave_planes(
+    triangles: Float[np.ndarray, "n 3 3"], most: int, min_angle: float = MIN_CONCAVE_ANGLE_DEG
+) -> list[tuple[np.ndarray, float]]:
     """Return the distinct planes (normal, offset) of faces that meet at concave edges, at most one more than `most`.
+
+    min_angle: minimum fold at a concave edge [deg].
 
     They are ordered by the total length of these edges, longest first.
     """
@@ -195,7 +199,7 @@ def concave_planes(triangles: Float[np.ndarray, "n 3 3"], most: int) -> list[tup
     normals, middle = normals_and_areas(triangles)[0], triangles.mean(1)
     f, g = pairs.faces.T
     inward = np.einsum("ij,ij->i", middle[g] - middle[f], normals[f] - normals[g])
-    folded = np.einsum("ij,ij->i", normals[f], normals[g]) < np.cos(np.deg2rad(MIN_CONCAVE_ANGLE_DEG))
+    folded = np.einsum("ij,ij->i", normals[f], normals[g]) < np.cos(np.deg2rad(min_angle))
     concave = np.flatnonzero((inward > 0) & folded)
     ends = corners[pairs.vertices[concave]]
     length = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
