@@ -123,6 +123,13 @@ def test_clips_name_parts_of_the_time(tmp_path):
     assert joint.reason == 'from the animation "Open wide"'
 
 
+def test_bones_are_named(tmp_path):
+    bone = '<node id="arm" type="JOINT"><rotate sid="r">0 1 0 0</rotate></node>'
+    mesh, warnings = read(tmp_path, animation("arm/r.ANGLE", [0, 1], [0, 90], name="Wave"), PLACED + bone)
+    assert mesh.joints == ()
+    assert warnings == ('the animation "Wave" bends a mesh by bones; it is read at rest',)
+
+
 def test_channels_that_move_no_node_are_counted(tmp_path):
     made = animation("door/rotationY.ANGLE", [0, 1], [0, 90]) + animation("steel/diffuse.R", [0, 1], [0, 1], number=1)
     made += animation("door/rotationX.ANGLE", [0, 1], [0, 1, 2], number=2)

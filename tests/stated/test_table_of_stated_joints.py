@@ -23,7 +23,7 @@ ROWS = {
     "channels of shapes, materials and lights; broken ones": animated.test_broken_and_other_channels_are_counted,
     "DAE channels": dae.test_a_translation,
     "bones that move a part rigidly": bones.test_a_bone_at_rest_gives_the_place_of_the_hinge,
-    "bones that bend a mesh": bones.test_a_bone_that_bends_a_mesh_gives_no_joint,
+    "bones that bend a mesh, bones of DAE": bones.test_a_bone_that_bends_a_mesh_gives_no_joint,
     "`KHR_physics_rigid_bodies`, `OMI_physics_joint`": physics.test_a_hinge_between_the_world_and_a_door,
     "physics joints of several axes, or closing a loop": physics.test_what_is_no_joint_of_a_tree_is_counted,
     "masses, colliders and drives of physics extensions": physics.test_a_tree_of_bodies_hangs_on_the_largest_if_none_is_static,

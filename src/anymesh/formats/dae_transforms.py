@@ -93,6 +93,11 @@ def dae_joints(mesh: Mesh, home: Sequence[int], nodes: Sequence[DaeNode], root: 
         label = node.element.get("name") or node.element.get("id") or f"node_{k}"
         T_parent = node.T @ np.linalg.pinv(local_transform(node.element))
         scene[k] = SceneNode(label, None if node.parent < 0 else node.parent, T_parent, node.T)
+    carried = set(home)
+    while above := {nodes[k].parent for k in carried if k >= 0} - carried:
+        carried |= above
+    if bent := [track.name for k, track in tracks.items() if k not in carried and nodes[k].element.get("type") == "JOINT"]:
+        folder.warn(f'the animation "{bent[0]}" bends a mesh by bones; it is read at rest')
     whole = [(names[0] if len(names) == 1 else "", tracks)]
     animations = [(clip.get("name") or clip.get("id") or "", _cut(tracks, *between)) for clip, between in clips] or whole
     return animated_joints(mesh, home, scene, animations, folder)

@@ -22,8 +22,8 @@ READABLE = 60  # characters of a name that are kept in its folder's name
 DIGEST = 12  # hex digits that distinguish folders; with 48 bits, two of a million names collide with probability .002
 # Options of single objects, and the types of their values in a table.
 OPTIONS: dict[str, type] = {
-    "parts": str, "up": str, "scale": str, "root": str, "base": str, "formats": str, "drives": str, "category": str,
-    "parts_list": str, "at_least": int, "seed": int, "time_limit": float,
+    "parts": str, "up": str, "scale": str, "root": str, "animation": str, "base": str, "formats": str, "drives": str,
+    "category": str, "parts_list": str, "at_least": int, "seed": int, "time_limit": float,
 }  # fmt: skip
 TABLES = (".csv", ".parquet")
 PATH, UID, NAME = "path", "uid", "name"  # columns of a table, beside OPTIONS

@@ -57,6 +57,7 @@ class GenerateOptions(Answering, total=False):
     texture: str
     watertight: bool
     root: str | Path | None
+    animation: str
 
 
 @dataclass(frozen=True, eq=False)
