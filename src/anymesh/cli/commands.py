@@ -32,7 +32,8 @@ from anymesh.isolation import AHEAD, shared_pool
 from anymesh.pipeline.options import AnswererOptions
 
 Meshes = Annotated[
-    list[Path], typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF or DAE, or a zip of one; several with --batch.")
+    list[Path],
+    typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF or DAE, or a zip of one; several with --batch."),
 ]
 SceneOption = Annotated[
     str, typer.Option("--scene", help="auto: the mesh is one object, with a warning if not; split: each object of a scene.")
