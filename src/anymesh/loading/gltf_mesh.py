@@ -88,9 +88,10 @@ class GltfMeshes:
         vertices = self._attribute(p, compressed, "POSITION")
         if vertices is None:
             raise DataError("it has no positions, which triangles need")
+        mode = p.get("mode", TRIANGLES) if index is None else TRIANGLES  # Draco holds triangles also for strips
         if index is None:
             index = self.buffers.array(p["indices"])[:, 0] if "indices" in p else np.arange(len(vertices))
-        faces = _faces(p.get("mode", TRIANGLES), index.astype(np.int64))
+        faces = _faces(mode, index.astype(np.int64))
         if not len(faces):
             return None
         look = self.looks[p["material"]] if 0 <= p.get("material", -1) < len(self.looks) else GltfMaterial(None)

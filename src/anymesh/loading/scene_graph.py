@@ -82,13 +82,18 @@ def _chain(node: Node) -> tuple[str, ...]:
 def _coarse(nodes: tuple[Node, ...]) -> set[int]:
     """Return the nodes of which a finer level of detail is there."""
     levels: dict[tuple[str, ...], dict[int, int]] = defaultdict(dict)
+    plain: dict[tuple[str, ...], int] = {}  # nodes without a mark, which may be the finest level
     for k, node in enumerate(nodes):
         chain = (*_chain(node)[:-1], node.name)
-        for depth, name in enumerate(chain):
-            if mark := DETAIL.search(name):
-                rest = DETAIL.sub("", name).strip("_-. ").lower()
-                levels[*chain[:depth], re.sub(r"[\W_]+", "_", rest)][k] = int(mark[1])
-                break
+        depth, mark = next(((d, m) for d, name in enumerate(chain) if (m := DETAIL.search(name))), (len(chain) - 1, None))
+        key = (*chain[:depth], re.sub(r"[\W_]+", "_", DETAIL.sub("", chain[depth])).strip("_").lower())
+        if mark is None:
+            plain[key] = k
+        else:
+            levels[key][k] = int(mark[1])
+    for key, k in plain.items():
+        if key in levels:
+            levels[key][k] = -1
     return {k for level in levels.values() for k in level if level[k] > min(level.values())}
 
 
