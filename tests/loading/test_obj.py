@@ -177,6 +177,12 @@ def test_pictures_placed_apart_have_their_own_coordinates(tmp_path) -> None:
     np.testing.assert_allclose(loaded.mesh.corner_more_uv, UV[FACES] + (0.5, 0), atol=1e-6)
 
 
+def test_commas_between_coordinates_are_no_decimal_commas(tmp_path) -> None:
+    loaded = load(tmp_path, obj(body=re.sub(r"(v \S+) (\S+) ", r"\1, \2, ", BOX) + CORNERS))
+    np.testing.assert_allclose(loaded.mesh.triangles, POINTS[FACES])
+    assert loaded.warnings == ()
+
+
 def test_a_grey_bump_is_named(tmp_path) -> None:
     assert told(load(tmp_path, mtl("map_bump grey.png")), "bump pictures of heights")
 

@@ -15,6 +15,7 @@ from anymesh.loading.files import Folder
 from anymesh.types import Material, Mesh, Node, StatedJoint
 
 COMMA = re.compile(r"(?<!\S)([+-]?\d*),(\d+(?:[eE][+-]?\d+)?)(?!\S)")  # a number with a decimal comma
+BETWEEN = re.compile(r"(?<=\d),(?!\S)")  # a comma between numbers that are separated by spaces too
 NO_NUMBER = re.compile(r"(?i)(?<!\S)[+-]?(?:s?nan\S*|1[.,]#\S*)(?!\S)")  # as C libraries write it, such as -nan(ind)
 
 
@@ -34,7 +35,7 @@ def check_geometry(name: str, vertices: Float[np.ndarray, "V 3"], faces: Int[np.
 
 def with_points(text: str, folder: Folder) -> str:
     """Return numbers with points for decimal commas, which give a warning, and with `nan` for all that is no number."""
-    text = NO_NUMBER.sub("nan", text)
+    text = NO_NUMBER.sub("nan", BETWEEN.sub("", text))
     pointed = COMMA.sub(r"\1.\2", text)
     if pointed != text:
         folder.warn("found decimal commas, which are taken for points")
