@@ -28,7 +28,6 @@ MAX_MOTOR_FREQUENCY = 100.0  # [rad/s], for light links with much friction; roto
 MAX_MOTION_SECONDS = 20.0  # [s] maximum duration of a motion; heavy links with little effort are slow
 LEGS = (1.0, 1.0, -1.0, -1.0)  # sequence of motor targets: +1 upper limit, -1 lower; a repeated one holds the position
 TRIES = 5  # positions of another joint that may be in the way
-ARM_JOINTS = 2  # other joints between two links: more are the posture of an arm, which its user chooses
 Coupling = tuple[str, str, np.ndarray]  # a joint, its leader ("" for none), and coefficients of a polynomial
 LIGHT = 1e-9  # [kg, kg m2] for links without inertia in the file, where only the rest pose is used
 
@@ -230,14 +229,22 @@ def _cleared_sweep(bench: MujocoBench, index: int, steps: int) -> JointSweep:
         moved[own[0]] = float(bench.ranges[own[0], 1])
         opened = tuple(bench.model.joint(k).name for k in moved)
         sweep = replace(_sweep(bench, index, steps, moved), opened=opened)
-    if not sweep.faults or len(between) >= ARM_JOINTS:
-        return sweep if not sweep.faults else replace(first, posture=True)
+    if not sweep.faults:
+        return sweep
+    if any(_serial(bench.model, index, other) for other in between):
+        return replace(first, posture=True)
     for other in between:
         for position in np.linspace(*bench.ranges[other][::-1], TRIES):
             tried = _sweep(bench, index, steps, {other: float(position)})
             if not tried.faults:
                 return replace(tried, opened=(bench.model.joint(other).name,))
     return sweep
+
+
+def _serial(model: Any, a: int, b: int) -> bool:
+    """Return whether one of two joints carries the other, as in an arm, whose user chooses the posture."""
+    first, second = int(model.jnt_bodyid[a]), int(model.jnt_bodyid[b])
+    return bool(_carried(model, first)[second] or _carried(model, second)[first])
 
 
 def _between(bench: MujocoBench, index: int, against: str) -> list[int]:
@@ -317,9 +324,11 @@ def _driven(bench: MujocoBench, index: int, moved: Mapping[int, float]) -> tuple
         start = goal
         mujoco.mj_forward(model, data)
         blew_up |= is_unstable(data)
-        step = float(data.qpos[address] - model.qpos0[address])
-        off = max(off, _off(model.jnt_type[index] == mujoco.mjtJoint.mjJNT_SLIDE, step, place, data.geom_xpos[geoms]))
         reached[way] = float(data.qpos[address])
+        data.qpos[others] = start_posture[others]  # what moves the other joints does not count
+        mujoco.mj_kinematics(model, data)
+        step = reached[way] - float(start_posture[address])
+        off = max(off, _off(model.jnt_type[index] == mujoco.mjtJoint.mjJNT_SLIDE, step, place, data.geom_xpos[geoms]))
     return (reached[-1.0], reached[1.0]), drift, off, bool(blew_up)
 
 
