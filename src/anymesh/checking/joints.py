@@ -28,6 +28,7 @@ DIRECTION = "direction"
 TOLERANCE = 0.01  # share of the object's diagonal: allowed penetration
 STOPPED = 0.5  # share of the distance to a limit; a link that stops earlier penetrates its parent
 FREER = 2.0  # ratio of the free distances from which the axis counts as reversed
+OVERTRAVEL = 0.1  # share of the way that is blocked; a joint that moves further the other way is not reversed
 STEPS = 24
 FACES = 20_000
 MIN_MOTION_RATIO = 0.02  # share of the object's diagonal or of a turn; shorter motions are not checked
@@ -128,7 +129,7 @@ def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: Triangle
         way = "positive" if sign > 0 else "negative"
         problem = f"{way} motion drives {joint.child!r} into {joint.parent!r} after {free:.3g} of {most:.3g} {unit}"
         covered = -joint.range[0] if sign > 0 else joint.range[1]  # what the joint may move the other way already
-        if other >= FREER * free and other >= STOPPED * most > covered:
+        if other >= FREER * free and other >= STOPPED * most and covered <= OVERTRAVEL * most:
             free_for = f"the opposite direction is free for {other:.3g} {unit}"
             yield failure(DIRECTION, joint.name, f"{problem}; {free_for}, so the axis is reversed")
         else:

@@ -132,7 +132,7 @@ class DaeMaterials:
 
     def _texture(self, element: ET.Element, params: Mapping[str, ET.Element]) -> _Value:
         name, wrap = element.get("texture", ""), (REPEAT, REPEAT)
-        param = params.get(name)
+        param = params.get(name, params.get(f"{name}-sampler"))  # the second as some robots' meshes are written
         sampler = None if param is None else next((c for c in param if c.tag.lower().startswith("sampler")), None)
         if sampler is not None:
             u, v = (WRAPS.get((sampler.findtext(tag) or "WRAP").strip(), REPEAT) for tag in ("wrap_s", "wrap_t"))
