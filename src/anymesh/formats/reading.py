@@ -16,12 +16,15 @@ from anymesh.loading.files import FileMesh, Folder
 
 LIMITS = ChildLimits(seconds=600.0, memory=16 << 30, calls=64)
 USD = ("anymesh.formats.usd.stage_", "read_usd", "pxr", "usd")
+STEP = ("anymesh.formats.step_", "read_step", "cascadio", "step")
 READERS = {  # module, function, the library that it needs, the extra that brings it
     ".usd": USD,
     ".usda": USD,
     ".usdc": USD,
     ".usdz": USD,
     ".3mf": ("anymesh.formats.threemf", "read_3mf", "zipfile", ""),
+    ".step": STEP,
+    ".stp": STEP,
     ".fbx": ("anymesh.formats.fbx_", "read_fbx", "ufbx", "fbx"),
 }
 

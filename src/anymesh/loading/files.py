@@ -58,7 +58,7 @@ SIGNS = {  # start of files of other formats
 STARTS = {
     ".glb": rb"glTF", ".gltf": SIGNS["glTF"], ".ply": rb"ply", ".off": SIGNS["OFF"], ".dae": rb"(?s).{0,4088}<COLLADA",
     **dict.fromkeys((".usd", ".usda", ".usdc"), SIGNS["USD"]), ".usdz": rb"PK", ARCHIVE: rb"PK\x03\x04",
-    ".3mf": rb"PK", ".fbx": rb"(?s)Kaydara FBX|.{0,4088}FBXHeader",
+    **dict.fromkeys((".step", ".stp"), rb"\s*ISO-10303-21"), ".3mf": rb"PK", ".fbx": rb"(?s)Kaydara FBX|.{0,4088}FBXHeader",
 }  # fmt: skip
 
 
