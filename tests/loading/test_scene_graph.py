@@ -57,6 +57,7 @@ def counts(mesh: Mesh) -> dict[str, int]:
         # one mesh per material: three.js, Babylon, shapes of Maya, the material's name
         ([(("Body",), "a"), (("Lid", "Lid_1"), "a"), (("Lid", "Lid_2"), "b")], {"Body": 1, "Lid": 2}),
         ([(("Body",), "a"), (("Lid", "Lid_primitive0"), "a"), (("Lid", "Lid_primitive1"), "b")], {"Body": 1, "Lid": 2}),
+        ([(("Body",), "a"), (("Lid", "Lid_defaultMaterial_0"), ""), (("Lid", "Lid_lambert1_0"), "x")], {"Body": 1, "Lid": 2}),
         ([(("Body", "BodyShape"), "a"), (("Lid", "LidShape"), "a")], {"Body": 1, "Lid": 1}),
         # objects of their own that are numbered, or several below a plural
         ([(("Body",), "a"), (("Drawers", "Drawers_1"), "b"), (("Drawers", "Drawers_2"), "b")],
@@ -98,6 +99,7 @@ def test_a_path_leads_to_the_node_that_was_joined(folder) -> None:
          "2 collision shapes are left out, the visual meshes are kept: UCX_Body_00, UBX_Body"),
         (["Body", "Body-col"], ["Body"], "1 collision shape is"),
         (["Body", "Body-convcolonly", "floor-colonly"], ["Body"], "2 collision shapes"),
+        (["Body", "COL_Body", "body_collision_mesh"], ["Body"], "2 collision shapes"),
         (["Body", "body_collider", "Collision_hull"], ["Body"], "2 collision shapes"),
         ([("Body",), ("collision", "Cube")], ["Body"], "1 collision shape"),
         (["Lid", "Camera001.Target", "SpotLightHelper"], ["Lid"],
@@ -111,7 +113,8 @@ def test_what_is_not_part_of_the_object_is_left_out(names, kept, warning, folder
 
 
 @pytest.mark.parametrize(
-    "names", [["Body-col", "Lid"], ["UCX_a", "UCX_b"], ["Lodge1", "Colander", "Protocol"], ["Camera", "Lamp"]]
+    "names",
+    [["Body-col", "Lid"], ["UCX_a", "UCX_b"], ["Lodge1", "Colander", "Protocol", "col_a", "a-col-b"], ["Camera", "Lamp"]],
 )
 def test_what_may_be_seen_is_kept(names, folder) -> None:
     assert list(counts(scene(*((name, "a") for name in names), folder=folder))) == names
@@ -119,7 +122,7 @@ def test_what_may_be_seen_is_kept(names, folder) -> None:
 
 
 def test_names_that_programs_give() -> None:
-    generic = "Object_4 mesh_0_3 defaultMaterial Cube.001 polySurface12 ID7 Group#3 cabinet.fbx Box01 12 RootNode".split()
+    generic = "Object_4 mesh_0_3 defaultMaterial Cube.001 polySurface12 ID7 Group#3 cabinet.fbx Box01 12 RootNode pCubeShape1 =>[0:1:1:2] NAUO7".split()
     assert [name for name in generic if not is_generic(name)] == []
     assert [name for name in "Door base body Boxer panel_2 Grouper 门 Handle.001".split() if is_generic(name)] == []
 
@@ -157,3 +160,8 @@ def test_each_row_of_the_table_on_names_is_true(row, folder) -> None:
 
 def test_the_table_on_names_has_these_rows() -> None:
     check_table("Names, levels of detail and helpers", NAMES)
+
+
+def test_long_names_take_no_time(folder) -> None:
+    names = [c * 20_000 for c in ("_-", "0", "a.", "LOD1_")]
+    assert len(scene(*(((name, f"{name}x"), "a") for name in names), folder=folder).nodes) == 4

@@ -21,26 +21,34 @@ from anymesh.vocabulary import is_fixed_name, names_several, recognize, words_of
 
 SKETCHFAB = "Sketchfab_model"  # root of its files, in which a number is added to each name
 SHOWN = 5  # names in a warning
+LONGEST = 200  # characters of a name that are looked at
 # Names that exporters and modelling programs give by themselves. With a file's suffix: the name of a converted file.
 GENERIC = re.compile(
     r"""(?ix) (?: (?:
-      object | obj | meshes | mesh | nodes? | geometry | geom | geo | prim(?:itive)?s? | group | grp | g | id | model | part |
-      shape | surface | solid | component | instance | entity | unnamed | untitled | none | null | empty | transform |
-      default(?:_?material)? | material | mat | sub_?mesh | element | locator | dummy | armature | skeleton | bone | joint |
-      b?rep | poly_?surface | p?(?:cube|cylinder|sphere|plane|torus|cone|pipe|prism|disc) | circle | icosphere | suzanne | box |
-      line | curve | nurbs(?:path|curve)? | bezier(?:curve|circle)? | text | rectangle | loft | extrude |
-      root | root_?node | scene(?:[ _]root)? | gltf_sceneroot_?node | world | sketchfab_?(?:model|scene)? | osg_?scene |
-      auxscene | visuals? | collada[ ]?visual[ ]?scene(?:[ ]group)? | visual_?scene(?:node)? | collection
-    ) [\W_\d]* | [\W_\d]* | [0-9a-f-]{16,}[\W_\d]* |
+      object | obj | mesh(?:es)? | nodes? | geometry | geom | geo | geode | prim(?:itive)?s? |
+      group | grp | g | id | model | part | shape | surface | solid | compound | component | instance | entity | nauo |
+      unnamed | untitled | none | null | empty | (?:matrix)?transform | default(?:_?material)? | material | mat | sub_?mesh |
+      element | locator | dummy | armature | skeleton | bone | joint | b?rep | poly_?surface | editable_?(?:mesh|poly) |
+      p?(?:cube|cylinder|sphere|plane|torus|cone|pipe|prism|disc) | circle | (?:ico|geo)sphere | suzanne | tube |
+      (?:chamfer)?box | chamfer_?cyl(?:inder)? | line | curve | nurbs(?:path|curve)? | bezier(?:curve|circle)? | text |
+      rectangle | loft | extrude | root | root_?node | scene(?:[ _]root)? | gltf_sceneroot_?node | world | auxscene |
+      sketchfab_?(?:model|scene)? | osg_?scene | collada[ ]?visual[ ]?scene(?:[ ]group)? | visual_?scene(?:node)? | collection
+    ) (?:_?shape)? [\W_\d]* | [\W_\d]* | [0-9a-f-]{16,}[\W_\d]* |
     .*\.(?:fbx|obj|dae|blend|3ds|max|gltf|glb|stl|ply|skp|c4d|ma|mb|stp|step)\b.* )"""
 )
 NUMBERED = re.compile(r"(?i)[\W_]*(?:mesh_?part|primitive|sub_?mesh|part|mesh|material|mat)?[\W_]*\d+")
-SHAPE = re.compile(r"(?i)[\W_]*(?:shape|mesh|geo(?:metry)?)\d*")
+SHAPE = re.compile(  # or a material without a name of its own
+    r"(?i)[\W_]*(?:shape|mesh|geo(?:metry)?|(?:default_?)?mat(?:erial)?|lambert|phong|blinn|initial_?shading_?group)[\W_\d]*"
+)
 NUMBER = re.compile(r"_\d+$")
 SEVERAL = frozenset("unit set group assembly kit collection all part object thing".split())
 DETAIL = re.compile(r"(?:(?<![A-Za-z])(?i:LOD)|(?<=[a-z0-9])LOD)[\W_]?(\d{1,2})(?!\d)")
 COLLIDES = re.compile(r"(?:UCX|UBX|USP|UCP|MCDCX)_|.*-(?:conv)?colonly\b")
-BESIDE_VISUAL = re.compile(r"(?i)(.+)[-_](?:conv)?col(?:[-_.]?\d+)?")  # Godot: beside or instead of the visual mesh
+COLLISION_WORDS = frozenset("collision collider hitbox".split())
+FORM_WORDS = frozenset("mesh hull box shape geometry geo proxy object".split())  # may follow these words
+BESIDE_VISUAL = re.compile(
+    r"(?i)(?:(?:conv)?col[-_])?(.+?)(?:[-_](?:conv)?col(?:[-_.]?\d+)?)?"
+)  # Godot: such a mesh may be seen
 HELPER = re.compile(
     r"(?i)(?:.*\.target|(?:camera|(?:spot|point|directional|hemisphere|rect_?area)_?light|grid|axes)_?helper)[\W_\d]*"
 )
@@ -56,7 +64,7 @@ def scene_of_objects(mesh: Mesh, folder: Folder) -> Mesh:
 
 def is_generic(name: str) -> bool:
     """Return whether programs give such a name by themselves, so that it names no object."""
-    return GENERIC.fullmatch(name) is not None and recognize(name) is None and not is_fixed_name(name)
+    return GENERIC.fullmatch(name[:LONGEST]) is not None and recognize(name) is None and not is_fixed_name(name)
 
 
 def leave_out_warning(names: Sequence[str], text: str) -> str:
@@ -100,19 +108,19 @@ def _coarse(nodes: tuple[Node, ...]) -> set[int]:
 def _collides(nodes: tuple[Node, ...]) -> set[int]:
     visible = {re.sub(r"[\W_]+", "_", node.name).lower() for node in nodes}
 
-    def beside(name: str) -> bool:
-        base = BESIDE_VISUAL.fullmatch(name)
-        return base is not None and re.sub(r"[\W_]+", "_", base[1]).lower() in visible
-
     def named(name: str) -> bool:
         words = words_of(name)
-        return COLLIDES.match(name) is not None or bool({"collider", "collision"} & {*words[:1], *words[-1:]}) or beside(name)
+        while len(words) > 1 and words[-1] in FORM_WORDS:
+            words.pop()
+        base = BESIDE_VISUAL.fullmatch(name[:LONGEST])
+        beside = base is not None and base[1] != name and re.sub(r"[\W_]+", "_", base[1]).lower() in visible
+        return beside or COLLIDES.match(name) is not None or bool(COLLISION_WORDS & {*words[:1], *words[-1:]})
 
     return {k for k, node in enumerate(nodes) if any(named(name) for name in {*_chain(node), node.name})}
 
 
 def _helps(nodes: tuple[Node, ...]) -> set[int]:
-    return {k for k, node in enumerate(nodes) if any(HELPER.fullmatch(name) for name in _chain(node))}
+    return {k for k, node in enumerate(nodes) if any(HELPER.fullmatch(name[:LONGEST]) for name in _chain(node))}
 
 
 Chain = tuple[str, ...]  # names from the scene's root down to a node
@@ -172,7 +180,7 @@ def _is_split(name: str, parent: str, materials: Sequence[str], apart: bool) -> 
     """Return whether a name is that of the node above with a number or a material; apart: each has a material of its own."""
     for stem in {parent, NUMBER.sub("", parent)}:
         if stem and name.startswith(stem):
-            rest = name[len(stem) :]
+            rest = name[len(stem) :][:LONGEST]
             if SHAPE.fullmatch(rest) or (apart and NUMBERED.fullmatch(rest)):
                 return True
             if any({_plain(rest), _plain(NUMBER.sub("", rest))} & {_plain(m)} - {""} for m in materials):

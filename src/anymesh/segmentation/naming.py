@@ -66,7 +66,7 @@ def _without_materials(mesh: Mesh, present: Sequence[int]) -> list[str]:
         used = np.unique(mesh.face_material[mesh.face_node == n])
         material = mesh.materials[used[0]].name if len(used) == 1 and used[0] >= 0 else ""
         part_word = recognize(material) is not None or is_fixed_name(material)
-        end = re.search(rf"[\W_]+{re.escape(material)}$", name, re.IGNORECASE) if material and not part_word else None
+        end = re.search(rf"[\W_]+{re.escape(material)}(?:_\d+)?$", name, re.IGNORECASE) if material and not part_word else None
         stems.append(name[: end.start()] if end else "")
     return [stem if stem and stems.count(stem) > 1 else name for stem, name in zip(stems, names, strict=True)]
 
