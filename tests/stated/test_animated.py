@@ -213,6 +213,28 @@ def test_broken_and_other_channels_are_counted(tmp_path):
     assert "broken" in read(g, tmp_path)[1][0]
 
 
+def test_a_pose_at_rest_that_is_none_of_the_animation(tmp_path):
+    g, door = cabinet()
+    g.doc["nodes"][door]["translation"] = [0.25, 0, 0.6]
+    g.turn(door, [0, 90])
+    g.animate(door, "translation", [0, 1], [PIVOT, PIVOT])
+    assert_hinge(only(read(g, tmp_path)[0]), (0, 1, 0), (0.25, 0, 0.6), (0, 90))
+
+
+def test_a_handle_that_is_animated_with_its_door_is_a_part_of_it(tmp_path):
+    g, door = cabinet()
+    handle = g.box((-0.45, 0.3, 0.02), (-0.43, 0.4, 0.05), "Handle", translation=PIVOT)
+    drawers = [g.box((-0.2, y, -0.3), (0.2, y + 0.1, 0.2), f"Drawer_{k}") for k, y in enumerate((0.1, 0.2))]
+    for node in (handle, door):
+        g.turn(node, [0, 90])
+    for node in drawers:
+        g.slide(node, [0, 0.3])
+    mesh, _ = read(g, tmp_path)
+    assert sorted(j.name for j in mesh.joints) == ["Door", "Drawer_0", "Drawer_1"]
+    of = {node.name: node.joint for node in mesh.nodes}
+    assert of["Handle"] == of["Door"]
+
+
 def test_a_pointer_stands_for_a_channel(tmp_path):
     g, door = cabinet()
     g.turn(door, [0, 90])

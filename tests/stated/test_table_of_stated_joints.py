@@ -14,6 +14,10 @@ ROWS = {
     "rotation and translation that together are a turn": animated.test_a_turn_and_a_shift_that_are_a_turn_about_another_axis,
     "a turn of 342 degrees or more": animated.test_a_wheel_turns_without_limits,
     "translation along a line": animated.test_a_drawer_slides,
+    "parts that touch and always move together (a handle keyed with its door)": (
+        animated.test_a_handle_that_is_animated_with_its_door_is_a_part_of_it
+    ),
+    "a pose at rest that is none of the animation": animated.test_a_pose_at_rest_that_is_none_of_the_animation,
     "several animations of one node": animated.test_several_animations_of_a_node_are_one_joint_over_their_whole_range,
     "STEP, LINEAR and CUBICSPLINE keys": animated.test_steps_and_splines,
     "everything moves (a turntable)": animated.test_a_turntable_is_no_joint_but_a_door_on_it_is,

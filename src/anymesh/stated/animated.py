@@ -28,6 +28,8 @@ MAX_CURVE_RATIO = 0.02  # of its travel: how far a slide may be off its line
 MAX_SWING = float(np.sin(np.deg2rad(1)))  # sine of half the turn about other axes than that of a hinge
 MAX_STRETCH = 0.02  # of a rigid motion
 MAX_AXIS_DISTANCE = 100.0  # of the part's diagonal: a farther axis is none
+MAX_SHARE = 0.6  # of the larger part's diagonal: a part that moves with it and touches it belongs to it
+MAX_GAP_RATIO = 0.005  # of the object's diagonal: between the boxes of parts that touch
 FULL_TURN_RAD = 1.9 * np.pi  # [rad] a longer turn has no limits
 SAME_AXIS_COSINE = float(np.cos(np.deg2rad(2)))
 NOISE = 1e-3  # of the larger excursion: a smaller one is that of rounded keys
@@ -103,10 +105,15 @@ class _Animated:
         joints, number, free = list[StatedJoint](), dict[int, int](), list[str]()
         if self.whole and self.base is not None and self._fits(self.base):
             folder.warn("an animation moves the whole object, which is no joint")
-        for c in sorted((c for c in self.box if c != self.base), key=lambda c: (len(self._carriers(c)), c)):
+        for c in sorted((c for c in self.box if c != self.base), key=self._order):
             fits = self._fits(c)
             joint, others = _joint(fits, self.nodes[c], self.box[c])
             name = self.nodes[c].name
+            larger = self._beside(c, list(number)) if joint is not None else []
+            whole = next((k for k in larger if self._together(c, k)), None)
+            if whole is not None:
+                number[c] = number[whole]
+                continue
             free += [f"{name} ({why})" for why in others]
             if joint is not None:
                 carried = (number[k] for k in self._carriers(c) if k in number)
@@ -117,6 +124,10 @@ class _Animated:
         owner = [next((number[k] for k in [c, *self._carriers(c)] if k in number), -1) for c in self.carrier]
         nodes = tuple(replace(node, joint=o) for node, o in zip(self.mesh.nodes, owner, strict=True))
         return replace(self.mesh, nodes=nodes, joints=tuple(joints))
+
+    def _order(self, c: int) -> tuple[int, float, int]:
+        """Return a key that sorts parents before what they carry, and large parts before what they may hold."""
+        return len(self._carriers(c)), -float(np.linalg.norm(self.box[c][1] - self.box[c][0])), c
 
     def _upwards(self, key: int | None) -> list[int]:
         above = list[int]()
@@ -167,10 +178,35 @@ class _Animated:
             if on_base:
                 motion = np.linalg.pinv(self._along(on_base, tracks, times)) @ motion
             fit = _fit(motion, keyed, self.box[carrier], self.nodes[carrier].T[:3, 3])
+            if isinstance(fit, str):  # the pose at rest may be none of the animation; then the axis moves with the part
+                again = _fit(np.linalg.pinv(motion[0]) @ motion, keyed, self.box[carrier], self.nodes[carrier].T[:3, 3])
+                fit = fit if again is None else again
             if fit is not None:
                 own = (tracks[k].name for k in reversed(chain) if k in tracks)
                 fits.append((name or next(own, ""), fit))
         return fits
+
+    def _beside(self, carrier: int, others: Sequence[int]) -> list[int]:
+        """Return much larger parts on the same parent that a carrier touches by its box."""
+        others = [k for k in others if self.parent[k] == self.parent[carrier]]
+        if not others:
+            return []
+        (low, high), boxes = self.box[carrier], np.array([self.box[k] for k in others])
+        large = np.linalg.norm(boxes[:, 1] - boxes[:, 0], axis=1) * MAX_SHARE >= np.linalg.norm(high - low)
+        gap = np.maximum(boxes[:, 0] - high, low - boxes[:, 1]).max(1)
+        return [others[n] for n in np.flatnonzero(large & (gap <= MAX_GAP_RATIO * self.mesh.diagonal))]
+
+    def _together(self, carrier: int, other: int) -> bool:
+        """Return whether two carriers move alike in all animations, as a handle and its door."""
+        chains = self._chain(carrier), self._chain(other)
+        for _, tracks in self.animations:
+            keys = [tracks[k].times for k in (*chains[0], *chains[1]) if k in tracks]
+            if keys:
+                times = np.unique(np.concatenate(keys))[:MAX_KEYS]
+                motions = [self._along(chain, tracks, times) for chain in chains]
+                if np.abs(motions[0] - motions[1]).max() > MAX_OFF_RATIO * min(1.0, self.mesh.diagonal):
+                    return False
+        return True
 
     def _along(self, chain: list[int], tracks: Mapping[int, NodeTrack], times: np.ndarray) -> np.ndarray:
         motion = np.tile(np.eye(4), (len(times), 1, 1))
