@@ -80,6 +80,7 @@ class StageReader:
         self._skins = pxr.UsdSkel.Cache()
         self._meshes: dict[tuple[Any, ...], Mesh | None] = {}
         self._left_out: Counter[str] = Counter()
+        self._constants: dict[tuple[float, ...], int] = {}  # display colours that are materials
         self._placed: list[PlacedPrim] = []
         self._faces = 0
 
@@ -354,7 +355,9 @@ class StageReader:
         if look is None and (colors == colors[:1, :1]).all():
             mode = "BLEND" if first[3] < 1 else "OPAQUE"
             red, green, blue, opaque = (float(c) for c in first)
-            return Material("displayColor", (red, green, blue, opaque), alpha_mode=mode)
+            color = (red, green, blue, opaque)
+            number = self._constants.setdefault(color, len(self._constants))  # a name that says nothing of the part
+            return Material(f"material_{number}", color, alpha_mode=mode)
         flat = colors.reshape(-1, 4)
         return rgba(np.c_[to_srgb(flat[:, :3]), flat[:, 3]]).reshape(-1, 3, 4)
 
