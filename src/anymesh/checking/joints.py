@@ -129,7 +129,12 @@ def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: Triangle
         way = "positive" if sign > 0 else "negative"
         problem = f"{way} motion drives {joint.child!r} into {joint.parent!r} after {free:.3g} of {most:.3g} {unit}"
         covered = -joint.range[0] if sign > 0 else joint.range[1]  # what the joint may move the other way already
-        if other >= FREER * free and other >= STOPPED * most and covered <= OVERTRAVEL * most:
+        reversed_ = other >= FREER * free and other >= STOPPED * most and covered <= OVERTRAVEL * most
+        alone = content.at_rest(rigid_groups(content.robot)[joint.child])  # without what it carries, such as a latch
+        if reversed_ and len(alone):
+            latch = Obstacles(triangle_set_of(simplify(alone, FACES)), rest, TOLERANCE * content.diagonal)
+            reversed_ = free_amount(latch, motion, sign, most, STEPS)[0] < STOPPED * most
+        if reversed_:
             free_for = f"the opposite direction is free for {other:.3g} {unit}"
             yield failure(DIRECTION, joint.name, f"{problem}; {free_for}, so the axis is reversed")
         else:

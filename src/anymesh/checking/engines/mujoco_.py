@@ -27,6 +27,7 @@ MOTOR_FREQUENCY_1S = 30.0  # [rad/s] natural frequency of a motor whose motion t
 MAX_MOTOR_FREQUENCY = 100.0  # [rad/s], for light links with much friction; rotor inertia is added to keep it
 MAX_MOTION_SECONDS = 20.0  # [s] maximum duration of a motion; heavy links with little effort are slow
 LEGS = (1.0, 1.0, -1.0, -1.0)  # sequence of motor targets: +1 upper limit, -1 lower; a repeated one holds the position
+ENDLESS = 8.0  # ratio to half a turn, or to the asset, from which a range means that there is none (some write 1e16)
 TRIES = 5  # positions of another joint that may be in the way
 Coupling = tuple[str, str, np.ndarray]  # a joint, its leader ("" for none), and coefficients of a polynomial
 LIGHT = 1e-9  # [kg, kg m2] for links without inertia in the file, where only the rest pose is used
@@ -87,6 +88,7 @@ def make_bench(mujoco: Any, path: Path) -> tuple[MujocoBench, tuple[tuple[str, s
         spec.add_exclude(bodyname1=excluded[-1][0], bodyname2=excluded[-1][1])
     limited = model.jnt_limited.astype(bool)[:, None]
     unlimited = np.where(model.jnt_type == mujoco.mjtJoint.mjJNT_SLIDE, model.stat.extent, np.pi)[:, None] * (-1.0, 1.0)
+    limited &= np.ptp(model.jnt_range, axis=1)[:, None] <= ENDLESS * unlimited[:, 1:]
     ranges = np.where(limited, model.jnt_range, unlimited).reshape(-1, 2)
     single = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
     joints = tuple(k for k in range(model.njnt) if int(model.jnt_type[k]) in single)
@@ -127,6 +129,7 @@ def _strip(spec: Any, mujoco: Any) -> tuple[list[Coupling], list[tuple[str, str]
         for thing in list(things):
             spec.delete(thing)
     for joint in list(spec.joints):
+        joint.margin = 0.0  # a limit that acts earlier keeps a motor from it
         if joint.type in (mujoco.mjtJoint.mjJNT_FREE, mujoco.mjtJoint.mjJNT_BALL):
             spec.delete(joint)
     without_ground(spec, mujoco)

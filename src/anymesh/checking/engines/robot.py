@@ -20,6 +20,7 @@ from anymesh.types import JointType, Motion
 MOVING = ("revolute", "continuous", "prismatic")
 SIZES = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length"), "capsule": ("radius", "length")}
 Element = ElementTree.Element
+ENDLESS_RAD = 8 * np.pi  # [rad]
 XACRO = "xacro}"  # end of the namespace of macros
 DEFAULT_MIMIC = (("multiplier", "1"), ("offset", "0"))
 
@@ -94,8 +95,9 @@ class RobotJoint:
 
     @property
     def range(self) -> tuple[float, float]:
-        """The limits; half a turn each way if there are none."""
-        return (-np.pi, np.pi) if self.type == "continuous" or self.limits is None else self.limits
+        """The limits; half a turn each way if there are none, or if they are so wide that they mean none."""
+        endless = self.type == "revolute" and self.limits is not None and np.ptp(self.limits) > ENDLESS_RAD
+        return (-np.pi, np.pi) if self.type == "continuous" or self.limits is None or endless else self.limits
 
     def transform(self, position: float) -> Float[np.ndarray, "4 4"]:
         """Return the transform from the child's frame to the parent's, at a position [rad or m]."""
