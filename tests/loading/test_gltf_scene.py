@@ -310,3 +310,11 @@ def test_morph_targets_at_the_weights_of_the_node(tmp_path) -> None:
     g.doc["meshes"][0]["weights"] = [1]
     g.doc["nodes"][0]["weights"] = [0.25]
     assert load_mesh(put(tmp_path, "a.glb", g.glb())).mesh.bounds[0] == pytest.approx(LOW + np.array([1, 0, 0]))
+
+
+def test_nodes_too_deep_are_refused(tmp_path) -> None:
+    g = plain_gltf()
+    for k in range(600):
+        g.node(root=False, children=[k])
+    g.doc["scenes"][0]["nodes"] = [600]
+    assert_refused(put(tmp_path, "a.glb", g.glb()), "over 500 within each other")

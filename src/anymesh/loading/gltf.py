@@ -24,6 +24,7 @@ READ = (
     "EXT_meshopt_compression", "KHR_meshopt_compression", "EXT_mesh_gpu_instancing", "KHR_node_visibility", "MSFT_lod",
     "KHR_lights_punctual",
 )  # fmt: skip
+MAX_DEPTH = 500  # nodes within each other
 LEFT_OUT = {  # reasons why a node is not part of the object
     "hidden": "hidden node{} {} left out (KHR_node_visibility)",
     "coarse": "coarser level{} of detail {} left out, the finest is kept (MSFT_lod)",
@@ -90,6 +91,8 @@ def _placed(name: str, tree: dict[str, Any], folder: Folder) -> dict[int, Placed
         index, T_parent, path, why = waiting.pop()
         if index in seen or not 0 <= index < len(nodes):
             raise InputError(f"{name}: node {index} has two parents or is none of {len(nodes)}; valid is a tree of nodes")
+        if len(path) > MAX_DEPTH:
+            raise InputError(f"{name}: found nodes over {MAX_DEPTH} within each other, which is the most that is read")
         node = nodes[index]
         if node.get("extensions", {}).get("KHR_node_visibility", {}).get("visible", True) is False:
             why = "hidden"

@@ -123,6 +123,13 @@ def _helps(nodes: tuple[Node, ...]) -> set[int]:
     return {k for k, node in enumerate(nodes) if any(HELPER.fullmatch(name[:LONGEST]) for name in _chain(node))}
 
 
+def materials_of_nodes(mesh: Mesh) -> list[list[int]]:
+    """Return the materials of each node that has faces, -1 for none, in the order of the nodes."""
+    pair = np.unique(mesh.face_node * (len(mesh.materials) + 1) + mesh.face_material + 1)
+    node, material = np.divmod(pair, len(mesh.materials) + 1)
+    return [(mine - 1).tolist() for mine in np.split(material, np.flatnonzero(np.diff(node)) + 1)]
+
+
 Chain = tuple[str, ...]  # names from the scene's root down to a node
 
 
@@ -130,9 +137,7 @@ def _named(mesh: Mesh) -> Mesh:
     """Return the mesh with nodes that are parts of one object joined, and named after it."""
     present = np.unique(mesh.face_node)
     nodes, number = [mesh.nodes[k] for k in present], np.searchsorted(present, mesh.face_node)
-    used = np.divmod(np.unique(number * (len(mesh.materials) + 1) + mesh.face_material + 1), len(mesh.materials) + 1)
-    materials = [used[1][used[0] == k] - 1 for k in range(len(nodes))]
-    objects = _objects(nodes, [[mesh.materials[m].name for m in mine if m >= 0] for mine in materials])
+    objects = _objects(nodes, [[mesh.materials[m].name for m in mine if m >= 0] for mine in materials_of_nodes(mesh)])
     groups: dict[tuple[Chain, int], list[int]] = defaultdict(list)
     for k, (chain, _) in enumerate(objects):
         groups[chain, nodes[k].joint].append(k)

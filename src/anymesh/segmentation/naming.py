@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.errors import InputError, OptionError
+from anymesh.loading.scene_graph import materials_of_nodes
 from anymesh.names import legal_names, listed
 from anymesh.types import Mesh, Part, Segmentation
 from anymesh.vocabulary import is_fixed_name, recognize
@@ -62,8 +63,7 @@ def parts_from_nodes(mesh: Mesh) -> Segmentation:
 def _without_materials(mesh: Mesh, present: Sequence[int]) -> list[str]:
     """Return the names of nodes, without the material's where an object is one node per material (`door_oak`, `door_steel`)."""
     names, stems = [mesh.nodes[n].name for n in present], list[str]()
-    for n, name in zip(present, names, strict=True):
-        used = np.unique(mesh.face_material[mesh.face_node == n])
+    for used, name in zip(materials_of_nodes(mesh), names, strict=True):
         material = mesh.materials[used[0]].name if len(used) == 1 and used[0] >= 0 else ""
         part_word = recognize(material) is not None or is_fixed_name(material)
         end = re.search(rf"[\W_]+{re.escape(material)}(?:_\d+)?$", name, re.IGNORECASE) if material and not part_word else None
