@@ -204,6 +204,7 @@ def _faulty(read: Read) -> None:
         assert loaded.mesh.materials[0].textures == {}
         assert len(loaded.warnings) == ("textures" not in faulty or faulty["textures"] != [{}, {}])
     assert "left out" in read(textured(), b"no picture").warnings[0]
+    assert "texture coordinates of" in read(textured(texCoord=4)).warnings[0]
     assert "1 of 1 primitives refer to a material" in read({}, used=5).warnings[0]
 
 

@@ -121,8 +121,10 @@ def tiled(mesh: Mesh) -> Mesh:
 
 def _laid_out(textures: Mapping[str, Texture], uv: Float32[np.ndarray, "F 3 2"], faces: np.ndarray) -> dict[str, Texture]:
     """Return pictures that repeat over the coordinates of some faces, which are changed to fit them."""
-    low, high = uv[faces].min((0, 1)).tolist(), uv[faces].max((0, 1)).tolist()
     wraps = [{t.wrap[axis] for t in textures.values() if t.uv_set == 0} for axis in (0, 1)]
+    if wraps[0] | wraps[1] <= {REPEAT}:
+        return dict(textures)
+    low, high = uv[faces].min((0, 1)).tolist(), uv[faces].max((0, 1)).tolist()
     if all(_fits(wraps[axis], low[axis], high[axis]) for axis in (0, 1)):
         return dict(textures)
     pixels = {slot: t.pixels() for slot, t in textures.items() if t.uv_set == 0}

@@ -115,6 +115,9 @@ class GltfMeshes:
             faces = np.where(mirrored[faces[:, :1].clip(0, len(vertices) - 1)], faces[:, ::-1], faces)
         faces = self._usable(vertices, faces)
         uv, more_uv = look.coordinates(corners)
+        sets = {key for key in p["attributes"] if key.startswith("TEXCOORD_")}
+        if sets and look.material and look.material.textures and not sets >= {f"TEXCOORD_{k}" for k, _ in look.sets}:
+            self._leave_out(f"texture coordinates of {what}: it has {', '.join(sorted(sets))}, its pictures name others")
         color = corners("COLOR_0")
         normal = None if normal is None else unit(normal)
         mesh = simple_mesh(what, "mesh", vertices, faces, look.material)

@@ -46,7 +46,7 @@ class Texture:
         if self.mime == "image/jpeg":
             return False
         with Image.open(io.BytesIO(self.data)) as image:
-            return image.has_transparency_data and bool((np.asarray(image.convert("RGBA"))[..., 3] < 255).any())
+            return image.has_transparency_data and bool(np.asarray(image.convert("RGBA").getchannel("A")).min() < 255)
 
     def painted(self, pixels: np.ndarray) -> Texture:
         """Return the texture with other pixels (H, W, 3 or 4), 0..255."""
