@@ -132,6 +132,12 @@ def test_which_of_two_conventions_a_coloured_stl_follows(tmp_path, attributes, h
     assert colors(load_mesh(put(tmp_path, "box.stl", stl(attributes, header))))[0] == first
 
 
+def test_the_header_of_meshlab_is_no_colour(tmp_path) -> None:
+    header = b"COLOR=\x7f\x7f\x7f MATERIAL=\x7f\x7f\x7f \x7f\x7f\x7f \x7f\x7f\x7f "
+    assert load_mesh(put(tmp_path, "box.stl", stl([0] * 12, header))).mesh.corner_color is None
+    assert colors(load_mesh(put(tmp_path, "box.stl", stl([HIGH, *[FLAG] * 11], header))))[1] == [127, 127, 127, 255]
+
+
 def test_texture_coordinates_and_colours_of_off_in_their_order(tmp_path) -> None:
     table = np.c_[POINTS, np.tile([0, 0, 1.0], (8, 1)), np.tile([0.5, 0.25, 0.0, 1.0], (8, 1)), UV]
     text = "STCNOFF\n8 12 0\n" + rows("", table) + triples(before="3 ", first=0)

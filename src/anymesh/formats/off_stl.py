@@ -26,6 +26,7 @@ VERTEX = re.compile(rb"(?i)\bvertex" + 3 * (rb"\s+(" + NUMBER + rb"\S*)"))
 MAX_TITLE = 200  # characters of a solid's name that are kept
 MAGICS = re.compile(rb"(?s)COLOR=(.{4})")  # in the header: RGBA of the whole object
 PAINTED, SHIFTS = 1 << 15, (10, 5, 0)  # of the attribute: the flag, and the places of red, green and blue, 5 bits each
+NO_COLOR = b"\x7f\x7f\x7f"  # of the header that MeshLab writes for every mesh
 GREY = 218  # of faces without a colour beside others: that of a surface without material
 
 
@@ -72,6 +73,8 @@ def _facet_colors(folder: Folder, header: bytes, attributes: np.ndarray) -> np.n
         magics = None
     painted = flag if magics is None else ~flag & attributes.any()
     shifts = SHIFTS if magics is None else SHIFTS[::-1]
+    if magics and magics[1].startswith(NO_COLOR) and not attributes.any():
+        return None
     if magics is None and not flag.any():
         if (number := np.count_nonzero(attributes)) and len(np.unique(attributes)) > 1:
             folder.warn(
