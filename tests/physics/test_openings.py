@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 from manifold3d import CrossSection, Manifold
 
+import anymesh
+from anymesh.errors import OptionError
 from anymesh.physics.convex import as_hull, hull_of
 from anymesh.physics.decompose import Component, Resolution, component_shapes
-from anymesh.physics.openings import NONE, Openings, openings_of
+from anymesh.physics.openings import NONE, Openings, merged_hulls, openings_of
+from anymesh.types import Hull
 
 
 def triangles_of(solid: Manifold) -> np.ndarray:
@@ -104,3 +109,33 @@ def test_convex_solids_and_boxes_with_walls_have_no_round_openings() -> None:
 def test_the_same_solid_gives_the_same_pieces() -> None:
     first, second = (divided(triangles_of(tube(40)))[0] for _ in range(2))
     assert all(np.array_equal(a.vertices, b.vertices) for a, b in zip(first, second, strict=True))
+
+
+def test_merged_hulls_take_least_of_the_openings() -> None:
+    hulls, openings = divided(triangles_of(Manifold.cube((0.2, 0.15, 0.02), True) - rod(0.04, 1, 48)))
+    shares = [openings.share_kept(merged_hulls(hulls, openings, most)) for most in (1, 2, 4, 6, len(hulls))]
+    assert shares == sorted(shares)
+    assert shares[0] == 0
+    assert shares[2] > 0.5
+    assert shares[-1] > 0.9
+    apart = [Hull(hulls[0].vertices + np.array([k, 0, 0]), hulls[0].faces) for k in range(30)]
+    assert [len(merged_hulls(apart, NONE, most)) for most in (1, 7, 30, 40)] == [1, 7, 30, 30]
+
+
+def test_shapes_of_each_link_are_limited_and_the_kept_share_is_stated(tmp_path) -> None:
+    path = tmp_path / "tube.obj"
+    corners = triangles_of(tube(32)).reshape(-1, 3).tolist()
+    faces = [f"f {k} {k + 1} {k + 2}" for k in range(1, len(corners), 3)]
+    path.write_text("\n".join([*(f"v {x} {y} {z}" for x, y, z in corners), *faces]))
+    for most, kept in ((None, None), (3, 0.9), (9, 1.0)):
+        out = tmp_path / str(most)
+        anymesh.articulate(path, out, parts="none", up="z", scale="1", formats="urdf", hulls=most)
+        record = json.loads((out / "asset.json").read_text())
+        part = record["parts"][0]
+        assert record.get("hulls") == most
+        assert sum(part["collision"].values()) <= (most or 10)
+        assert ("openings" in part) == (most is not None)
+        assert any("--hulls" in text for text in record["warnings"]) == (most == 3)
+        assert kept is None or part["openings"] <= kept
+    with pytest.raises(OptionError, match="--hulls"):
+        anymesh.articulate(path, tmp_path / "no", hulls=0)

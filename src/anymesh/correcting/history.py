@@ -177,7 +177,9 @@ def _write(run: RunFolder, history: History) -> None:
     with run.timed("export"):
         how = ExportOptions.of(read_json(run.target / "asset.json") or {})
         cache = cache_folder("shapes")
-        write_asset(run.asset(), run.folder, base=how.base, formats=how.formats, driven=how.driven, cache=cache)
+        write_asset(
+            run.asset(), run.folder, base=how.base, formats=how.formats, driven=how.driven, hulls=how.hulls, cache=cache
+        )
         write_preview(asset, run.folder / "preview.png")
     before = () if stage is CORRECTION else run.corrections(CORRECTION)
     write_json(run.folder / CORRECTIONS, {"asset": asset.name, "corrections": [*before, *log]})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from anymesh.entry_points import WRITE_TRANSCRIPT, resolve
@@ -25,6 +26,7 @@ def write_asset(
     base: Base = Base.FIXED,
     formats: Sequence[Format] = DEFAULT,
     driven: Driven = Driven.PASSIVE,
+    hulls: int | None = None,
     config: ExportConfig = ExportConfig(),  # noqa: B008 - frozen
     cache: Path | None = None,
     deadline: Deadline | None = None,
@@ -34,8 +36,9 @@ def write_asset(
     Names of the asset, its parts and joints are made legal where necessary (`anymesh.names.legal_names`). The same asset gives
     the same bytes, except for timing.json.
 
-    cache: folder for convex decompositions.
+    hulls: maximum number of collision shapes per link; cache: folder for convex decompositions.
     """
+    config = config if hulls is None else replace(config, collision=replace(config.collision, hulls=hulls))
     model = build_model(asset, base=base, driven=driven, config=config, cache=cache, deadline=deadline)
     write_meshes(model, folder, config)
     write_formats(model, folder, formats, config)

@@ -28,6 +28,7 @@ def asset_record(model: Model, formats: Sequence[Format]) -> dict[str, Any]:
         "source": source_record(asset.source),
         "base": str(model.base),
         "drives": str(model.driven),
+        **({} if model.hulls is None else {"hulls": model.hulls}),
         "files": {str(kind): main_file(kind, asset.name) for kind in formats},
         "parts": [_part(asset.mesh, body, asset.source_face) for body in model.bodies],
         "joints": [_joint(joint) for joint in asset.joints],
@@ -86,6 +87,7 @@ def _part(mesh: Mesh, body: ExportLink, source_face: np.ndarray | None) -> dict[
         "faces": body.faces_path(),
         "new_faces": len(link.faces) - len(body.source_faces(source_face)),
         "collision": {kind: shapes.count(kind) for kind in ("box", "cylinder", "hull") if kind in shapes},
+        **({} if body.openings is None else {"openings": _round(body.openings)}),
         "confidence": _round(link.part.confidence),
         "reason": link.part.reason,
     }

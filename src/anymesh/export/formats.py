@@ -87,20 +87,23 @@ WRITERS: Mapping[Format, Writer] = {
 
 @dataclass(frozen=True)
 class ExportOptions:
-    """Base, formats and drives of an exported asset."""
+    """Base, formats and drives of an exported asset. hulls: maximum number of collision shapes per link, None for no limit."""
 
     base: Base
     formats: tuple[Format, ...]
     driven: Driven
+    hulls: int | None = None
 
     @classmethod
-    def parse(cls, base: str, formats: str, drives: str) -> ExportOptions:
+    def parse(cls, base: str, formats: str, drives: str, hulls: int | None = None) -> ExportOptions:
         """Parse the option values. Raise OptionError, which lists the valid ones."""
         if base not in set(Base):
             raise OptionError(f"--base: found {base!r}; valid are {', '.join(Base)}")
         if drives not in set(Driven):
             raise OptionError(f"--drives: found {drives!r}; valid are {', '.join(Driven)}")
-        return cls(Base(base), parse_formats(formats), Driven(drives))
+        if hulls is not None and hulls < 1:
+            raise OptionError(f"--hulls: found {hulls}; valid is 1 or more")
+        return cls(Base(base), parse_formats(formats), Driven(drives), hulls)
 
     @classmethod
     def of(cls, record: Mapping[str, Any]) -> ExportOptions:
@@ -110,7 +113,8 @@ class ExportOptions:
         """
         formats = tuple(f for f in Format if f in record.get("files", {})) or DEFAULT
         base, drives = (str(record.get(name, usual)) for name, usual in (("base", Base.FIXED), ("drives", Driven.PASSIVE)))
-        return cls.parse(base, ",".join(formats), drives)
+        hulls = record.get("hulls")
+        return cls.parse(base, ",".join(formats), drives, hulls if isinstance(hulls, int) else None)
 
     def with_formats(self, others: tuple[Format, ...]) -> ExportOptions:
         """Return the options with further formats."""

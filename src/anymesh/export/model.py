@@ -46,11 +46,15 @@ class Driven(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class ExportLink:
-    """A link with its physical properties. shapes: convex collision shapes, in the link frame."""
+    """A link with its physical properties.
+
+    shapes: convex collision shapes, in the link frame; openings: share of its openings that they keep, if they were limited.
+    """
 
     link: Link
     inertia: Inertia
     shapes: tuple[Shape, ...]
+    openings: float | None = None
 
     @property
     def name(self) -> str:
@@ -92,13 +96,17 @@ class Exclusion:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """An asset with legal names, ready for export. bodies: in the order of the parts, the root first."""
+    """An asset with legal names, ready for export.
+
+    bodies: in the order of the parts, the root first; hulls: limit of collision shapes per link, None for no limit.
+    """
 
     asset: Asset
     bodies: tuple[ExportLink, ...]
     base: Base = Base.FIXED
     exclusions: tuple[Exclusion, ...] = ()
     driven: Driven = Driven.PASSIVE
+    hulls: int | None = None
 
     @property
     def links(self) -> Sequence[Link]:
@@ -156,12 +164,13 @@ def build_model(
             link,
             link_inertia(triangles[link.name], config, _made_of(asset.mesh, link, plain[link.name][1])),
             collision.shapes[link.name],
+            collision.openings.get(link.name),
         )
         for link in links
     )
     excluded = [Exclusion(a, b, OVERLAP) for a, b in collision.overlapping]
     excluded += [Exclusion(a, b, TIGHT) for a, b in collision.tight]
-    return Model(asset, bodies, base, tuple(excluded), driven)
+    return Model(asset, bodies, base, tuple(excluded), driven, config.collision.hulls)
 
 
 def _made_of(mesh: Mesh, link: Link, kept: Int[np.ndarray, " K"]) -> list[Substance | None]:

@@ -123,6 +123,7 @@ def finish(
     base: str = Base.FIXED,
     formats: str = ",".join(DEFAULT),
     drives: str = Driven.PASSIVE,
+    hulls: int | None = None,
     force: bool = False,
     time_limit: float = DEFAULT_SECONDS,
     progress: Progress = silent,
@@ -134,7 +135,7 @@ def finish(
     as for `articulate`.
     Raise OptionError, OutputError, ModelError or BudgetError; a paid task that was started is resumed by the next run.
     """
-    written, deadline, out = ExportOptions.parse(base, formats, drives), Deadline(time_limit), Path(out)
+    written, deadline, out = ExportOptions.parse(base, formats, drives, hulls), Deadline(time_limit), Path(out)
     state = out.parent / f".{out.name}.meshy.json"
     first, retexturer = open_completer(completer), open_retexturer(texture, state=state, max_calls=max_calls)
     if (Path(folder) / "asset.json").is_file() and Path(folder).absolute() in out.absolute().parents:

@@ -1,7 +1,7 @@
 """Triangles that are missing from closed surfaces, as exports and repairs lose some: a solid with one hole has no inside.
 
-A hole is closed if its cover continues the surface around it. A deliberate opening, such as the top of a bin of sheets, stays,
-and so does a component that would remain open.
+A hole is closed if its cover continues the surface around it. What is open on purpose, such as the top of a bin of sheets,
+stays open, and so does a component that would not be closed.
 """
 
 from __future__ import annotations

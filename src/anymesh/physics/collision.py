@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -14,13 +14,15 @@ from anymesh.geometry.kinematics import carried_links, joint_transform, link_tra
 from anymesh.geometry.simplify_ import simplify
 from anymesh.isolation import ChildPool, shared_pool
 from anymesh.physics.clear import ComponentShapes, ContactScene, LinkSurface, clear
-from anymesh.physics.convex import engine_shape, hull_of, thinned
-from anymesh.physics.decompose import Component, Decomposer, Fallback, Resolution, smallest_box, split_components
+from anymesh.physics.convex import as_hull, engine_shape, fitted, hull_of, thinned
+from anymesh.physics.decompose import FACES, Component, Decomposer, Fallback, Resolution, smallest_box, split_components
+from anymesh.physics.openings import Openings, merged_hulls, openings_of
 from anymesh.runtime import COLLISION, Deadline
 from anymesh.types import Asset, Joint, JointType, Shape
 
 MAX_CROSSING_FACES = 50_000  # faces of a link for tests of crossing surfaces
 MAX_POSES, MIN_POSES = 2000, 3  # sampled poses: maximum in all, minimum per joint
+MIN_KEPT = 0.88  # share of the radius of openings; a link that keeps less is warned about
 MIN_COMPONENT_SIZE_RATIO = 0.3  # of the first gap: smaller components get no shape beside larger ones
 
 
@@ -42,6 +44,7 @@ class CollisionConfig:
     rounds: int = 10  # rounds of trimming and refinement
     seconds: float = 20.0  # [s] processor time for one division of one component; then the next method is tried
     most_components: int = 150  # components per link with separate shapes; the smaller ones beyond share hulls
+    hulls: int | None = None  # maximum number of shapes per link, None for no limit
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,7 +53,8 @@ class Collision:
 
     overlapping: pairs of links whose surfaces cross at rest; false_before: number of pairs of shapes that touched at a sampled
     pose although the surfaces do not, before trimming and refinement; tight: pairs of links that still have false contacts;
-    warnings: per link, deviations from the intended method, and why.
+    warnings: per link, deviations from the intended method, and why; openings: if shapes are limited, the mean share of the
+    radius of a link's openings that they leave free, for links with openings.
     """
 
     shapes: Mapping[str, tuple[Shape, ...]]
@@ -58,6 +62,7 @@ class Collision:
     false_before: int
     tight: tuple[tuple[str, str], ...]
     warnings: tuple[str, ...] = ()
+    openings: Mapping[str, float] = field(default_factory=dict)
 
 
 def collision_shapes(
@@ -109,12 +114,55 @@ def collision_shapes(
         surfaces.result(), sampled_poses(asset, origins, config.poses), config.contact * size, config.crossing * size
     )
     done = clear(scene, pieces, shapes_of, levels=len(config.gaps), rounds=config.rounds, late=late)
+    kept: dict[str, float] = {}
+    if config.hulls is not None:
+        openings = {link: _link_openings([c for name, c in parts if name == link], config.gaps[0] * size) for link in triangles}
+        limited = _limited(done.pieces, openings, config.hulls)
+        again = clear(scene, limited, shapes_of, levels=1, rounds=config.rounds, late=late)
+        done = replace(again, before=done.before)
+        kept = {
+            link: some.share_kept([as_hull(s) for p in done.pieces if p.link == link for s in p.shapes])
+            for link, some in openings.items()
+            if len(some)
+        }
     link_shapes = {link: tuple(engine_shape(s) for p in done.pieces if p.link == link for s in p.shapes) for link in triangles}
     link_shapes = {link: shapes or (smallest_box(triangles[link], wall),) for link, shapes in link_shapes.items()}
     warnings = tuple(
         f"link {link}: collision made by {f.used}, since {'; '.join(f.reasons)}" for link, f in sorted(fallbacks.items())
     )
-    return Collision(link_shapes, scene.overlapping, done.before, done.left, (*warnings, *deadline.warnings()))
+    limits = tuple(
+        f"link {link}: its collision shapes keep {share:.0%} of the radius of its openings; a higher --hulls than "
+        f"{config.hulls} keeps more"
+        for link, share in sorted(kept.items())
+        if share < MIN_KEPT
+    )
+    return Collision(link_shapes, scene.overlapping, done.before, done.left, (*warnings, *limits, *deadline.warnings()), kept)
+
+
+def _link_openings(parts: Sequence[Component], gap: float) -> Openings:
+    """Return the openings of all components of a link."""
+    few = [(simplify(c.triangles, FACES), c.solid) for c in parts]
+    hulls = [hull_of(t.reshape(-1, 3)) for t, _ in few]
+    return Openings.joined(
+        [openings_of(t, hull, gap, solid=solid) for (t, solid), hull in zip(few, hulls, strict=True) if hull is not None]
+    )
+
+
+def _limited(pieces: Sequence[ComponentShapes], openings: Mapping[str, Openings], most: int) -> list[ComponentShapes]:
+    """Merge shapes of links with more than `most`, those first that take least of the openings, then add least volume.
+
+    The first component of such a link has all of its shapes.
+    """
+    limited = []
+    for link, own in openings.items():
+        of_link = [p for p in pieces if p.link == link]
+        shapes = [s for p in of_link for s in p.shapes]
+        if len(shapes) <= most:
+            limited += of_link
+            continue
+        merged = merged_hulls([as_hull(s) for s in shapes], own, most)
+        limited.append(replace(of_link[0], shapes=tuple(engine_shape(fitted(hull)) for hull in merged)))
+    return limited
 
 
 def _one_hull(component: Component, wall: float) -> tuple[Shape, ...]:

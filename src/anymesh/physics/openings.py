@@ -8,8 +8,9 @@ hull ranks all cuts through a ring alike.
 
 from __future__ import annotations
 
+import heapq
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
@@ -17,7 +18,7 @@ from jaxtyping import Bool, Float, Int
 from anymesh.geometry.distance_ import TriangleTree, distance_to_triangles
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import sample_surface, spread_directions
-from anymesh.physics.convex import planes, volume
+from anymesh.physics.convex import hull_of, planes, thinned, volume
 from anymesh.types import Hull
 from anymesh.types.triangles import face_cross, normals_and_areas
 
@@ -41,6 +42,7 @@ FACING, BESIDE = 0.7, 0.3  # cosine from which a wall faces a center, and maximu
 HALVED = 0.2  # mean of the directions to a piece, from which it lies on one side
 UNUSUAL = 0.8  # of what is lost after the best of the usual cuts: at most this must be lost after another one
 TOUCHED = 1.1  # of the radius, for a hull that touches a ball
+NEIGHBOURS = 12  # nearest shapes with which one may be merged
 PLACES, ANGLES = 3, 8  # balls whose planes are tried per cut, and planes through the axis of each
 Plane = tuple[np.ndarray, float]  # unit normal and offset
 
@@ -76,6 +78,11 @@ class Openings:
     def lost(self, hull: Hull) -> Float[np.ndarray, " m"]:
         """Return how far a hull reaches into the balls beyond what is allowed, in radii; 0 for most."""
         return np.maximum(self.kept - self.distances(hull), 0) / self.radii
+
+    @staticmethod
+    def joined(some: Sequence[Openings]) -> Openings:
+        """Concatenate openings."""
+        return Openings(*(np.concatenate([getattr(o, f.name) for o in (NONE, *some)]) for f in fields(Openings)))
 
     def share_kept(self, hulls: Sequence[Hull]) -> float:
         """Return the mean share of the radius that hulls leave free, 1 without openings. Larger balls count more."""
@@ -352,3 +359,36 @@ def _free_ways(tree: TriangleTree, c: np.ndarray, r: np.ndarray) -> np.ndarray:
     ways = np.tile(spread_directions(LOOKS), (len(c), 1, 1))
     ways -= np.where(lean > LEAN, 0.0, (ways * axes[:, None]).sum(2).T).T[:, :, None] * axes[:, None]
     return ways / np.maximum(np.linalg.norm(ways, axis=2, keepdims=True), 1e-300)
+
+
+def merged_hulls(hulls: Sequence[Hull], openings: Openings, most: int) -> list[Hull]:
+    """Merge hulls until there are at most `most`: pairs that take least of the openings, then add least volume, first."""
+    kept = dict(enumerate(hulls))
+    taken = {k: openings.taken(hull) for k, hull in kept.items()}
+    queue: list[tuple[float, float, int, int, Hull]] = []
+
+    def add(a: int, others: Sequence[int]) -> None:
+        middle = kept[a].vertices.mean(0)
+        others = sorted(others, key=lambda b: round(float(np.linalg.norm(kept[b].vertices.mean(0) - middle)), 9))
+        for b in others[:NEIGHBOURS]:
+            hull = hull_of(np.concatenate([kept[a].vertices, kept[b].vertices]))
+            if hull is not None:
+                more = openings.taken(hull) - taken[a] - taken[b], volume(hull) - volume(kept[a]) - volume(kept[b])
+                heapq.heappush(queue, (round(more[0], 12), round(more[1], 15), min(a, b), max(a, b), thinned(hull)))
+
+    for a in list(kept):
+        add(a, [b for b in kept if b > a])
+    new = len(kept)
+    while len(kept) > most:
+        if not queue:
+            first = min(kept)
+            add(first, [b for b in kept if b != first])
+            if not queue:
+                return [kept[k] for k in sorted(kept, key=lambda k: -volume(kept[k]))[:most]]
+        *_, a, b, hull = heapq.heappop(queue)
+        if a in kept and b in kept:
+            del kept[a], kept[b]
+            kept[new], taken[new] = hull, openings.taken(hull)
+            add(new, [b for b in kept if b != new])
+            new += 1
+    return list(kept.values())

@@ -40,6 +40,7 @@ def articulate(
     base: str = Base.FIXED,
     formats: str = ",".join(DEFAULT),
     drives: str = Driven.PASSIVE,
+    hulls: int | None = None,
     time_limit: float = DEFAULT_SECONDS,
     progress: Progress = silent,
     **answering: Unpack[Answering],
@@ -52,12 +53,13 @@ def articulate(
     root: folder within which files that the mesh refers to may be read (default: the mesh's own); animation: read, or ignore
     (animations, physics joints and bones of the file give no joints);
     base: fixed or free; formats: comma-separated, of urdf, mjcf, usd, sdf, glb;
-    drives: passive, or position (joints follow a commanded position); time_limit: [s], past a share of which each stage
+    drives: passive, or position (joints follow a commanded position); hulls: maximum number of collision shapes per link;
+    time_limit: [s], past a share of which each stage
     shortens its work, with a warning.
     Raise InputError, OptionError, OutputError or ModelError; then nothing is written. After OpenQuestionError and BudgetError,
     finished stages are kept for the next call.
     """
-    how = ExportOptions.parse(base, formats, drives)
+    how = ExportOptions.parse(base, formats, drives, hulls)
     with new_run(mesh_path, out, answering, force, time_limit, progress) as run:
         shared_pool().warm(*AHEAD)
         loaded = load(run, Path(mesh_path), PlacementOptions(up, scale, root, animation))
@@ -129,6 +131,7 @@ def export_asset(
     base: str = Base.FIXED,
     formats: str = ",".join(DEFAULT),
     drives: str = Driven.PASSIVE,
+    hulls: int | None = None,
     package: str | Path | None = None,
     archive: str | Path | None = None,
     time_limit: float = DEFAULT_SECONDS,
@@ -140,7 +143,7 @@ def export_asset(
 
     package: folder for a ROS 2 package of the URDF; archive: a zip file of the asset.
     """
-    how, deadline = ExportOptions.parse(base, formats, drives), Deadline(time_limit)
+    how, deadline = ExportOptions.parse(base, formats, drives, hulls), Deadline(time_limit)
     if package is not None and Format.URDF not in how.formats:
         raise OptionError(f"--package needs the format urdf, found {formats!r}")
     if archive is not None:

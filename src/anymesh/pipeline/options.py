@@ -200,6 +200,7 @@ class FormatOptions:
     base: str = _option("fixed", "fixed or free: whether the root link is fixed to the world.")
     formats: str = _option("urdf,mjcf,sdf,glb", "Comma-separated, of urdf, mjcf, usd, sdf, glb; usd needs its extra.")
     drives: str = _option("passive", "passive, or position: joints follow a commanded position, initially 0.")
+    hulls: int | None = _option(None, "Maximum number of collision shapes per link.", metavar="N", kind=int)
 
 
 @dataclass(frozen=True)

@@ -147,8 +147,8 @@ def write_files(folder: RunFolder, how: ExportOptions, deadline: Deadline, progr
 
         picture = draw() if len(asset.mesh.faces) <= ASIDE else None  # while child processes divide components
         model = write_asset(
-            asset, folder.folder, base=how.base, formats=how.formats, driven=how.driven, cache=cache_folder("shapes"),
-            deadline=deadline,
+            asset, folder.folder, base=how.base, formats=how.formats, driven=how.driven, hulls=how.hulls,
+            cache=cache_folder("shapes"), deadline=deadline,
         )  # fmt: skip
         progress("export", "preview", 1, 2)
         (picture or draw()).result()

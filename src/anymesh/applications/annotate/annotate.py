@@ -116,7 +116,10 @@ def checked(options: Mapping[str, Any]) -> str:
     """
     answering: Answering = {k: v for k, v in options.items() if k in Answering.__annotations__}  # ty: ignore[invalid-assignment]
     ExportOptions.parse(
-        options.get("base", "fixed"), options.get("formats", ",".join(DEFAULT)), options.get("drives", "passive")
+        options.get("base", "fixed"),
+        options.get("formats", ",".join(DEFAULT)),
+        options.get("drives", "passive"),
+        options.get("hulls"),
     )
     who = choose_answerer(answering).name
     return FILES if who.startswith(FILES) else who

@@ -23,7 +23,7 @@ DIGEST = 12  # hex digits that distinguish folders; with 48 bits, two of a milli
 # Options of single objects, and the types of their values in a table.
 OPTIONS: dict[str, type] = {
     "parts": str, "up": str, "scale": str, "root": str, "animation": str, "base": str, "formats": str, "drives": str,
-    "category": str, "parts_list": str, "at_least": int, "seed": int, "time_limit": float,
+    "hulls": int, "category": str, "parts_list": str, "at_least": int, "seed": int, "time_limit": float,
 }  # fmt: skip
 TABLES = (".csv", ".parquet")
 PATH, UID, NAME = "path", "uid", "name"  # columns of a table, beside OPTIONS

@@ -41,7 +41,7 @@ DEFAULTS = {
     for name, value in defaults(PlacementOptions, FormatOptions, RunOptions, CompletionOptions, AnswererOptions).items()
     if name not in (*FREE, "force")
 }
-FINISHING = ("completer", "texture", "watertight", "base", "formats", "drives")  # do not affect the pipeline's result
+FINISHING = ("completer", "texture", "watertight", "base", "formats", "drives", "hulls")  # do not affect the pipeline's result
 
 
 class GenerateOptions(Answering, total=False):
@@ -52,6 +52,7 @@ class GenerateOptions(Answering, total=False):
     base: str
     formats: str
     drives: str
+    hulls: int | None
     time_limit: float
     completer: str
     texture: str
@@ -100,7 +101,7 @@ class GenerationJob:
     def check(self, *, force: bool) -> None:
         """Check all options before the run. Raise OptionError, OutputError, ModelError (no key) or MissingExtraError."""
         options = self.options
-        ExportOptions.parse(options["base"], options["formats"], options["drives"])
+        ExportOptions.parse(options["base"], options["formats"], options["drives"], options["hulls"])
         Deadline(options["time_limit"])
         place_mesh(_cube(), up=options["up"], scale=options["scale"])
         choose_answerer(self.answering())

@@ -161,6 +161,7 @@ def _finish(job: GenerationJob, work: WorkFolder, spent: Account, seconds: float
         base=options["base"],
         formats=options["formats"],
         drives=options["drives"],
+        hulls=options["hulls"],
         force=force,
         progress=progress,
     )
