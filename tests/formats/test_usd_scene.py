@@ -196,6 +196,8 @@ def joints(folder):
     )
     assert hinge.limits == pytest.approx((-math.pi / 2, math.radians(10)))
     assert (hinge.axis, hinge.origin, warnings) == (pytest.approx([0, 0, 1]), pytest.approx([1, 0, 0]), [])
+    ignoring = Folder(folder / "a.usda", joints=False)
+    assert not read_usd(ignoring, folder).mesh.joints
     # bodies the other way round: the same motion, seen from the base, which is fixed to the world
     fixed = joint("FixedJoint", "", "", "base", "anchor")
     found, _ = read(folder, bodies("base", "door") + fixed + joint("RevoluteJoint", limits + place, "door", "base"))

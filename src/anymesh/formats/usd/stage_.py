@@ -40,16 +40,20 @@ def read_usd(folder: Folder, work: Path) -> FileMesh:
     stage = pxr.Usd.Stage.Open(layers.root)
     reader = StageReader(pxr, stage, layers, folder)
     placed = reader.read()
-    mesh = add_joints(pxr, stage, join([p.mesh for p in placed]), [p.path for p in placed], reader.to_stage, folder.warn)
-    unit_in_metres: float | None = float(pxr.UsdGeom.GetStageMetersPerUnit(stage))
-    if not pxr.UsdGeom.StageHasAuthoredMetersPerUnit(stage):
+    mesh = join([p.mesh for p in placed])
+    if folder.joints:
+        mesh = add_joints(pxr, stage, mesh, [p.path for p in placed], reader.to_stage, folder.warn)
+    stated = stage.GetMetadata("metersPerUnit") if stage.HasAuthoredMetadata("metersPerUnit") else None  # of any number's type
+    unit_in_metres = float(stated) if isinstance(stated, int | float) else None
+    if unit_in_metres is None:
         believed = PLAUSIBLE[0] <= mesh.diagonal * CENTIMETRES <= PLAUSIBLE[1]
         unit_in_metres = CENTIMETRES if believed else None
         what = "the format's centimetres are taken" if believed else "in the format's centimetres it is no plausible size"
         folder.warn(f"the file states no metersPerUnit: {what}; if that is wrong, set it with --scale")
     elif not (np.isfinite(unit_in_metres) and unit_in_metres > 0):
         unit_in_metres = None
-    return FileMesh(mesh, str(pxr.UsdGeom.GetStageUpAxis(stage)).lower(), unit_in_metres)
+    up = str(stage.GetMetadata("upAxis") if stage.HasAuthoredMetadata("upAxis") else "Y").lower()
+    return FileMesh(mesh, up if up in ("x", "y", "z") else "y", unit_in_metres)
 
 
 @dataclass(frozen=True, eq=False)
