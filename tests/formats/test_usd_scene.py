@@ -46,6 +46,15 @@ def time_samples(folder):
     assert found.mesh.bounds[0, 2] == 2
 
 
+def animations(folder):
+    order = 'uniform token[] xformOpOrder = ["xformOp:translate", "xformOp:rotateZ"]\n'
+    moves = "double3 xformOp:translate = (5, 0, 0)\nfloat xformOp:rotateZ.timeSamples = { 0: 0, 10: 60, 20: 90 }\n" + order
+    found, _ = read(folder, mesh("case") + xform("lid", mesh("panel"), moves))
+    (hinge,) = found.mesh.joints
+    assert (hinge.type, hinge.limits, hinge.name) == ("revolute", pytest.approx((0, math.pi / 2), abs=1e-3), "lid")
+    assert (hinge.axis, hinge.origin[0]) == (pytest.approx([0, 0, 1], abs=1e-6), pytest.approx(5, abs=1e-6))
+
+
 def visibility(folder):
     hidden = xform("off", mesh("a") + mesh("b"), 'token visibility = "invisible"')
     found, warnings = read(folder, mesh() + hidden)
@@ -244,6 +253,7 @@ def left_out_joints(folder):
 ROWS = {
     "`xformOp`s, `!resetXformStack!`": transforms,
     "`timeSamples`": time_samples,
+    "`timeSamples` of transforms that turn about one axis or slide": animations,
     "`visibility`": visibility,
     "`purpose`": purpose,
     "inactive prims, classes, lights, cameras": not_the_object,

@@ -11,6 +11,8 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.formats.usd.geometry_ import kind_of, value
+from anymesh.loading.files import Folder
+from anymesh.stated.animated import NodeTrack, SceneNode, animated_joints
 from anymesh.types import JointType, Mesh, StatedJoint
 
 WORLD = ""  # path of what no rigid body holds
@@ -66,6 +68,40 @@ def _owner(path: str, bodies: set[str]) -> str:
     while path and path not in bodies:
         path = path.rpartition("/")[0]
     return path
+
+
+def add_animated_joints(
+    pxr: Any, stage: Any, mesh: Mesh, paths: Sequence[str], to_stage: Callable[[Any], np.ndarray], folder: Folder
+) -> Mesh:
+    """Return a mesh with the joints that time samples of transforms state. paths, to_stage: as for `add_joints`."""
+    numbers: dict[str, int] = {}
+    nodes: dict[int, SceneNode] = {}
+    tracks: dict[int, NodeTrack] = {}
+    for path in paths:
+        for prim in (stage.GetPrimAtPath(p) for p in pxr.Sdf.Path(path).GetPrefixes()):
+            key, above = str(prim.GetPath()), prim.GetParent()
+            if key in numbers:
+                continue
+            parent = numbers.get(str(above.GetPath()))
+            T_parent = np.eye(4) if parent is None else to_stage(above)
+            numbers[key] = len(numbers)
+            nodes[numbers[key]] = SceneNode(str(prim.GetName()), parent, T_parent, to_stage(prim))
+            if (track := _track(pxr.UsdGeom.Xformable(prim))) is not None:
+                tracks[numbers[key]] = track
+    home = [numbers[path] for path in paths]
+    return animated_joints(mesh, home, nodes, [("timeSamples", tracks)], folder) if tracks else mesh
+
+
+def _track(xform: Any) -> NodeTrack | None:
+    """Return how time samples move a prim; None if they do not, or if it does not move with the one above it."""
+    times = np.unique(xform.GetTimeSamples()) if xform else np.zeros(0)
+    if len(times) < 2 or xform.GetResetXformStack():
+        return None
+
+    def sample(when: Float[np.ndarray, " k"]) -> Float[np.ndarray, "k 4 4"]:
+        return np.array([np.array(xform.GetLocalTransformation(float(t))).T for t in when])
+
+    return NodeTrack(times.astype(np.float64), sample)
 
 
 class _Reader:

@@ -12,7 +12,7 @@ from jaxtyping import Float
 
 from anymesh.errors import InputError
 from anymesh.formats.usd.geometry_ import PRIMITIVES, UsdTriangles, array, kind_of, polygon_mesh, primitive, value
-from anymesh.formats.usd.joints_ import add_joints
+from anymesh.formats.usd.joints_ import add_animated_joints, add_joints
 from anymesh.formats.usd.layers_ import Layers, load_pxr
 from anymesh.formats.usd.materials_ import UV_NAMES, StageMaterials, UsdLook
 from anymesh.loading.files import MAX_FACES, FileMesh, Folder
@@ -42,7 +42,9 @@ def read_usd(folder: Folder, work: Path) -> FileMesh:
     placed = reader.read()
     mesh = join([p.mesh for p in placed])
     if folder.joints:
-        mesh = add_joints(pxr, stage, mesh, [p.path for p in placed], reader.to_stage, folder.warn)
+        paths = [p.path for p in placed]
+        mesh = add_joints(pxr, stage, mesh, paths, reader.to_stage, folder.warn)
+        mesh = mesh if mesh.joints else add_animated_joints(pxr, stage, mesh, paths, reader.to_stage, folder)
     stated = stage.GetMetadata("metersPerUnit") if stage.HasAuthoredMetadata("metersPerUnit") else None  # of any number's type
     unit_in_metres = float(stated) if isinstance(stated, int | float) else None
     if unit_in_metres is None:
