@@ -217,9 +217,13 @@ def mutations(ending: str) -> list[Mutation]:
 
 def seeds() -> dict[str, bytes]:
     """Whole files of every format: the hand-written ones of the tests, textured ones, examples, generated scenes."""
-    from mesh_files import all_files, naming
+    from mesh_files import all_files, draco, meshopt, naming
 
-    found = dict(all_files()) | {f"named_{n}": d for n, d in naming("checker.png").items()}
+    found = (
+        all_files()
+        | {"draco.glb": draco(), "meshopt.glb": meshopt()}
+        | {f"named_{n}": d for n, d in naming("checker.png").items()}
+    )
     for path in sorted((ROOT / "examples" / "meshes").glob("*.glb"), key=lambda p: p.stat().st_size)[:4]:
         found[path.name] = path.read_bytes()
     with tempfile.TemporaryDirectory() as folder:

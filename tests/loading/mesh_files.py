@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import base64
 import json
 import struct
 from pathlib import Path
 
+import DracoPy
 import numpy as np
 import pytest
 from assets import CUBE, CUBE_FACES
@@ -19,6 +21,7 @@ POINTS = LOW + CUBE * (HIGH - LOW)
 FACES = CUBE_FACES
 UV = CUBE[:, :2] * 0.5 + 0.25
 RED = (1.0, 0.0, 0.0, 1.0)
+MESHOPT = Path(__file__).parents[1] / "formats" / "meshopt.json"
 TYPES = {"f": 5126, "H": 5123, "B": 5121, "I": 5125}
 WIDTHS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 
@@ -72,6 +75,33 @@ def plain_gltf() -> Gltf:
     g = Gltf()
     g.node(mesh=g.mesh(g.solid()), name="box")
     return g
+
+
+def draco(data: bytes | None = None) -> bytes:
+    g = Gltf()
+    g.doc["accessors"] = [
+        {"count": 8, "type": "VEC3", "componentType": 5126},
+        {"count": 36, "type": "SCALAR", "componentType": 5123},
+    ]
+    packed = g.view(data or DracoPy.encode(POINTS, FACES, quantization_bits=16, preserve_order=True))
+    extension = {"KHR_draco_mesh_compression": {"bufferView": packed, "attributes": {"POSITION": 0}}}
+    g.node(mesh=g.mesh({"attributes": {"POSITION": 0}, "indices": 1, "extensions": extension}))
+    g.doc["extensionsRequired"] = ["KHR_draco_mesh_compression"]
+    return g.glb()
+
+
+def meshopt(name: str = "EXT_meshopt_compression", broken: bool = False) -> bytes:
+    """Return the box as a GLB with meshopt data, written by its own encoder."""
+    g, encoded = Gltf(), json.loads(MESHOPT.read_text())
+    for key, count, stride, mode in (("positions", 8, 12, "ATTRIBUTES"), ("triangles", 36, 2, "TRIANGLES")):
+        data = base64.b64decode(encoded[key])
+        view = dict(g.doc["bufferViews"][g.view(data[:-1] if broken else data)])
+        packed = {**view, "count": count, "byteStride": stride, "mode": mode}
+        g.doc["bufferViews"][-1] = {"buffer": 1, "byteLength": count * stride, "extensions": {name: packed}}
+    g.doc["accessors"] = [{"bufferView": 0, "count": 8, "type": "VEC3", "componentType": 5126},
+                          {"bufferView": 1, "count": 36, "type": "SCALAR", "componentType": 5123}]  # fmt: skip
+    g.node(mesh=g.mesh({"attributes": {"POSITION": 0}, "indices": 1}))
+    return g.glb()
 
 
 def triples(faces=FACES, before: str = "f ", first: int = 1) -> str:

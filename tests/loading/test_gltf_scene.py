@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import base64
-import json
 import sys
 from collections.abc import Callable
 from pathlib import Path
 
-import DracoPy
 import numpy as np
 import pytest
-from mesh_files import FACES, LOW, POINTS, Gltf, assert_refused, plain_gltf, put
+from mesh_files import FACES, LOW, POINTS, Gltf, assert_refused, draco, meshopt, plain_gltf, put
 
 from anymesh.loading import LoadedMesh, load_mesh
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "formats"))
 from tables import check_table
 
-MESHOPT = Path(__file__).parents[1] / "formats" / "meshopt.json"
 BOX = POINTS[FACES]
 Check = Callable[[LoadedMesh], object]
 
@@ -187,32 +183,6 @@ def quantized() -> bytes:
     solid["attributes"]["POSITION"] = len(g.doc["accessors"]) - 1
     g.node(mesh=g.mesh(solid), translation=LOW.tolist(), scale=[2**-12] * 3)
     g.doc["extensionsRequired"] = ["KHR_mesh_quantization"]
-    return g.glb()
-
-
-def draco(data: bytes | None = None) -> bytes:
-    g = Gltf()
-    g.doc["accessors"] = [
-        {"count": 8, "type": "VEC3", "componentType": 5126},
-        {"count": 36, "type": "SCALAR", "componentType": 5123},
-    ]
-    packed = g.view(data or DracoPy.encode(POINTS, FACES, quantization_bits=16, preserve_order=True))
-    extension = {"KHR_draco_mesh_compression": {"bufferView": packed, "attributes": {"POSITION": 0}}}
-    g.node(mesh=g.mesh({"attributes": {"POSITION": 0}, "indices": 1, "extensions": extension}))
-    g.doc["extensionsRequired"] = ["KHR_draco_mesh_compression"]
-    return g.glb()
-
-
-def meshopt(name: str = "EXT_meshopt_compression", broken: bool = False) -> bytes:
-    g, encoded = Gltf(), json.loads(MESHOPT.read_text())
-    for key, count, stride, mode in (("positions", 8, 12, "ATTRIBUTES"), ("triangles", 36, 2, "TRIANGLES")):
-        data = base64.b64decode(encoded[key])
-        view = dict(g.doc["bufferViews"][g.view(data[:-1] if broken else data)])
-        packed = {**view, "count": count, "byteStride": stride, "mode": mode}
-        g.doc["bufferViews"][-1] = {"buffer": 1, "byteLength": count * stride, "extensions": {name: packed}}
-    g.doc["accessors"] = [{"bufferView": 0, "count": 8, "type": "VEC3", "componentType": 5126},
-                          {"bufferView": 1, "count": 36, "type": "SCALAR", "componentType": 5123}]  # fmt: skip
-    g.node(mesh=g.mesh({"attributes": {"POSITION": 0}, "indices": 1}))
     return g.glb()
 
 
