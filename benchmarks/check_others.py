@@ -59,7 +59,7 @@ def row(folder: Path, path: Path, report: dict, reasons: dict[str, str]) -> str:
     if "error" in report:
         return f"| {version(folder)} | {name} | error | {report['error']} |"
     failures = [f for f in report["findings"] if f["severity"] == "failure"]
-    shown = Counter(f"{f['check']}: {re.sub(re.escape(str(path.parent)), '', f['text'])[:150]}" for f in failures)
+    shown = Counter(f"{f['check']}: {f['text'].replace(str(path.parent), '').replace(str(folder), '')[:150]}" for f in failures)
     told = "; ".join(f"{text}{f' ({n} times)' if n > 1 else ''}" for text, n in list(shown.items())[:4]).replace("|", "/")
     why = next((why for key, why in reasons.items() if key in f"{name} {told}"), "")
     result = ("passed" if report["ok"] else "failed") + (f"; {report['warnings']} warnings" if report["warnings"] else "")

@@ -58,6 +58,8 @@ class MujocoBench:
         """Return qpos with some joints moved, and with those that follow, within their limits."""
         q = np.array(self.model.qpos0)
         address = self.model.jnt_qposadr
+        for joint in self.joints:  # engines push a joint whose rest position is outside its limits
+            q[address[joint]] = np.clip(q[address[joint]], *self.ranges[joint])
         for joint, position in moved.items():
             q[address[joint]] = position
         for _ in range(len(self.followers)):  # leaders may follow others
@@ -174,7 +176,8 @@ def _add_motors(mujoco: Any, spec: Any, model: Any, ranges: np.ndarray, joints: 
         inertia = float(model.dof_M0[dof])
         effort = float(model.jnt_actfrcrange[index, 1]) if model.jnt_actfrclimited[index] else np.inf
         needed = np.pi * np.sqrt(inertia * float(np.ptp(ranges[index])) / max(effort, 1e-9))
-        seconds[index] = min(max(1.0, needed), MAX_MOTION_SECONDS)
+        turns = float(np.ptp(ranges[index])) / np.pi if model.jnt_type[index] == mujoco.mjtJoint.mjJNT_HINGE else 0.0
+        seconds[index] = min(max(1.0, needed, turns), MAX_MOTION_SECONDS)  # a faster turn throws what it carries
         kp = max(
             inertia * (MOTOR_FREQUENCY_1S / seconds[index]) ** 2, 4 * float(model.dof_frictionloss[dof]) / max(tolerance, 1e-9)
         )
