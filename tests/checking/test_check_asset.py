@@ -8,6 +8,7 @@ import sys
 import mujoco
 import numpy as np
 import pytest
+import trimesh
 import typer
 from assets import cabinet, slanted
 from drawn import chest
@@ -115,6 +116,21 @@ def test_one_hull_for_the_case_fills_it_and_is_told(tmp_path):
     assert cavity.subject == "case"
     assert "one convex shape) fills 100%" in cavity.text
     assert any("penetrates 'case'" in f.text for f in contacts)
+
+
+def test_a_bore_that_collision_fills_is_told(tmp_path):
+    trimesh.creation.annulus(0.02, 0.1, 0.02, sections=48).export(tmp_path / "plate.obj")
+    one = '<geometry><mesh filename="plate.obj"/></geometry>'
+    aside = '<origin xyz="-0.07 0 0"/><geometry><box size=".06 .1 .02"/></geometry>'
+    moments = 'ixx="1e-4" iyy="1e-4" izz="1e-4" ixy="0" ixz="0" iyz="0"'
+    for collision, count in ((one, 1), (aside, 0)):
+        (tmp_path / "plate.urdf").write_text(
+            f'<robot name="p"><link name="plate"><inertial><mass value="0.1"/><inertia {moments}/></inertial>'
+            f"<visual>{one}</visual><collision>{collision}</collision></link></robot>"
+        )
+        told = found(check_asset(tmp_path / "plate.urdf", engines=()), "collision", "warning")
+        assert len(told) == count
+        assert all(re.search(r"a ball of 0.03\d+ m fits", f.text) for f in told)
 
 
 def test_links_that_no_joint_connects_must_not_overlap(tmp_path):

@@ -13,6 +13,10 @@ from anymesh.checking.engines.robot import Inertial, RobotLink
 from anymesh.checking.report import Finding, failure, warning
 from anymesh.geometry.distance_ import distance_to_triangles, winding_number
 from anymesh.geometry.simplify_ import simplify
+from anymesh.geometry.surface import plain_triangles
+from anymesh.physics.convex import hull_of
+from anymesh.physics.decompose import split_components
+from anymesh.physics.openings import openings_of
 from anymesh.types.triangles import unshared
 
 INERTIA = "inertia"
@@ -27,6 +31,9 @@ OVERLAP = 0.01  # share of the object's diagonal; engines push apart links that 
 GRID = 16  # points per side of the grid on which cavities are searched
 HOLLOW = 0.1  # minimum share of empty space in the convex hull of the visuals for a cavity
 FILLED = 0.5  # share of the empty space; collision shapes that fill more close the cavity
+BORE = 0.02  # of the object's diagonal: from a quarter of this radius, round openings of narrow components count
+SMALLEST, MOST_COMPONENTS = 0.006, 150  # components of a link whose openings are checked: size in diagonals, number
+BORE_FACES = 3000  # maximum number of faces of a component whose openings are checked
 FACES = 10_000  # maximum number of faces of the visible surface, for this check
 
 
@@ -131,7 +138,7 @@ def check_collision(content: Content, contacts: Mapping[tuple[str, str], float] 
             told = warning if robot.format == "MJCF" or not any(content.collisions.values()) else failure
             yield told(COLLISION, joint.child, problem)
     for link in robot.links:
-        yield from _cavity(content, link.name)
+        yield from [*_cavity(content, link.name)] or _bores(content, link.name)
     adjacent = joined(robot)
     for (a, b), depth in (contacts or {}).items():
         pair = frozenset((a, b))
@@ -175,6 +182,30 @@ def _cavity(content: Content, link: str) -> Iterator[Finding]:
         count = "one convex shape" if len(shapes) == 1 else f"{len(shapes)} convex shapes"
         problem = f"its collision ({count}) fills {taken.mean():.0%} of the empty space in it, {volume:.3g} m3"
         yield warning(COLLISION, link, f"{problem}; use convex shapes that leave the cavity open")
+
+
+def _bores(content: Content, link: str) -> Iterator[Finding]:
+    """Check that balls which fit into the round openings of the visuals fit between the collision shapes too."""
+    seen, shapes = content.shown(link), [hull_of(s.triangles.reshape(-1, 3)) for s in content.collisions[link]]
+    hulls = [hull for hull in shapes if hull is not None]
+    if not content.visuals[link] or not hulls or not np.isfinite(seen).all():
+        return
+    surface, _ = plain_triangles(simplify(seen, FACES), content.diagonal)
+    closed, widest = 0, 0.0
+    for component in split_components(surface, SMALLEST * content.diagonal, MOST_COMPONENTS):
+        triangles = simplify(component.triangles, BORE_FACES)
+        hull = hull_of(triangles.reshape(-1, 3))
+        if hull is None:
+            continue
+        some = openings_of(triangles, hull, BORE * content.diagonal, solid=component.solid)
+        free = np.min([some.distances(h) for h in hulls], axis=0) / some.radii if len(some) else np.zeros(0)
+        shown = some.round & (distance_to_triangles(some.centers, surface) > 0.95 * some.radii)  # no rod in it
+        filled = some.radii[shown & (free < FILLED)]
+        closed, widest = closed + len(filled), max(widest, float(filled.max(initial=0.0)))
+    if closed:
+        count = "one convex shape" if len(hulls) == 1 else f"{len(hulls)} convex shapes"
+        problem = f"its collision ({count}) closes a round opening, into which a ball of {2 * widest:.3g} m fits"
+        yield warning(COLLISION, link, f"{problem}; use convex shapes around the opening")
 
 
 def _in_hull(points: Float[np.ndarray, "n 3"], asked: Float[np.ndarray, "m 3"]) -> Bool[np.ndarray, " m"]:

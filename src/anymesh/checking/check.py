@@ -66,7 +66,8 @@ def _still(content: Content) -> Iterator[Finding]:
     yield from _or_ok("joints", joints, f"{len(robot.moving)} joints move, with axes, limits, effort and velocity")
     yield from _or_ok("inertia", [*check_inertia(content)], _masses(robot))
     collision = [*check_collision(content, _contacts(robot))]
-    yield from _or_ok("collision", collision, "moving links have collision shapes, cavities are open, nothing overlaps at rest")
+    fine = "moving links have collision shapes, cavities and round openings are open, nothing overlaps at rest"
+    yield from _or_ok("collision", collision, fine)
     yield from _or_ok("texture", [*check_texture(content, ours=ours)], "materials and pictures are there")
     if straight:
         yield from _or_ok("direction", [*check_direction(content)], "no joint drives its link into its parent")
