@@ -2,6 +2,7 @@
 
 python -m benchmarks.collision [--coacd] [SET ...]      writes reports/collision.md; a set as `anymesh eval` names it;
                                                         --coacd: also one CoACD run per link, which takes minutes per object
+python -m benchmarks.collision --rings [BASE]           prints the table of round openings; BASE: src/ of another checkout
 
 A joint is free if, at 21 positions over its range, no two shapes of different links penetrate by more than .1 % of the
 diagonal where the surfaces do not intersect. Shapes are computed without the cache.
@@ -9,6 +10,9 @@ diagonal where the surfaces do not intersect. Shapes are computed without the ca
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -96,11 +100,59 @@ def measured(spec: str, ways: Sequence[str]) -> Iterator[tuple[str, int, int, in
             yield way, *free_joints(asset, links, shapes), sum(map(len, shapes.values())), len(links), seconds
 
 
+RINGS = """
+import sys, time, numpy as np
+from anymesh.geometry.distance_ import distance_to_triangles
+from manifold3d import CrossSection, Manifold
+from anymesh.physics.convex import as_hull, planes
+from anymesh.physics.decompose import Component, Resolution, component_shapes
+rod = lambda r, h, n: Manifold.cylinder(h, r, r, n, True)
+SHAPES = {
+    "tube": (lambda n: rod(.05, .1, n) - rod(.04, 1, n), .04),
+    "washer": (lambda n: rod(.03, .003, n) - rod(.015, 1, n), .015),
+    "bored plate": (lambda n: Manifold.cube((.2, .15, .02), True) - rod(.04, 1, n), .04),
+    "torus": (lambda n: CrossSection.circle(.03, 24).translate((.1, 0)).revolve(n), .07),
+    "nut": (lambda n: rod(.02, .01, 6) - rod(.01, 1, n), .01),
+    "mug": (lambda n: rod(.04, .1, n) - rod(.036, .1, n).translate((0, 0, .005)), .036),
+    "pipe": (lambda n: rod(.025, 1, n) - rod(.02, 2, n), .02),
+}
+for name, (make, bore) in SHAPES.items():
+    for sides in (8, 12, 16, 24, 32, 33, 64, 128, 256):
+        mesh = make(sides).to_mesh64()
+        t = np.asarray(mesh.vert_properties)[:, :3][np.asarray(mesh.tri_verts, np.int64)]
+        size = float(np.linalg.norm(np.ptp(t.reshape(-1, 3), axis=0)))
+        begin = time.process_time()
+        shapes = component_shapes(Component(t, True), Resolution(.02 * size, .002 * size, 24))
+        spent = time.process_time() - begin
+        hulls = [as_hull(s) for s in shapes]
+        inside = any(planes(h)[:, 3].max() <= 0 for h in hulls)  # the middle of the bore is the origin
+        middle = np.zeros((1, 3))
+        free = 0 if inside else min(float(distance_to_triangles(middle, h.vertices[h.faces])[0]) for h in hulls) / bore
+        print(f"{name}|{sides}|{len(shapes)}|{max(free, 0):.2f}|{spent:.3f}", flush=True)
+"""  # run with the source of each checkout
+
+
+def rings(base: str | None) -> None:
+    """Print hulls, the free share of the bore's radius and processor seconds of rings, and those of another checkout."""
+    rows: list[list[list[str]]] = []
+    for source in [str(Path(__file__).parent.parent / "src"), *([base] if base else [])]:
+        environment = {**os.environ, "PYTHONPATH": source}
+        done = subprocess.run([sys.executable, "-c", RINGS], env=environment, capture_output=True, text=True, check=True)
+        rows.append([line.split("|") for line in done.stdout.splitlines()])
+    print("\n".join(table_head(("shape", "sides", *["hulls", "free radius", "seconds"] * len(rows)))))
+    for pair in zip(*rows, strict=True):
+        print(table_row((*pair[0][:2], *(cell for row in pair for cell in row[2:]))))
+
+
 def main() -> None:
     parser = parser_of(__doc__)
+    parser.add_argument("--rings", nargs="?", const="", metavar="BASE")
     parser.add_argument("sets", nargs="*", default=SETS, metavar="SET")
     parser.add_argument("--coacd", action="store_true")
     options = parser.parse_args()
+    if options.rings is not None:
+        rings(options.rings or None)
+        return
     rows = []
     ways = [way for way in WAYS if options.coacd or way != "one CoACD per link"]
     for spec in options.sets:
