@@ -37,7 +37,7 @@ STAGES = {"segmentation", "articulation"}
 # Words for parts of objects: no name and no text in `geometry` contains them.
 MEANING = tuple("handle panel door drawer lid knob button wheel hinge barrel opening front cabinet tab".split())
 MAX_LINES, MAX_FUNCTION_LINES, MAX_PARAMETERS = 400, 50, 7
-MAX_MODULES, MAX_CORE_LINES, SMALL_MODULE = 18, 22_000, 90
+MAX_MODULES, MAX_CORE_LINES, SMALL_MODULE = 18, 20_000, 90
 # Larger than that today; a function that got smaller must leave these lists.
 LONG_FUNCTIONS = {"agents/server_.py:_making", "physics/collision.py:collision_shapes"}
 MANY_PARAMETERS = {

@@ -10,9 +10,9 @@ from importlib import import_module
 from typing import Any
 
 # What readers of meshes need.
-DRACO = "formats.gltf_compressed_:draco_attributes"
-MESHOPT = "formats.gltf_compressed_:meshopt"
-GLTF_JOINTS = "stated.gltf:stated_joints"
+DRACO = "formats.gltf.compressed_:draco_attributes"
+MESHOPT = "formats.gltf.compressed_:meshopt"
+GLTF_JOINTS = "formats.gltf.joints:stated_joints"
 
 # What the pipeline needs of the packages around it.
 OPEN_ANSWERER = "prompted.answerers.answering:open_answerer"
@@ -22,14 +22,18 @@ PROMPTED_STAGES = "prompted.stages:PromptedStages"
 WRITE_TRANSCRIPT = "prompted.answerers.recordings:write_transcript"
 REMOVE_TRANSCRIPT = "prompted.answerers.recordings:remove_transcript"
 
-# Readers of further formats, and what is said of formats that nothing reads.
-READ_DAE = "formats.dae:read_dae"
-DAE_FRAME = "formats.dae:dae_frame"
-READ_PLY = "formats.ply:read_ply"
-READ_STL = "formats.off_stl:read_stl"
-READ_OFF = "formats.off_stl:read_off"
+# Readers of formats by suffix, and what is said of formats that nothing reads.
+READERS = {
+    **dict.fromkeys((".glb", ".gltf"), "formats.gltf.scene:read_gltf"),
+    ".obj": "formats.obj:read_obj",
+    ".ply": "formats.ply:read_ply",
+    ".stl": "formats.off_stl:read_stl",
+    ".off": "formats.off_stl:read_off",
+    ".dae": "formats.dae.document:read_dae",
+    **dict.fromkeys((".usd", ".usda", ".usdc", ".usdz", ".fbx", ".3mf", ".step", ".stp"), "formats.reading:read_isolated"),
+}
+DAE_FRAME = "formats.dae.document:dae_frame"
 LOAD_ZIPPED = "formats.zipped:load_zipped"
-READERS = dict.fromkeys((".usd", ".usda", ".usdc", ".usdz", ".fbx", ".3mf", ".step", ".stp"), "formats.reading:read_isolated")
 REMEDY = "formats.reading:remedy"
 
 # Scenes of several objects.

@@ -22,8 +22,8 @@ from anymesh.finishing.protocol import Finished
 from anymesh.finishing.retexture import Remote
 from anymesh.finishing.scene_glb import scene_glb
 from anymesh.finishing.texture import Retexturer
+from anymesh.formats.gltf.scene import read_gltf
 from anymesh.loading.files import Folder
-from anymesh.loading.gltf import read_gltf
 from anymesh.rendering.render import face_colors
 from anymesh.types import Material, Texture
 

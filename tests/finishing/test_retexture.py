@@ -18,8 +18,8 @@ from anymesh.finishing.protocol import Finished
 from anymesh.finishing.retexture import Remote, described, nearest
 from anymesh.finishing.scene_glb import read_scene, scene_glb
 from anymesh.finishing.texture import Carried, Painted
+from anymesh.formats.gltf.scene import read_gltf
 from anymesh.loading.files import Folder
-from anymesh.loading.gltf import read_gltf
 from anymesh.loading.join import join
 from anymesh.rendering.render import face_colors
 from anymesh.types import Material, Mesh, Texture

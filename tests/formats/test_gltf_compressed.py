@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from anymesh.formats.gltf_compressed_ import draco_attributes, meshopt
-from anymesh.loading.gltf_data import DataError
+from anymesh.formats.gltf.buffers import DataError
+from anymesh.formats.gltf.compressed_ import draco_attributes, meshopt
 
 ENCODED = {
     name: base64.b64decode(text) for name, text in json.loads(Path(__file__).with_name("meshopt.json").read_text()).items()

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from mesh_files import DAE_INSTANCE, POINTS, assert_refused, dae, put, write_png
 
-from anymesh.formats import dae as dae_reader
+from anymesh.formats.dae import document as dae_reader
 from anymesh.loading import LoadedMesh, load_mesh
 from anymesh.types.mesh import to_linear
 

@@ -34,7 +34,7 @@ from mesh_files import (
 )
 from PIL import Image
 
-from anymesh.formats.dae import with_decimal_points
+from anymesh.formats.dae.document import with_decimal_points
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.types.mesh import to_linear
 

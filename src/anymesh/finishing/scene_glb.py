@@ -12,8 +12,8 @@ from jaxtyping import Float
 from anymesh.errors import InputError
 from anymesh.export.glb import INDICES, VERTICES, GlbBuffer
 from anymesh.export.links import unique_rows
+from anymesh.formats.gltf.scene import read_gltf
 from anymesh.loading.files import Folder
-from anymesh.loading.gltf import read_gltf
 from anymesh.types import Mesh
 
 Y_UP = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # from Z up

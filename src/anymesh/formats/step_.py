@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from anymesh.errors import InputError, MissingExtraError
+from anymesh.formats.gltf.buffers import parse_json, split_glb
+from anymesh.formats.gltf.scene import read_gltf
 from anymesh.loading.files import FileMesh, Folder
-from anymesh.loading.gltf import read_gltf
-from anymesh.loading.gltf_data import parse_json, split_glb
 
 DEFLECTION_MM = 0.1  # [mm] how far triangles may be off the surface
 TURN_RAD = 0.3  # [rad] between two neighbours

@@ -11,7 +11,6 @@ from __future__ import annotations
 import hashlib
 import math
 import re
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
@@ -19,25 +18,13 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from anymesh import entry_points
-from anymesh.entry_points import DAE_FRAME, LOAD_ZIPPED, READ_DAE, READ_OFF, READ_PLY, READ_STL, resolve
+from anymesh.entry_points import DAE_FRAME, LOAD_ZIPPED, READERS, resolve
 from anymesh.errors import AnymeshError, InputError, OptionError
 from anymesh.loading.files import ARCHIVE, FORMATS, MAX_FACES, FileMesh, Folder, check_file
-from anymesh.loading.gltf import read_gltf
-from anymesh.loading.obj import read_obj
 from anymesh.loading.scene_graph import scene_of_objects
 from anymesh.loading.upright import AUTO, AXES, INFER, Up, infer_up, read_up, up_of
 from anymesh.types import Mesh
 
-READERS: dict[str, Callable[[bytes, Folder], Mesh]] = {
-    ".glb": read_gltf,
-    ".gltf": read_gltf,
-    ".obj": read_obj,
-    ".ply": lambda data, folder: resolve(READ_PLY)(data, folder),
-    ".stl": lambda data, folder: resolve(READ_STL)(data, folder),
-    ".off": lambda data, folder: resolve(READ_OFF)(data, folder),
-    ".dae": lambda data, folder: resolve(READ_DAE)(data, folder),
-}
 FARTHEST = 1e12  # coordinates above are no plausible lengths
 MAX_UV = 1e6  # a larger texture coordinate in single precision does not tell the place in the picture
 LONGEST = {
@@ -85,7 +72,7 @@ def reads_joints(animation: str) -> bool:
 
 
 def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: str = "read") -> LoadedMesh:
-    """Read GLB, glTF, OBJ, PLY, STL, OFF or DAE, a format of `entry_points.READERS`, or a zip of one with what it refers to.
+    """Read a file of a format of `entry_points.READERS`, or a zip of one with what it refers to.
 
     root: the folder within which the files that the mesh refers to may be read, by default its own folder. A texture or a
     material library that cannot be read there is left out with a warning; animation: read, or ignore for a mesh without the
@@ -103,8 +90,7 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: st
         return replace(inner, path=str(path / name), sha256=sha256, warnings=warnings)
     try:
         with np.errstate(over="ignore", invalid="ignore"):
-            read = (READERS.get(suffix) or resolve(entry_points.READERS[suffix]))(data, folder)
-            framed = read if isinstance(read, FileMesh) else FileMesh(read, *_frame(suffix, data))
+            framed = _read(suffix, data, folder)
             mesh = _with_usable_uv(scene_of_objects(framed.mesh, folder), folder)
     except AnymeshError:
         raise
@@ -126,13 +112,19 @@ def read_in_metres(path: Path, root: Path | None) -> tuple[Mesh, tuple[str, ...]
     """
     data, folder, suffix = check_file(path), Folder(path, root), path.suffix.lower()
     try:
-        mesh, (_, metres) = READERS[suffix](data, folder), _frame(suffix, data)
+        framed = _read(suffix, data, folder)
     except InputError:
         raise
     except Exception as error:  # readers raise many types of errors for broken files
         cause = " ".join(f"{type(error).__name__}: {error}".split())[:150]
         raise InputError(f"{path.name} is broken or truncated ({cause})") from None
-    return (mesh if metres in (None, 1.0) else mesh.transformed(np.diag([metres] * 3 + [1.0]))), tuple(folder.warnings)
+    scale = np.diag([framed.unit or 1.0] * 3 + [1.0])
+    return (framed.mesh if framed.unit in (None, 1.0) else framed.mesh.transformed(scale)), tuple(folder.warnings)
+
+
+def _read(suffix: str, data: bytes, folder: Folder) -> FileMesh:
+    read = resolve(READERS[suffix])(data, folder)
+    return read if isinstance(read, FileMesh) else FileMesh(read, *_frame(suffix, data))
 
 
 def _with_usable_uv(mesh: Mesh, folder: Folder) -> Mesh:

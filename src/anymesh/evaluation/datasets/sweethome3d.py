@@ -27,8 +27,8 @@ from anymesh.errors import InputError, MissingExtraError
 from anymesh.evaluation.datasets.dataset import Dataset
 from anymesh.evaluation.datasets.links import DatasetLink, assemble
 from anymesh.evaluation.ground_truth import GroundTruth
+from anymesh.formats.obj import read_obj
 from anymesh.loading.files import Folder
-from anymesh.loading.obj import read_obj
 from anymesh.types import JointType, KnownJoint, Mesh
 
 MAGIC = b"!<arch>\n"

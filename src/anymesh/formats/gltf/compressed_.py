@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 from jaxtyping import Int
 
+from anymesh.formats.gltf.buffers import MAX_DECODED, DataError
 from anymesh.loading.files import MAX_FACES
-from anymesh.loading.gltf_data import MAX_DECODED, DataError
 
 DRACO_METADATA = 0x8000  # flag of the header
 EDGEBREAKER = 1

@@ -13,7 +13,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from anymesh.formats.dae_geometry import Find, floats
+from anymesh.formats.dae.geometry import Find, floats
 from anymesh.loading.files import SHOWN, Folder, picture, picture_file
 from anymesh.types import Material, Texture
 from anymesh.types.mesh import CLAMP, MIRROR, REPEAT, to_linear

@@ -13,9 +13,9 @@ from scipy.sparse.csgraph import connected_components
 
 from anymesh.entry_points import DRACO, resolve
 from anymesh.errors import InputError
+from anymesh.formats.gltf.buffers import Buffers, DataError, item
+from anymesh.formats.gltf.materials import GltfMaterial
 from anymesh.loading.files import Folder
-from anymesh.loading.gltf_data import Buffers, DataError, item
-from anymesh.loading.gltf_materials import GltfMaterial
 from anymesh.loading.join import join, rgba, simple_mesh, unit
 from anymesh.types import Mesh
 from anymesh.types.mesh import to_srgb

@@ -13,8 +13,8 @@ from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
 from anymesh.errors import InputError
+from anymesh.formats.gltf.buffers import Buffers, item
 from anymesh.loading.files import Folder
-from anymesh.loading.gltf_data import Buffers, item
 from anymesh.stated.animated import FULL_TURN_RAD, Animations, NodeTrack, SceneNode, animated_joints
 from anymesh.stated.bodies import Body, BodyJoint, joints_of_bodies
 from anymesh.types import JointType, Mesh, StatedJoint

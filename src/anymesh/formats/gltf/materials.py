@@ -14,9 +14,9 @@ import numpy as np
 from jaxtyping import Float32
 
 from anymesh.errors import InputError
+from anymesh.formats.gltf.buffers import Buffers, from_uri, item
+from anymesh.formats.gltf.gloss_ import from_gloss
 from anymesh.loading.files import Folder, picture, picture_file, warn_unreadable
-from anymesh.loading.gloss_ import from_gloss
-from anymesh.loading.gltf_data import Buffers, from_uri, item
 from anymesh.types import Material, Texture
 from anymesh.types.mesh import CLAMP, MIRROR, REPEAT
 

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.formats.dae_geometry import floats
+from anymesh.formats.dae.geometry import floats
 from anymesh.loading.files import Folder
 from anymesh.stated.animated import NodeTrack, SceneNode, animated_joints
 from anymesh.types import Mesh

@@ -15,9 +15,9 @@ from dataclasses import replace
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.formats.dae_geometry import DaeSurface, DaeTriangles, floats, skin_transforms, whole
-from anymesh.formats.dae_materials import DaeMaterial, DaeMaterials
-from anymesh.formats.dae_transforms import DaeNode, dae_joints, local_transform
+from anymesh.formats.dae.geometry import DaeSurface, DaeTriangles, floats, skin_transforms, whole
+from anymesh.formats.dae.materials import DaeMaterial, DaeMaterials
+from anymesh.formats.dae.transforms import DaeNode, dae_joints, local_transform
 from anymesh.loading.files import MAX_FACES, Folder
 from anymesh.loading.join import join, rgba, simple_mesh, unique_names, unit
 from anymesh.types import Material, Mesh, Node

@@ -11,10 +11,10 @@ from jaxtyping import Float
 
 from anymesh.entry_points import GLTF_JOINTS, resolve
 from anymesh.errors import InputError
+from anymesh.formats.gltf.buffers import Buffers, DataError, item, parse_json, split_glb
+from anymesh.formats.gltf.materials import read_materials
+from anymesh.formats.gltf.primitives import GltfMeshes, Pose
 from anymesh.loading.files import MAX_FACES, Folder
-from anymesh.loading.gltf_data import Buffers, DataError, item, parse_json, split_glb
-from anymesh.loading.gltf_materials import read_materials
-from anymesh.loading.gltf_mesh import GltfMeshes, Pose
 from anymesh.loading.join import join, unique_names
 from anymesh.loading.scene_graph import is_generic, leave_out_warning
 from anymesh.types import Mesh, Node
