@@ -16,7 +16,7 @@ from anymesh.cli import run
 from anymesh.errors import OptionError, OutputError
 from anymesh.loading.join import join, simple_mesh
 from anymesh.loading.load import load_mesh
-from anymesh.types import Mesh
+from anymesh.types import JointType, Mesh, StatedJoint
 
 Pieces = dict[str, list[tuple[np.ndarray, np.ndarray]]]
 # A cabinet that is open in front (-y), with a door before it and its handle [m, Z up].
@@ -107,6 +107,16 @@ def test_a_single_object_is_no_scene(pieces) -> None:
     whole = join(placed(pieces, "thing"))
     for mesh in (whole, fused(whole), join(placed(pieces, ""))):
         assert len(find_objects(mesh)) == 1
+
+
+def test_what_a_stated_joint_moves_is_no_object_of_its_own() -> None:
+    joint = StatedJoint(JointType.REVOLUTE, np.zeros(3), np.array([1.0, 0, 0]), (0.0, 1.0))
+    pieces = {"a": [box([-0.4, -0.2, 0], [0.4, 0.2, 0.3])], "b": [box([-0.4, -0.2, 0.301], [0.4, 0.2, 0.34])]}
+    chest = join(placed(pieces, ""))
+    nodes = tuple(replace(n, name="Chest", path=("rig", n.name, "Chest")) for n in chest.nodes)  # bones of one skin
+    assert len(find_objects(replace(chest, nodes=nodes))) == 2
+    moved = replace(chest, nodes=(nodes[0], replace(nodes[1], joint=0)), joints=(joint,))
+    assert len(find_objects(moved)) == 1
 
 
 @pytest.fixture(scope="module")

@@ -57,13 +57,17 @@ class SceneObject:
 
 @dataclass(frozen=True, eq=False)
 class _Unit:
-    """Pieces that are held together by a node, or one piece. children: names of what is directly below that node."""
+    """Pieces that are held together by a node, or one piece.
+
+    children: names of what is directly below that node; moved: whether joints that the file states move all of it.
+    """
 
     name: str
     pieces: Int[np.ndarray, " p"]
     children: tuple[str, ...]
     triangles: Float[np.ndarray, "F 3 3"]
     ground: float  # [m] what reaches down to here stands
+    moved: bool = False
 
     @cached_property
     def low(self) -> Float[np.ndarray, " 3"]:
@@ -90,13 +94,18 @@ class _Unit:
     @cached_property
     def kind(self) -> bool:
         """Whether its name says what object it is, such as "Fridge_02", and not which part of one."""
-        return usual_size(self.name) is not None and recognize(self.name) is None and not is_fixed_name(self.name)
+        return (
+            not self.moved
+            and usual_size(self.name) is not None
+            and recognize(self.name) is None
+            and not is_fixed_name(self.name)
+        )
 
     @property
     def stands(self) -> bool:
         """Whether it stands by itself and is not named as a part."""
         named = recognize(self.name) is not None or is_fixed_name(self.name)
-        return float(self.low[2]) <= self.ground and not named and self.steady
+        return float(self.low[2]) <= self.ground and not named and not self.moved and self.steady
 
     @property
     def steady(self) -> bool:
@@ -253,7 +262,8 @@ class _Scene:
     def _unit(self, pieces: np.ndarray, name: str, level: int, ground: float) -> _Unit:
         children = {self._below[p][level : level + 1] for p in pieces}
         names = tuple(sorted(child[0] for child in children if child))
-        return _Unit(name, pieces, names, self.mesh.triangles[self.faces(pieces)], ground)
+        moved = all(self.mesh.nodes[n].joint >= 0 for n in self.node[pieces])
+        return _Unit(name, pieces, names, self.mesh.triangles[self.faces(pieces)], ground, moved)
 
 
 def _grouped(units: list[_Unit]) -> list[list[_Unit]]:
@@ -327,7 +337,7 @@ def _joined(groups: list[_Group]) -> list[list[_Unit]]:
 
     def alone(g: _Group) -> bool:
         unit = g.whole
-        if not unit.kind and recognize(unit.name) is not None:
+        if all(u.moved for u in g.units) or (not unit.kind and recognize(unit.name) is not None):
             return False
         made = unit.kind or any(len(u.children) > 1 for u in g.units)
         return bool(unit.diagonal >= SMALLEST * largest and unit.steady and (made or unit.low[2] <= unit.ground))
