@@ -98,6 +98,14 @@ def test_steps_and_splines(tmp_path):
     assert_hinge(only(read(g, tmp_path)[0]), (0, 1, 0), PIVOT, (0, 60))
 
 
+def test_tangents_that_a_compressor_of_quaternions_normalised_do_not_count(tmp_path):
+    g, door = cabinet()
+    tangent = np.tile([0.0, 0, 0, 1], (3, 1))
+    splines = np.stack([tangent, turns([0, 90, 0]), -tangent], 1).reshape(-1, 4)
+    g.animate(door, "rotation", [0, 2, 4], splines, mode="CUBICSPLINE")
+    assert_hinge(only(read(g, tmp_path)[0]), (0, 1, 0), PIVOT, (0, 90))
+
+
 def test_several_animations_of_a_node_are_one_joint_over_their_whole_range(tmp_path):
     g, door = cabinet()
     g.turn(door, [0, 0, 0], name="Idle")

@@ -33,7 +33,9 @@ def draco_attributes(data: bytes, ids: dict[str, int]) -> tuple[dict[str, np.nda
     try:
         import DracoPy  # ty: ignore[import-not-found]
     except ImportError:  # no wheel for Macs with Intel processors
-        raise DataError("its Draco data needs DracoPy, which is not installed; `pip install DracoPy`, or save it without") from None
+        raise DataError(
+            "its Draco data needs DracoPy, which is not installed; `pip install DracoPy`, or save it without"
+        ) from None
     if max(counts := _draco_counts(data)) > 3 * MAX_FACES:
         raise DataError(f"its Draco data states {max(counts)} vertices or triangles; at most {3 * MAX_FACES} are read")
     try:

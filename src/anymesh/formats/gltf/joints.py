@@ -162,6 +162,8 @@ def _channel(sampler: dict[str, Any], path: str, buffers: Buffers) -> Channel:
         raise ValueError
     keys = values.reshape(len(times), rows, -1)
     turns = path == "rotation"
+    if turns and rows == 3 and np.allclose(np.linalg.norm(keys[:, ::2], axis=2), 1, atol=1e-3):
+        keys, mode = keys[:, 1:2], "LINEAR"  # a compressor took the tangents for quaternions, too, and normalised them
 
     def at(when: Float[np.ndarray, " k"]) -> np.ndarray:
         low = np.clip(np.searchsorted(times, when, "right") - 1, 0, len(times) - 1)
