@@ -23,6 +23,7 @@ MESH = EXAMPLES / "meshes" / "cabinet.glb"  # that --walk articulates
 TREE = "working tree"
 PARTS = (
     "core",
+    "readers of formats and of stated joints",
     "prompted",
     "finishing",
     "checking",
@@ -37,12 +38,13 @@ PARTS = (
     "all Python",
 )
 FOLDERS = {  # of src/anymesh, by part; what is not listed is core
+    "readers of formats and of stated joints": ("formats", "stated"),
     "prompted": ("prompted", "vlm", "models", "cli/answer", "cli/models", "weights"),
     "finishing": ("finishing", "completion", "pipeline/finishing", "cli/finish"),
     "checking": ("checking", "simulation", "cli/check"),
     "evaluation": ("evaluation", "cli/evaluate", "cli/report"),
-    PARTS[5]: ("viewer", "correcting", "agents", "cli/view", "cli/mcp", "cli/skill"),
-    PARTS[6]: ("applications", *(f"cli/{name}" for name in ("annotate", "generate", "plan", "scan", "train"))),
+    PARTS[6]: ("viewer", "correcting", "agents", "cli/view", "cli/mcp", "cli/skill"),
+    PARTS[7]: ("applications", *(f"cli/{name}" for name in ("annotate", "generate", "plan", "scan", "train"))),
 }
 FINISHING_MODELS = ("holopart", "meshy", "web")  # in `models`, before it was divided
 PROMPTED_MODULES = {  # among modules of the core, before the paper's method had a folder of its own
