@@ -54,7 +54,7 @@ def test_names_that_speak_of_a_part(name: str, label: str | None) -> None:
 
 
 @pytest.mark.parametrize(
-    "name", ["", "Mesh_042", "polySurface7", "Object", "outdoors_scene", "doorbell", "capital", "keystone"]
+    "name", ["", "Mesh_042", "polySurface7", "Object", "outdoors_scene", "doorbell", "capital", "keystone", "Body2", "Body1_3"]
 )
 def test_names_that_mean_nothing(name: str) -> None:
     assert recognize(name) is None

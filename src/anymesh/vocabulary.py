@@ -78,6 +78,7 @@ FIXED = frozenset(
 PLACES = frozenset("side back top bottom".split())
 _BY_NAME = {name: word for word in WORDS for name in word.names}
 _SIBILANTS = ("ches", "shes", "ses", "xes", "zes")  # the singular of these lacks "es": "switches"; but not "tapes"
+CAD_BODY = re.compile(r"Body\d+(?:[\W_]\d+)?")
 _SPLIT = re.compile(r"[^A-Za-z]+|(?<=[a-z])(?=[A-Z])")
 
 
@@ -115,8 +116,8 @@ def recognize(name: str) -> Word | None:
 
 
 def is_fixed_name(name: str) -> bool:
-    """Return whether the last recognized word names something that does not move."""
-    return _part_word(name) in FIXED
+    """Return whether the last recognized word names something that does not move; CAD programs call any solid Body1, Body2."""
+    return _part_word(name) in FIXED and CAD_BODY.fullmatch(name) is None
 
 
 def _part_word(name: str) -> str:

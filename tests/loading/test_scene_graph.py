@@ -122,14 +122,15 @@ def test_what_may_be_seen_is_kept(names, folder) -> None:
 
 
 def test_names_that_programs_give() -> None:
-    generic = "Object_4 mesh_0_3 defaultMaterial Cube.001 polySurface12 ID7 Group#3 cabinet.fbx Box01 12 RootNode pCubeShape1 =>[0:1:1:2] NAUO7".split()
+    generic = "Object_4 mesh_0_3 defaultMaterial Cube.001 polySurface12 ID7 Group#3 cabinet.fbx Box01 12 RootNode pCubeShape1 =>[0:1:1:2] NAUO7 Body2".split()
+    generic.append("Open CASCADE STEP translator 7.9 4.1")
     assert [name for name in generic if not is_generic(name)] == []
-    assert [name for name in "Door base body Boxer panel_2 Grouper 门 Handle.001".split() if is_generic(name)] == []
+    assert [name for name in "Door base body body_2 Boxer panel_2 Grouper 门 Handle.001".split() if is_generic(name)] == []
 
 
 NAMES: dict[str, tuple[list[tuple], dict[str, int], int]] = {  # nodes, faces in boxes by name, number of warnings
-    "`Object_4`, `mesh_0_3`, `defaultMaterial`, `Cube.001`, `polySurface12`": (
-        [(("Case", "mesh_0_3"), "a"), (("Lid", "defaultMaterial"), "b")], {"Case": 1, "Lid": 1}, 0),
+    "`Object_4`, `mesh_0_3`, `defaultMaterial`, `Cube.001`, `polySurface12`, `Body2`": (
+        [(("Case", "mesh_0_3"), "a"), (("Lid", "defaultMaterial"), "b"), (("Leg", "Body1"), "b")], {"Case": 1, "Lid": 1, "Leg": 1}, 0),
     "`Door_Oak_0`, `Door_1`, `DoorShape` below `Door`": (
         [(("Case", "CaseShape"), "a"), (("Door", "Door_Oak_0"), "Oak"), (("Door", "Door_1"), "b")], {"Case": 1, "Door": 2}, 0),
     "such nodes below a plural (`Doors`, `Door set`)": (

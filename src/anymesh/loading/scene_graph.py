@@ -32,7 +32,8 @@ GENERIC = re.compile(
       p?(?:cube|cylinder|sphere|plane|torus|cone|pipe|prism|disc) | circle | (?:ico|geo)sphere | suzanne | tube |
       (?:chamfer)?box | chamfer_?cyl(?:inder)? | line | curve | nurbs(?:path|curve)? | bezier(?:curve|circle)? | text |
       rectangle | loft | extrude | root | root_?node | scene(?:[ _]root)? | gltf_sceneroot_?node | world | auxscene |
-      sketchfab_?(?:model|scene)? | osg_?scene | collada[ ]?visual[ ]?scene(?:[ ]group)? | visual_?scene(?:node)? | collection
+      sketchfab_?(?:model|scene)? | osg_?scene | collada[ ]?visual[ ]?scene(?:[ ]group)? | visual_?scene(?:node)? | collection |
+      (?-i:Body(?=\d)) | open[ ]cascade[ ]step[ ]translator
     ) (?:_?shape)? [\W_\d]* | [\W_\d]* | [0-9a-f-]{16,}[\W_\d]* |
     .*\.(?:fbx|obj|dae|blend|3ds|max|gltf|glb|stl|ply|skp|c4d|ma|mb|stp|step)\b.* )"""
 )
