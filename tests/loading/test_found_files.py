@@ -74,10 +74,11 @@ def test_git_lfs_pointers_are_told(tmp_path) -> None:
 SKETCHFAB = {"source/model.obj": obj(), "source/box.mtl": TEXTURED, "textures/x.png": png()}
 NESTED = {"source/a.zip": archive({"a/model.obj": obj(), "a/box.mtl": TEXTURED}), "textures/x.png": png()}
 FORMATS = {"obj/Chair_OBJ.obj": obj(), "obj/box.mtl": TEXTURED, "obj/x.png": png(), "Chair.stl": FILES["binary.stl"]}
+LEVELS = {f"a/chair_LOD{k}.obj": obj() for k in range(3)} | {"a/box.mtl": TEXTURED, "a/x.png": png()}
 WINDOWS = {"set\\model.obj": obj(), "set\\box.mtl": TEXTURED, "set\\maps\\x.png": png(), "__MACOSX\\set\\._model.obj": b"junk"}
 
 
-@pytest.mark.parametrize(("files", "warned"), [(SKETCHFAB, 0), (NESTED, 0), (FORMATS, 1), (WINDOWS, 0)])
+@pytest.mark.parametrize(("files", "warned"), [(SKETCHFAB, 0), (NESTED, 0), (FORMATS, 1), (LEVELS, 1), (WINDOWS, 0)])
 def test_a_zip_is_read_like_a_folder(tmp_path, files, warned) -> None:
     path = put(tmp_path, "old cabinet.zip", archive(files))
     loaded = load_mesh(path)

@@ -17,6 +17,7 @@ from typing import TypeVar
 
 from anymesh.errors import InputError
 from anymesh.loading.references import readable
+from anymesh.loading.scene_graph import DETAIL
 
 MAX_UNPACKED_BYTES = 1 << 30  # of all files
 MAX_FILES = 2000
@@ -106,7 +107,9 @@ def _inside(entry: zipfile.ZipInfo, folder: Path) -> Path | None:
 
 
 def only_mesh(folder: Path, formats: Sequence[str], *, outer: bool = True) -> Unpacked:
-    """Return the only mesh in a folder, or, if outer, in the only zip in it; of one in several formats, the best of them.
+    """Return the only mesh in a folder, or, if outer, in the only zip in it.
+
+    Of one in several levels of detail or formats, the finest and best of them is returned.
 
     Raise InputError if there is none, or several.
     """
@@ -120,14 +123,20 @@ def only_mesh(folder: Path, formats: Sequence[str], *, outer: bool = True) -> Un
         archives[0].unlink()
         return replace(only_mesh(inner, formats, outer=False), root=folder)
     names = [p.relative_to(folder).as_posix() for p in meshes]
-    if len({FORMAT_WORDS.sub("", p.stem.casefold()) for p in meshes}) == 1:
-        ranks = [BEST_FIRST.index(p.suffix.lower()) if p.suffix.lower() in BEST_FIRST else len(BEST_FIRST) for p in meshes]
+    if len({FORMAT_WORDS.sub("", DETAIL.sub("", p.stem).casefold().strip("_-. ")) for p in meshes}) == 1:
+        ranks = [(_level(p), BEST_FIRST.index(p.suffix.lower()) if p.suffix.lower() in BEST_FIRST else 99) for p in meshes]
         if ranks.count(min(ranks)) == 1:
             best = ranks.index(min(ranks))
             return Unpacked(meshes[best], folder, tuple(n for k, n in enumerate(names) if k != best))
     listed = f"{len(meshes)} meshes ({', '.join(names[:4])}{', ...' if len(names) > 4 else ''})" if meshes else "no mesh"
     valid = f"valid is exactly one of {', '.join(formats)}, with what it refers to"
     raise InputError(f"the zip holds {listed}; {valid}{'; unpack it and give one of them' if meshes else ''}")
+
+
+def _level(path: Path) -> int:
+    """Return the level of detail that a file's name states, 0 for the finest."""
+    found = DETAIL.search(path.stem)
+    return int(found[1]) if found else 0
 
 
 def load_zipped(
