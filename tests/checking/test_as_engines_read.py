@@ -220,3 +220,54 @@ def test_what_an_arm_meets_with_its_other_joints_at_rest_is_a_warning(tmp_path):
     report = check_asset(path)
     assert report.ok, "\n".join(report.lines())
     assert any("other joints at rest" in f.text for f in report.findings)
+
+
+FAR_OFF = '<inertial><origin xyz="0 0 3"/><mass value="MASS"/><inertia ixx=".002" iyy=".002" izz=".002" ixy="0" ixz="0" iyz="0"/></inertial>'
+DOOR = joint("hinge", "case", "door", "0 0 1", at="0 .2 0", kind="revolute")
+CARRIED = joint("held", "door", "sign", "0 0 1", "", ".1 0 0", "fixed")
+
+
+@pytest.mark.parametrize(
+    ("elements", "severity"),
+    [
+        ((link("case", BOX, FAR_OFF.replace("MASS", "1")), link("door", BOX), DOOR), Severity.WARNING),  # it never moves
+        ((link("case", BOX), link("door", BOX), link("sign", BOX, FAR_OFF.replace("MASS", ".01")), DOOR, CARRIED), Severity.WARNING),
+        ((link("case", BOX), link("door", BOX), link("sign", BOX, FAR_OFF.replace("MASS", "9")), DOOR, CARRIED), Severity.FAILURE),
+    ],
+)  # fmt: skip
+def test_a_centre_of_mass_counts_for_the_body_that_moves(tmp_path, elements, severity):
+    report = check_asset(write(tmp_path, *elements), engines=())
+    assert [f.severity for f in report.findings if "centre of mass" in f.text] == [severity]
+
+
+def test_a_frame_with_a_mass_but_no_moments_passes_on_a_link_with_some(tmp_path):
+    frame = '<inertial><mass value="1e-9"/><inertia ixx="0" iyy="0" izz="0" ixy="0" ixz="0" iyz="0"/></inertial>'
+    elements = link("case", BOX), link("door", BOX), f'<link name="sign">{frame}</link>', DOOR, CARRIED
+    path = write(tmp_path, *elements)
+    assert not failures(path)
+    alone = write(tmp_path, link("case", BOX), link("door", BOX, frame), DOOR, name="alone.urdf")
+    assert any("above 0" in f for f in failures(alone, engines=()))
+
+
+def test_a_link_without_collision_may_carry_one_with_it(tmp_path):
+    arm = joint("wrist", "door", "hand", "0 0 1", at=".2 0 0", kind="revolute")
+    elements = link("case", BOX), link("door", BOX, collision=False), link("hand", BOX), DOOR, arm
+    assert not failures(write(tmp_path, *elements), engines=())
+    elements = link("case", BOX), link("door", BOX), link("hand", BOX, collision=False), DOOR, arm
+    (failure,) = failures(write(tmp_path, *elements), engines=())
+    assert "hand" in failure
+
+
+def test_equal_links_are_told_the_same_of_their_openings(tmp_path):
+    corners = [(x, y) for x, y in [(0.5, 0.5), (-0.5, 0.5), (-0.5, -0.5), (0.5, -0.5)]]
+    rings = [[(k * x, k * y, z) for x, y in corners] for k, z in [(1, 0), (1, 1), (0.8, 1), (0.8, 0.1)]]
+    text = "".join(f"v {x} {y} {z}\n" for ring in rings for x, y, z in ring) + "f 4 3 2 1\nf 13 14 15 16\n"
+    for k in range(3):
+        text += "".join(
+            f"f {4 * k + i + 1} {4 * k + j + 1} {4 * k + j + 5} {4 * k + i + 5}\n" for i, j in [(0, 1), (1, 2), (2, 3), (3, 0)]
+        )
+    (tmp_path / "bin.obj").write_text(text)
+    box = '<mesh filename="bin.obj"/>'
+    slide = joint("slide", "one", "two", "1 0 0", at="3 0 0")
+    report = check_asset(write(tmp_path, link("one", box), link("two", box), slide), engines=())
+    assert [f.subject for f in report.findings if "empty space" in f.text] == ["one", "two"]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from hashlib import blake2b
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -32,7 +33,10 @@ GRID = 16  # points per side of the grid on which cavities are searched
 HOLLOW = 0.1  # minimum share of empty space in the convex hull of the visuals for a cavity
 FILLED = 0.5  # share of the empty space; collision shapes that fill more close the cavity
 BORE = 0.02  # of the object's diagonal: from a quarter of this radius, round openings of narrow components count
-SMALLEST, MOST_COMPONENTS = 0.006, 150  # components of a link whose openings are checked: size in diagonals, number
+SMALLEST, MOST_COMPONENTS = (
+    0.014,
+    150,
+)  # components of a link that are checked for openings: size in diagonals, number
 BORE_FACES = 3000  # maximum number of faces of a component whose openings are checked
 FACES = 10_000  # maximum number of faces of the visible surface, for this check
 
@@ -60,12 +64,17 @@ def check_inertia(content: Content) -> Iterator[Finding]:
         if inertial.mass == 0 and (link.name not in moved or sum(masses.get(n, 0) for n in groups[link.name]) > 0):
             yield warning(INERTIA, link.name, "its mass is 0 kg; engines that take links by themselves need one above 0")
             continue
+        others = sum(masses.get(name, 0) for name in groups[link.name] - {link.name})
+        if not inertial.tensor.any() and (link.name not in moved or others > 0):
+            yield warning(INERTIA, link.name, "its moments are 0 kg m2; engines that take links by themselves need others")
+            continue
         findings = tuple(_possible(link.name, inertial))
         if content.robot.format == "MJCF":  # its compiler accepts it
             findings = tuple(warning(f.check, f.subject, f.text) for f in findings)
         yield from findings
         if not findings:
-            yield from _fitting(content, link, inertial)
+            body = groups[link.name] if link.name in moved else frozenset[str]()
+            yield from _fitting(content, link, inertial, body)
     yield from _placeholder(content, given)
 
 
@@ -81,17 +90,18 @@ def _possible(link: str, inertial: Inertial) -> Iterator[Finding]:
         yield failure(INERTIA, link, f"{shown}; none may exceed the sum of the others")
 
 
-def _fitting(content: Content, link: RobotLink, inertial: Inertial) -> Iterator[Finding]:
+def _fitting(content: Content, link: RobotLink, inertial: Inertial, body: frozenset[str]) -> Iterator[Finding]:
+    """Compare mass and tensor with the shape. body: the links that move as one with this one; empty if it does not move."""
     points = content.shown(link.name).reshape(-1, 3)
     if not len(points) or not np.isfinite(points).all():
         return
     low, high = points.min(0), points.max(0)
     diagonal = float(np.linalg.norm(high - low))
-    outside = float(np.maximum(low - inertial.center, inertial.center - high).max())
+    outside = _outside(points, inertial.center)[0]
     if outside > GROWN * diagonal:
         shown = ", ".join(f"{v:.4g}" for v in inertial.center)
         problem = f"its centre of mass ({shown}) lies {outside:.3g} m outside of its box; valid is inside"
-        yield failure(INERTIA, link.name, problem) if outside > FAR * diagonal else warning(INERTIA, link.name, problem)
+        yield failure(INERTIA, link.name, problem) if _far(content, body) else warning(INERTIA, link.name, problem)
         return
     volume = float(np.prod(np.maximum(high - low, 0.01 * diagonal)))
     density = inertial.mass / max(volume, 1e-300)
@@ -105,6 +115,24 @@ def _fitting(content: Content, link: RobotLink, inertial: Inertial) -> Iterator[
             f"its inertia corresponds to mass {spread:.3g} m from its centre; its farthest corner is {farthest:.3g} m away"
         )
         yield warning(INERTIA, link.name, f"{problem}; a ratio of {SMALL:g} to {LARGE:g} is plausible")
+
+
+def _outside(points: Float[np.ndarray, "n 3"], center: Float[np.ndarray, " 3"]) -> tuple[float, float]:
+    """Return how far a center lies outside the box of some points, and the diagonal of the box."""
+    low, high = points.min(0), points.max(0)
+    return float(np.maximum(low - center, center - high).max()), float(np.linalg.norm(high - low))
+
+
+def _far(content: Content, body: frozenset[str]) -> bool:
+    """Return whether the common centre of mass of links that move as one lies far outside of their box."""
+    links = [link for link in content.robot.links if link.name in body]
+    given = [(content.places[b.name], b.inertial) for b in links if b.inertial is not None]
+    mass = sum(i.mass for _, i in given)
+    if mass <= 0:
+        return False
+    center = sum((i.mass * (T[:3, :3] @ i.center + T[:3, 3]) for T, i in given), np.zeros(3)) / mass
+    outside, diagonal = _outside(content.at_rest(body).reshape(-1, 3), center)
+    return outside > FAR * diagonal
 
 
 def _placeholder(content: Content, given: list[tuple[RobotLink, Inertial]]) -> Iterator[Finding]:
@@ -135,10 +163,16 @@ def check_collision(content: Content, contacts: Mapping[tuple[str, str], float] 
         body = groups[joint.child]
         if any(content.visuals[name] for name in body) and not any(content.collisions[name] for name in body):
             problem = "it moves and has no collision shape; nothing can touch it"
-            told = warning if robot.format == "MJCF" or not any(content.collisions.values()) else failure
-            yield told(COLLISION, joint.child, problem)
+            carried = any(content.collisions[name] for name in robot.carried(joint.child))  # as beyond the links of a waist
+            accepted = carried or robot.format == "MJCF" or not any(content.collisions.values())
+            yield (warning if accepted else failure)(COLLISION, joint.child, problem)
+    known: dict[tuple[bytes, ...], list[str]] = {}  # wheels and legs have the same shapes many times
     for link in robot.links:
-        yield from [*_cavity(content, link.name)] or _bores(content, link.name)
+        kinds = (content.visuals[link.name], content.collisions[link.name])
+        key = tuple(blake2b(b"".join(np.round(s.triangles, 9).tobytes() for s in kind)).digest() for kind in kinds)
+        if key not in known:
+            known[key] = [*_closed_openings(content, link.name)]
+        yield from (warning(COLLISION, link.name, text) for text in known[key])
     adjacent = joined(robot)
     for (a, b), depth in (contacts or {}).items():
         pair = frozenset((a, b))
@@ -155,12 +189,16 @@ def check_collision(content: Content, contacts: Mapping[tuple[str, str], float] 
             )
 
 
-def _cavity(content: Content, link: str) -> Iterator[Finding]:
-    seen = content.shown(link)
-    shapes = [s.triangles for s in content.collisions[link]]
-    if not content.visuals[link] or not shapes or not np.isfinite(seen).all():
-        return
-    points = seen.reshape(-1, 3)
+def _closed_openings(content: Content, link: str) -> Iterator[str]:
+    """Yield what the collision shapes of a link close: a cavity, else a round opening."""
+    seen, shapes = content.shown(link), [s.triangles for s in content.collisions[link]]
+    if content.visuals[link] and shapes and np.isfinite(seen).all():
+        surface = simplify(seen, FACES)
+        yield from [*_cavity(surface, shapes)] or _bores(surface, shapes, content.diagonal)
+
+
+def _cavity(surface: Float[np.ndarray, "F 3 3"], shapes: list[np.ndarray]) -> Iterator[str]:
+    points = surface.reshape(-1, 3)
     low, high = points.min(0), points.max(0)
     steps = (high - low) / GRID
     axes = [low[k] + steps[k] * (np.arange(GRID) + 0.5) for k in range(3)]
@@ -168,7 +206,6 @@ def _cavity(content: Content, link: str) -> Iterator[Finding]:
     inside = _in_hull(points, grid)
     if not inside.any():
         return
-    surface = simplify(seen, FACES)
     empty = grid[inside]
     empty = empty[distance_to_triangles(empty, surface) > 0.5 * float(np.linalg.norm(steps))]
     empty = empty[winding_number(empty, *unshared(surface)) < 0.5] if len(empty) else empty
@@ -181,23 +218,22 @@ def _cavity(content: Content, link: str) -> Iterator[Finding]:
         volume = float(taken.sum() * np.prod(steps))
         count = "one convex shape" if len(shapes) == 1 else f"{len(shapes)} convex shapes"
         problem = f"its collision ({count}) fills {taken.mean():.0%} of the empty space in it, {volume:.3g} m3"
-        yield warning(COLLISION, link, f"{problem}; use convex shapes that leave the cavity open")
+        yield f"{problem}; use convex shapes that leave the cavity open"
 
 
-def _bores(content: Content, link: str) -> Iterator[Finding]:
-    """Check that balls which fit into the round openings of the visuals fit between the collision shapes too."""
-    seen, shapes = content.shown(link), [hull_of(s.triangles.reshape(-1, 3)) for s in content.collisions[link]]
-    hulls = [hull for hull in shapes if hull is not None]
-    if not content.visuals[link] or not hulls or not np.isfinite(seen).all():
+def _bores(seen: Float[np.ndarray, "F 3 3"], shapes: list[np.ndarray], diagonal: float) -> Iterator[str]:
+    """Check that balls which fit into the round openings of a surface fit between the collision shapes too."""
+    hulls = [hull for shape in shapes if (hull := hull_of(shape.reshape(-1, 3))) is not None]
+    if not hulls:
         return
-    surface, _ = plain_triangles(simplify(seen, FACES), content.diagonal)
+    surface, _ = plain_triangles(seen, diagonal)
     closed, widest = 0, 0.0
-    for component in split_components(surface, SMALLEST * content.diagonal, MOST_COMPONENTS):
+    for component in split_components(surface, SMALLEST * diagonal, MOST_COMPONENTS):
         triangles = simplify(component.triangles, BORE_FACES)
         hull = hull_of(triangles.reshape(-1, 3))
         if hull is None:
             continue
-        some = openings_of(triangles, hull, BORE * content.diagonal, solid=component.solid)
+        some = openings_of(triangles, hull, BORE * diagonal, solid=component.solid)
         free = np.min([some.distances(h) for h in hulls], axis=0) / some.radii if len(some) else np.zeros(0)
         shown = some.round & (distance_to_triangles(some.centers, surface) > 0.95 * some.radii)  # no rod in it
         filled = some.radii[shown & (free < FILLED)]
@@ -205,7 +241,7 @@ def _bores(content: Content, link: str) -> Iterator[Finding]:
     if closed:
         count = "one convex shape" if len(hulls) == 1 else f"{len(hulls)} convex shapes"
         problem = f"its collision ({count}) closes a round opening, into which a ball of {2 * widest:.3g} m fits"
-        yield warning(COLLISION, link, f"{problem}; use convex shapes around the opening")
+        yield f"{problem}; use convex shapes around the opening"
 
 
 def _in_hull(points: Float[np.ndarray, "n 3"], asked: Float[np.ndarray, "m 3"]) -> Bool[np.ndarray, " m"]:
