@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.geometry.boxes import box_pairs
+from anymesh.geometry.boxes import box_pairs, within
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.surface import ground_faces
 from anymesh.geometry.topology import label_connected, weld
@@ -77,7 +77,7 @@ class _Unit:
     def high(self) -> Float[np.ndarray, " 3"]:
         return self.triangles.max((0, 1))
 
-    @property
+    @cached_property
     def diagonal(self) -> float:
         return float(np.linalg.norm(self.high - self.low))
 
@@ -101,23 +101,32 @@ class _Unit:
             and not is_fixed_name(self.name)
         )
 
-    @property
+    @cached_property
     def stands(self) -> bool:
         """Whether it stands by itself and is not named as a part."""
         named = recognize(self.name) is not None or is_fixed_name(self.name)
-        return float(self.low[2]) <= self.ground and not named and not self.moved and self.steady
+        return bool(self.low[2] <= self.ground and not named and not self.moved and self.steady)
 
-    @property
+    @cached_property
     def steady(self) -> bool:
         """Whether it could stand by itself: wide enough for its height."""
         points = self.triangles.reshape(-1, 3)[:, :2]
         centred = points - points.mean(0)
         across = centred @ np.linalg.svd(centred.T @ centred)[0]
-        return float(np.ptp(across, axis=0).min()) >= STEADY * float(self.high[2] - self.low[2])
+        return bool(np.ptp(across, axis=0).min() >= STEADY * (self.high[2] - self.low[2]))
 
 
-def _gap(a: _Unit, b: _Unit) -> float:
-    return min(float(a.tree.distance(b.probes).min()), float(b.tree.distance(a.probes).min()))
+def _closer(a: _Unit, b: _Unit, limit: float) -> bool:
+    """Whether the gap between two units is below a limit [m]."""
+    for one, other in ((a, b), (b, a)):
+        near = other.probes[within(other.probes, one.low - limit, one.high + limit)]
+        if len(near) and float(one.tree.distance(near).min()) < limit:
+            return True
+    return False
+
+
+def _between_boxes(a: _Unit, b: _Unit) -> float:
+    return float(np.linalg.norm(np.maximum(np.maximum(a.low - b.high, b.low - a.high), 0)))
 
 
 def _shared(a: _Unit, b: _Unit, axes: slice = slice(None)) -> float:
@@ -144,7 +153,7 @@ def _are_one(a: _Unit, b: _Unit) -> bool:
     smaller = min(a.diagonal, b.diagonal)
     if (np.maximum(a.low - b.high, b.low - a.high) > APART * smaller).any():
         return False
-    return shared > 0 and _gap(a, b) < APART * smaller
+    return shared > 0 and _closer(a, b, APART * smaller)
 
 
 def find_objects(mesh: Mesh) -> tuple[SceneObject, ...]:
@@ -269,15 +278,35 @@ class _Scene:
 def _grouped(units: list[_Unit]) -> list[list[_Unit]]:
     """Group units into objects; a group that is none by itself joins the nearest."""
     low, high = np.array([u.low for u in units]), np.array([u.high for u in units])
-    close = [
-        pair for pair in box_pairs(low, high, APART * max(u.diagonal for u in units)) if _are_one(*(units[i] for i in pair))
-    ]
+    pairs = box_pairs(low, high, APART * max(u.diagonal for u in units))
+    if any(len(u.children) > 1 for u in units):
+        close = [(i, j) for i, j in pairs if _are_one(units[i], units[j])]
+    else:
+        close = list(_spanning(units, pairs, _are_one))
     between = _connectors(units, close)
     close = [(i, j) for i, j in close if i not in between and j not in between]
     label = label_connected(len(units), np.array(close, np.int64).reshape(-1, 2))
     together = [[units[i] for i in np.flatnonzero(label == g)] for g in range(int(label.max()) + 1)]
     apart = [[units[i]] for i in sorted(between)]
     return [*_joined([_together(some) for some in together if some not in apart]), *apart]
+
+
+def _spanning(
+    units: list[_Unit], pairs: list[tuple[int, int]], are_one: Callable[[_Unit, _Unit], bool]
+) -> Iterator[tuple[int, int]]:
+    """Yield pairs that are one, as many as connect all that are; those that are connected already are not measured."""
+    group = list(range(len(units)))
+
+    def root(i: int) -> int:
+        while group[i] != i:
+            group[i] = group[group[i]]
+            i = group[i]
+        return i
+
+    for i, j in pairs:
+        if root(i) != root(j) and are_one(units[i], units[j]):
+            group[root(i)] = root(j)
+            yield i, j
 
 
 def _connectors(units: list[_Unit], close: list[tuple[int, int]]) -> set[int]:
@@ -319,7 +348,7 @@ def _belong_together(a: _Unit, b: _Unit) -> bool:
     if smaller > COMPARABLE * larger and a.stands and b.stands:
         return False
     near = BESIDE * smaller
-    return bool((np.maximum(a.low - b.high, b.low - a.high) < near).all()) and _gap(a, b) < near
+    return bool((np.maximum(a.low - b.high, b.low - a.high) < near).all()) and _closer(a, b, near)
 
 
 def _are_copies(a: _Unit, b: _Unit) -> bool:
@@ -342,16 +371,19 @@ def _joined(groups: list[_Group]) -> list[list[_Unit]]:
         made = unit.kind or any(len(u.children) > 1 for u in g.units)
         return bool(unit.diagonal >= SMALLEST * largest and unit.steady and (made or unit.low[2] <= unit.ground))
 
+    standing = np.array([alone(g) for g in groups])
+    if standing.sum() < 2:
+        return [[u for g in groups for u in g.units]]
     wholes = [g.whole for g in groups]
     boxes = np.array([w.low for w in wholes]), np.array([w.high for w in wholes])
-    pairs = [pair for pair in box_pairs(*boxes, FAR * largest) if _belong_together(wholes[pair[0]], wholes[pair[1]])]
+    pairs = list(_spanning(wholes, box_pairs(*boxes, FAR * largest), _belong_together))
     label = label_connected(len(groups), np.array(pairs, np.int64).reshape(-1, 2))
-    kept = np.unique(label[[alone(g) for g in groups]])
+    kept = np.unique(label[standing])
     if len(kept) < 2:
         return [[u for g in groups for u in g.units]]
     members: dict[int, list[_Unit]] = {int(k): [] for k in kept}
     at_home = [k for k in range(len(groups)) if label[k] in members]
     for k, group in enumerate(groups):
-        home = k if label[k] in members else min(at_home, key=lambda other: _gap(group.whole, wholes[other]))
+        home = k if label[k] in members else min(at_home, key=lambda other: _between_boxes(group.whole, wholes[other]))
         members[int(label[home])] += group.units
     return list(members.values())
