@@ -271,3 +271,12 @@ def test_equal_links_are_told_the_same_of_their_openings(tmp_path):
     slide = joint("slide", "one", "two", "1 0 0", at="3 0 0")
     report = check_asset(write(tmp_path, link("one", box), link("two", box), slide), engines=())
     assert [f.subject for f in report.findings if "empty space" in f.text] == ["one", "two"]
+
+
+@pytest.mark.parametrize(("radius", "failed"), [(".001", False), ("3", True)])
+def test_a_marker_for_a_shape_is_no_mistake_of_units(tmp_path, radius, failed):
+    ball = f'<collision><geometry><sphere radius="{radius}"/></geometry></collision>'
+    door = f'<link name="door">{INERTIAL}<visual><geometry>{BOX}</geometry></visual>{ball}</link>'
+    report = check_asset(write(tmp_path, link("case", BOX), door, DOOR), engines=())
+    (told,) = [f for f in report.findings if "units" in f.text and f.check == "meshes"]
+    assert (told.severity == Severity.FAILURE) == failed

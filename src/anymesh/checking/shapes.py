@@ -23,6 +23,7 @@ CLOSED = 0.5  # share of a link's surface that must belong to closed bodies for 
 TINY, HUGE = 1e-4, 1e2  # [m] plausible diagonals of a link
 APART = 0.25  # share of the link's diagonal by which collision may extend outside the visual
 UNITS = 10.0  # ratio of sizes that indicates different units
+MARKER = 0.01  # [m] a box, ball or cylinder up to this diagonal stands for no shape, as in links with collision of their own
 LARGE = 200_000  # maximum number of faces of a mesh; engines are slow with more, and hulls need few
 SCALE = "scale"
 MIN_DIAGONAL, MAX_DIAGONAL = 0.01, 20.0  # [m] diagonal of articulated objects, from a clasp to a gate
@@ -99,9 +100,10 @@ def _agreement(content: Content, link: str) -> Iterator[Finding]:
     if not np.isfinite([diagonal, other]).all() or diagonal <= 0 or other <= 0:
         return
     if not 1 / UNITS < other / diagonal < UNITS:
-        yield failure(
-            MESHES, link, f"its collision is {other / diagonal:.3g} times as large as its visual; are the units right?"
-        )
+        smaller = content.visuals[link] if diagonal < other else content.collisions[link]
+        marker = min(diagonal, other) <= MARKER and all(s.mesh is None for s in smaller)
+        problem = f"its collision is {other / diagonal:.3g} times as large as its visual; are the units right?"
+        yield (warning if marker else failure)(MESHES, link, problem)
         return
     outside = max(float((low - a).max()), float((b - high).max())) / diagonal
     if outside > APART:
