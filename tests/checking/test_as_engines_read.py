@@ -190,6 +190,11 @@ MJCF = {
     ),
     "a joint with another rest position": (f'<body><joint axis="0 0 1" range="30 90" ref="45"/>{BODY}</body>', ""),
     "no collision": ('<body><joint axis="0 0 1" range="0 90"/><geom size=".1" contype="0" conaffinity="0"/></body>', ""),
+    "a rotor heavier than its link": (
+        f'<body>{BODY}<body pos=".3 0 0"><joint axis="0 0 1" range="0 90" armature="2" frictionloss="1"/>'
+        '<geom size=".01" mass="1e-9"/></body></body>',
+        "",
+    ),
     "defaults and frames": (
         f'<frame euler="0 0 30"><body childclass="c"><joint axis="0 0 1"/>{BODY}</body></frame>',
         '<default><default class="c"><joint range="0 90"/></default></default>',

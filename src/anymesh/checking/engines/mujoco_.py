@@ -184,11 +184,12 @@ def _add_motors(mujoco: Any, spec: Any, model: Any, ranges: np.ndarray, joints: 
         kp = max(kp, 2 * float(model.jnt_stiffness[index]) / REACHED_RATIO)  # a spring of the file counteracts it
         kp = max(kp, MIN_SETTLING_RATIO * float(model.dof_damping[dof]) / seconds[index])
         joint = spec.joint(model.joint(index).name)
-        joint.armature = max(0.0, kp / MAX_MOTOR_FREQUENCY**2 - inertia)
+        added = max(0.0, kp / MAX_MOTOR_FREQUENCY**2 - inertia)
+        joint.armature = float(model.dof_armature[dof]) + added  # the file's own is part of the inertia
         motor = spec.add_actuator(name=f"motor_{index}", target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
         motor.ctrllimited = motor.forcelimited = int(mujoco.mjtLimited.mjLIMITED_FALSE)  # a file may have other defaults
         motor.gear = (1, 0, 0, 0, 0, 0)
-        motor.set_to_position(kp=kp, kv=2 * float(np.sqrt(kp * (inertia + joint.armature))))
+        motor.set_to_position(kp=kp, kv=2 * float(np.sqrt(kp * (inertia + added))))
     return seconds
 
 
