@@ -135,8 +135,8 @@ def only_mesh(folder: Path, formats: Sequence[str], *, outer: bool = True) -> Un
 
 def _level(path: Path) -> int:
     """Return the level of detail that a file's name states, 0 for the finest."""
-    found = DETAIL.search(path.stem)
-    return int(found[1]) if found else 0
+    mark = DETAIL.search(path.stem)
+    return int(mark[1]) if mark else 0
 
 
 def load_zipped(
