@@ -1,5 +1,6 @@
 """Test that the candidates include every part of a cabinet once, and that names are evidence for them."""
 
+from dataclasses import replace
 from unittest.mock import patch
 
 import numpy as np
@@ -10,7 +11,15 @@ from anymesh.scoring.by_hand import NAME_SCORE
 from anymesh.segmentation import part_candidates as part_candidates_module
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.part_candidates import NameClass, PartCandidates, name_class, part_candidates, shared_name
+from anymesh.segmentation.part_candidates import (
+    NameClass,
+    PartCandidates,
+    name_class,
+    named_groups,
+    part_candidates,
+    shared_name,
+)
+from anymesh.types import Node
 
 BODY = box((0, 0.05, 0), (1, 0.5, 1))
 LEAF = [box((0.0, 0, 0), (0.1, 0.049, 1)), box((0.9, 0, 0), (1, 0.049, 1)), box((0.1, 0.01, 0), (0.9, 0.04, 1))]  # framed
@@ -38,6 +47,15 @@ def test_a_framed_door_with_its_handle_is_a_candidate_and_so_is_the_handle() -> 
     assert frozenset({1, 2, 3, 4}) in found
     assert frozenset({4}) in found
     assert frozenset(range(5)) not in found  # the whole object is no part
+
+
+@pytest.mark.parametrize("name", ["TV_Stand", "Chest of Drawers"])
+def test_the_name_of_the_only_node_is_that_of_the_object_not_of_a_part(name: str) -> None:
+    mesh, _ = mesh_of([BODY, *LEAF, HANDLE])
+    single = replace(mesh, nodes=(Node(name),), face_node=np.zeros_like(mesh.face_node))
+    group, names = named_groups(single, object_shape(single))
+    assert len(set(group.tolist())) > 1
+    assert set(names) == {""}
 
 
 def test_no_candidate_is_there_twice_and_the_largest_come_first() -> None:

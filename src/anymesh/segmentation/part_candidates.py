@@ -36,14 +36,15 @@ def named_groups(mesh: Mesh, whole: ObjectShape) -> tuple[Int[np.ndarray, " P"],
     """Return the number of the group of each patch, from 0, and the recognized name of each patch, or "".
 
     The patches of a node with a recognized name are one group, all others are groups of their own. The material
-    of most of the surface names nothing.
+    of most of the surface names nothing, nor does the only node, whose name is that of the object.
     """
     faces = np.split(np.argsort(whole.mesh_patch, kind="stable"), np.cumsum(np.bincount(whole.mesh_patch))[:-1])
     names, key = [""] * len(faces), np.arange(len(faces))
     common = int(np.bincount(mesh.face_material + 1, mesh.face_areas).argmax()) - 1
+    several = bool((mesh.face_node != mesh.face_node[0]).any())
     for p, mine in enumerate(faces):
         node, material = _most_frequent(mesh.face_node[mine]), _most_frequent(mesh.face_material[mine])
-        name = mesh.nodes[node].name
+        name = mesh.nodes[node].name if several else ""
         if recognize(name) is not None or is_fixed_name(name):
             names[p], key[p] = name, len(faces) + node
         elif material not in (-1, common) and recognize(mesh.materials[material].name) is not None:
