@@ -113,7 +113,9 @@ def _alpha(read: Read) -> None:
     assert look(read(faint)).opacity == 1
     assert look(read({**faint, "alphaMode": "OPAQUE"})).opacity == 1
     assert look(read({**faint, "alphaMode": "BLEND"})).opacity == 0.25
-    assert look(read({**faint, "alphaMode": "MASK"})).opacity == 0
+    unseen = read({**faint, "alphaMode": "MASK"})
+    assert unseen.mesh.materials[0].opacity == 0
+    assert unseen.warnings == ("invisible by the alpha of its material, as the file states: paint",)
     assert look(read({**faint, "alphaMode": "MASK", "alphaCutoff": 0.2})).opacity == 1
 
 

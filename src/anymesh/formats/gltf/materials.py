@@ -17,6 +17,7 @@ from anymesh.errors import InputError
 from anymesh.formats.gltf.buffers import Buffers, from_uri, item
 from anymesh.formats.gltf.gloss_ import from_gloss
 from anymesh.loading.files import Folder, picture, picture_file, warn_unreadable
+from anymesh.names import listed
 from anymesh.types import Material, Texture
 from anymesh.types.mesh import CLAMP, MIRROR, REPEAT
 
@@ -93,6 +94,10 @@ def read_materials(tree: dict[str, Any], buffers: Buffers, folder: Folder) -> li
     if variants:
         named = ", ".join(repr(str(v.get("name", ""))) for v in variants[:9])
         folder.warn(f"of {len(variants)} material variants ({named}) none is used, but the look that the file shows at first")
+    used = {p.get("material") for p in primitives}
+    unseen = [m.material.name for k, m in enumerate(read) if k in used and m.material is not None and m.material.opacity <= 0]
+    if unseen:
+        folder.warn(f"invisible by the alpha of its material, as the file states: {listed(unseen, 4)}")
     return read
 
 
