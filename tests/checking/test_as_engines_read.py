@@ -195,6 +195,11 @@ MJCF = {
         '<geom size=".01" mass="1e-9"/></body></body>',
         "",
     ),
+    "a spring made for the inertia": (
+        f'<body>{BODY}<body pos=".3 0 0"><joint axis="0 0 1" range="-15 15" springdamper=".1 1"/>'
+        '<geom size=".01" mass=".01"/></body></body>',
+        "",
+    ),
     "defaults and frames": (
         f'<frame euler="0 0 30"><body childclass="c"><joint axis="0 0 1"/>{BODY}</body></frame>',
         '<default><default class="c"><joint range="0 90"/></default></default>',

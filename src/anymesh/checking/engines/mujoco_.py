@@ -184,6 +184,10 @@ def _add_motors(mujoco: Any, spec: Any, model: Any, ranges: np.ndarray, joints: 
         kp = max(kp, 2 * float(model.jnt_stiffness[index]) / REACHED_RATIO)  # a spring of the file counteracts it
         kp = max(kp, MIN_SETTLING_RATIO * float(model.dof_damping[dof]) / seconds[index])
         joint = spec.joint(model.joint(index).name)
+        if np.any(joint.springdamper):  # the compiler would make another spring for another inertia
+            joint.springdamper = (0.0, 0.0)
+            joint.stiffness = _first(joint.stiffness, model.jnt_stiffness[index])
+            joint.damping = _first(joint.damping, model.dof_damping[dof])
         added = max(0.0, kp / MAX_MOTOR_FREQUENCY**2 - inertia)
         joint.armature = float(model.dof_armature[dof]) + added  # the file's own is part of the inertia
         motor = spec.add_actuator(name=f"motor_{index}", target=joint.name, trntype=mujoco.mjtTrn.mjTRN_JOINT)
@@ -191,6 +195,11 @@ def _add_motors(mujoco: Any, spec: Any, model: Any, ranges: np.ndarray, joints: 
         motor.gear = (1, 0, 0, 0, 0, 0)
         motor.set_to_position(kp=kp, kv=2 * float(np.sqrt(kp * (inertia + added))))
     return seconds
+
+
+def _first(of: Any, value: float) -> Any:
+    """Return a value as MuJoCo takes it: since version 4, the first coefficient of a polynomial."""
+    return float(value) if np.ndim(of) == 0 else np.eye(len(of))[0] * float(value)
 
 
 def depths(model: Any, data: Any) -> dict[tuple[int, int], float]:
