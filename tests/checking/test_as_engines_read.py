@@ -195,6 +195,11 @@ MJCF = {
         '<geom size=".01" mass="1e-9"/></body></body>',
         "",
     ),
+    "a spring that rests far outside": (
+        f'<body>{BODY}<body pos=".3 0 0"><joint type="slide" axis="0 0 1" range="-.06 0" stiffness=".5" springref=".5" damping="1"/>'
+        '<geom size=".01" mass=".01"/></body></body>',
+        "",
+    ),
     "a spring made for the inertia": (
         f'<body>{BODY}<body pos=".3 0 0"><joint axis="0 0 1" range="-15 15" springdamper=".1 1"/>'
         '<geom size=".01" mass=".01"/></body></body>',

@@ -181,7 +181,9 @@ def _add_motors(mujoco: Any, spec: Any, model: Any, ranges: np.ndarray, joints: 
         kp = max(
             inertia * (MOTOR_FREQUENCY_1S / seconds[index]) ** 2, 4 * float(model.dof_frictionloss[dof]) / max(tolerance, 1e-9)
         )
-        kp = max(kp, 2 * float(model.jnt_stiffness[index]) / REACHED_RATIO)  # a spring of the file counteracts it
+        rest = float(model.qpos_spring[model.jnt_qposadr[index]])
+        far = max(float(np.abs(ranges[index] - rest).max()) * REACHED_RATIO / max(tolerance, 1e-9), 1.0)  # in ranges
+        kp = max(kp, 2 * far * float(model.jnt_stiffness[index]) / REACHED_RATIO)  # a spring of the file counteracts it
         kp = max(kp, MIN_SETTLING_RATIO * float(model.dof_damping[dof]) / seconds[index])
         joint = spec.joint(model.joint(index).name)
         if np.any(joint.springdamper):  # the compiler would make another spring for another inertia
