@@ -82,12 +82,16 @@ CAD_BODY = re.compile(r"Body\d+(?:[\W_]\d+)?")
 _SPLIT = re.compile(r"[^A-Za-z]+|(?<=[a-z])(?=[A-Z])")
 
 
+_UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss"})
+
+
 def words_of(name: str) -> list[str]:
     """Return the words of a name, in lower case and without accents and plural endings.
 
     "LeftDoors_02" gives left, door.
     """
-    plain = "".join(c for c in unicodedata.normalize("NFKD", name) if not unicodedata.combining(c))
+    german = unicodedata.normalize("NFC", name).translate(_UMLAUTS)
+    plain = "".join(c for c in unicodedata.normalize("NFKD", german) if not unicodedata.combining(c))
     return [_singular(w.lower()) for w in _SPLIT.split(plain) if w]
 
 
