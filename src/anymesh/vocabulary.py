@@ -82,7 +82,7 @@ CAD_BODY = re.compile(r"Body\d+(?:[\W_]\d+)?")
 _SPLIT = re.compile(r"[^A-Za-z]+|(?<=[a-z])(?=[A-Z])")
 
 
-_UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue", "Ä": "Ae", "Ö": "Oe", "Ü": "Ue", "ß": "ss"})
+_UMLAUTS = str.maketrans({c: f"{unicodedata.normalize('NFD', c)[0]}e" for c in "äöüÄÖÜ"} | {"ß": "ss"})
 
 
 def words_of(name: str) -> list[str]:
