@@ -1,6 +1,6 @@
 """Materials of COLLADA: colours are sRGB and are converted to linear; pictures stay as the bytes of their files.
 
-What is see-through follows COLLADA 1.5 ("Determining Transparency"). A material that nobody could see is a mistake of writers
+What is see-through follows COLLADA 1.5 ("Determining Transparency"). A material that no one could see is a mistake of writers
 that invert these values, and is drawn opaque.
 """
 
