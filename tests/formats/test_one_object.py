@@ -16,6 +16,7 @@ from anymesh.types.mesh import to_srgb
 
 pytest.importorskip("pxr")
 pytest.importorskip("ufbx")
+STILL = ("bookcase", "table")  # nothing of them moves
 EXAMPLES = Path(__file__).parents[2] / "examples" / "meshes"
 FORMATS = ("usda", "usdz", "fbx", "obj", "dae")
 CENTIMETRES = 100.0
@@ -130,7 +131,7 @@ def check(name: str, folder: Path) -> None:
     if (source.face_material < 0).any():
         source = replace(source, materials=(Material("material_0"),), face_material=np.zeros(len(source.faces), np.int64))
     mesh, joints = solved(EXAMPLES / f"{name}.glb", scale="1")
-    assert joints
+    assert bool(joints) == (name not in STILL)
     for kind in FORMATS:
         guess = {"up": "y", "scale": "1"} if kind == "obj" else {}
         other, found = solved(WRITERS[kind](source, folder), **guess)
