@@ -1,4 +1,4 @@
-"""How often the objects of a scene are told apart, and how often a single object is taken for several.
+"""Count scenes whose objects are found exactly, and single objects that are divided into several.
 
 python -m benchmarks.scenes [DATASET ...]      rows of examples, then the objects of data sets, such as urdf:FOLDER sweethome3d
 

@@ -13,6 +13,7 @@ from mesh_files import FACES, POINTS, UV, all_files, ply_header, put, rows, stl_
 from test_obj import table_rows
 
 from anymesh.loading import LoadedMesh, load_mesh
+from anymesh.types.mesh import to_srgb
 
 FILES = all_files()
 Check = Callable[[LoadedMesh], object]
@@ -28,8 +29,11 @@ def box(loaded: LoadedMesh) -> bool:
 
 
 def colors(loaded: LoadedMesh) -> list[list[int]]:
-    assert loaded.mesh.corner_color is not None
-    return loaded.mesh.corner_color[:, 0].tolist()
+    mesh = loaded.mesh
+    if mesh.corner_color is None:
+        display = [[*np.rint(255 * to_srgb(m.base_color[:3])).astype(int).tolist(), 255] for m in mesh.materials]
+        return [display[k] for k in mesh.face_material]
+    return mesh.corner_color[:, 0].tolist()
 
 
 def ply(
@@ -90,7 +94,7 @@ STL: dict[str, tuple[bytes, Check]] = {
     "normals": (stl_ascii().replace(b"normal 0 0 0", b"normal nan inf 5"), box),
     "attributes with the highest bit (VisCAM, SolidView)": (stl([FLAG + HIGH, FLAG + LOW, LOW]), lambda m: box(m) and colors(m)[:3] == [[255, 0, 0, 255], [0, 0, 255, 255], [218, 218, 218, 255]]),
     "`COLOR=` in the header (Magics)": (stl([LOW, HIGH, *[FLAG] * 10], MAGICS), lambda m: box(m) and colors(m)[:3] == [[255, 0, 0, 255], [0, 0, 255, 255], RED]),
-    "other attributes": (stl([1, 2]), lambda m: told(m, "2 facets have attributes") and m.mesh.corner_color is None),
+    "other attributes": (stl([1, 2]), lambda m: told(m, "2 facets have attributes") and m.mesh.corner_color is None and not m.mesh.materials),
     "facets that are not finite": (stl([])[:96] + NAN + stl([])[100:], lambda m: told(m, "1 of 12 faces")),
     "decimal commas": (stl_ascii().replace(b".0", b",0"), lambda m: told(m, "decimal commas")),
 }  # fmt: skip
@@ -134,7 +138,7 @@ def test_which_of_two_conventions_a_coloured_stl_follows(tmp_path, attributes, h
 
 def test_the_header_of_meshlab_is_no_colour(tmp_path) -> None:
     header = b"COLOR=\x7f\x7f\x7f MATERIAL=\x7f\x7f\x7f \x7f\x7f\x7f \x7f\x7f\x7f "
-    assert load_mesh(put(tmp_path, "box.stl", stl([0] * 12, header))).mesh.corner_color is None
+    assert load_mesh(put(tmp_path, "box.stl", stl([0] * 12, header))).mesh.materials == ()
     assert colors(load_mesh(put(tmp_path, "box.stl", stl([HIGH, *[FLAG] * 11], header))))[1] == [127, 127, 127, 255]
 
 
@@ -145,3 +149,9 @@ def test_texture_coordinates_and_colours_of_off_in_their_order(tmp_path) -> None
     np.testing.assert_allclose(loaded.mesh.corner_uv, UV[FACES])
     assert colors(loaded) == [[128, 64, 0, 255]] * 12
     assert loaded.warnings == ()
+
+
+def test_facets_of_few_colours_have_a_material_each(tmp_path) -> None:
+    mesh = load_mesh(put(tmp_path, "box.stl", stl([1 << 15 | 31 << 10] * 6 + [1 << 15 | 31] * 6))).mesh
+    assert sorted(m.name for m in mesh.materials) == ["color_0000ff", "color_ff0000"]
+    assert mesh.corner_color is None and np.bincount(mesh.face_material).tolist() == [6, 6]

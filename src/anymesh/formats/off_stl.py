@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import struct
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,7 +17,8 @@ from anymesh.errors import InputError
 from anymesh.loading.files import ASCII_STL, Folder, check_count
 from anymesh.loading.join import check_geometry, join, rgba, simple_mesh, unit, usable_polygons, with_points
 from anymesh.loading.polygons_ import fans, recut
-from anymesh.types import Mesh
+from anymesh.types import Material, Mesh
+from anymesh.types.mesh import to_linear
 
 TRIANGLE = np.dtype([("normal", "<f4", 3), ("vertices", "<f4", (3, 3)), ("attributes", "<u2")])
 NUMBER = rb"[-+]?(?:[\d.]|nan|inf)"  # start of a number; tells a facet from words in a title
@@ -27,6 +29,7 @@ MAX_TITLE = 200  # characters of a solid's name that are kept
 MAGICS = re.compile(rb"(?s)COLOR=(.{4})")  # in the header: RGBA of the whole object
 PAINTED, SHIFTS = 1 << 15, (10, 5, 0)  # of the attribute: the flag, and the places of red, green and blue, 5 bits each
 NO_COLOR = b"\x7f\x7f\x7f"  # of the header that MeshLab writes for every mesh
+MOST_COLORS = 64  # materials of a mesh; more colours are a picture of the surface
 GREY = 218  # of faces without a colour beside others: that of a surface without material
 
 
@@ -58,8 +61,21 @@ def _binary(folder: Folder, data: bytes) -> Mesh:
     usable = usable_polygons(folder, vertices, np.arange(len(vertices)), np.full(count, 3), first=1)
     colors = _facet_colors(folder, data[:80], table["attributes"])
     faces = np.arange(len(vertices)).reshape(-1, 3)[usable]
-    colors = None if colors is None else np.repeat(colors[usable][:, None], 3, 1)
-    return simple_mesh(name, _stem(name), vertices, faces, corner_color=colors)
+    return _colored(simple_mesh(name, _stem(name), vertices, faces), None if colors is None else colors[usable])
+
+
+def _colored(mesh: Mesh, colors: np.ndarray | None) -> Mesh:
+    """Return a mesh with a material per colour, as every format that is written can hold; colours of corners if there are many.
+
+    colors: (F, 4) of facets, sRGB.
+    """
+    if colors is None:
+        return mesh
+    distinct, number = np.unique(colors, axis=0, return_inverse=True)
+    if len(distinct) > MOST_COLORS:
+        return replace(mesh, corner_color=np.repeat(colors[:, None], 3, 1))
+    looks = tuple(Material(f"color_{bytes(c[:3]).hex()}", (*to_linear(c[:3] / 255).tolist(), 1.0)) for c in distinct)
+    return replace(mesh, materials=looks, face_material=number.reshape(-1))
 
 
 def _facet_colors(folder: Folder, header: bytes, attributes: np.ndarray) -> np.ndarray | None:

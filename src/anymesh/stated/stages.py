@@ -60,7 +60,7 @@ def with_stated_parts(mesh: Mesh, segmentation: Segmentation) -> Segmentation:
     still = area[:, -1]
     stated = [j for j in np.argsort(-area.sum(0), kind="stable").tolist() if j < len(mesh.joints) and (owner == j).any()]
     kept = [k for k in range(1, len(before)) if still[k] > MIN_SHARED * area[k].sum()]
-    # Of given parts, the base may be one that a joint moves; if all are, the largest is what the others move on.
+    # A stated joint may move the given base; the largest still part is then the base.
     root = 0 if still[0] > 0 or not kept else max(kept, key=lambda k: still[k])
     kept = [k for k in kept if k != root]
     if not (still > 0).any():
