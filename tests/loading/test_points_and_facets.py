@@ -154,4 +154,5 @@ def test_texture_coordinates_and_colours_of_off_in_their_order(tmp_path) -> None
 def test_facets_of_few_colours_have_a_material_each(tmp_path) -> None:
     mesh = load_mesh(put(tmp_path, "box.stl", stl([1 << 15 | 31 << 10] * 6 + [1 << 15 | 31] * 6))).mesh
     assert sorted(m.name for m in mesh.materials) == ["color_0000ff", "color_ff0000"]
-    assert mesh.corner_color is None and np.bincount(mesh.face_material).tolist() == [6, 6]
+    assert mesh.corner_color is None
+    assert np.bincount(mesh.face_material).tolist() == [6, 6]
