@@ -24,7 +24,7 @@ CORE = [
 ]
 TOOLS = [
     {"stated"},
-    {"formats"},
+    {"formats", "openusd"},
     {"prompted"},
     {"finishing"},
     {"checking", "evaluation", "correcting"},

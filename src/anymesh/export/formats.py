@@ -8,13 +8,13 @@ from enum import StrEnum
 from pathlib import Path
 from typing import Any
 
+from anymesh.entry_points import LOAD_USD, WRITE_USD, resolve
 from anymesh.errors import OptionError
 from anymesh.export.glb import glb_bytes
 from anymesh.export.mjcf_ import write_mjcf
 from anymesh.export.model import Base, Driven, ExportConfig, Model
 from anymesh.export.sdf import write_sdf
 from anymesh.export.urdf import urdf_text
-from anymesh.export.usd_ import load_usd, write_usd
 
 
 class Format(StrEnum):
@@ -58,7 +58,7 @@ def load_libraries(formats: Sequence[Format]) -> None:
     Raise MissingExtraError for one whose extra is not installed.
     """
     if Format.USD in formats:
-        load_usd()
+        resolve(LOAD_USD)()
 
 
 def write_formats(model: Model, folder: Path, formats: Sequence[Format], config: ExportConfig) -> None:
@@ -76,10 +76,14 @@ def _write_glb(model: Model, folder: Path, config: ExportConfig) -> None:
     (folder / main_file(Format.GLB, model.asset.name)).write_bytes(glb)
 
 
+def _write_usd(model: Model, folder: Path, config: ExportConfig) -> None:
+    resolve(WRITE_USD)(model, folder, config)
+
+
 WRITERS: Mapping[Format, Writer] = {
     Format.URDF: _write_urdf,
     Format.MJCF: write_mjcf,
-    Format.USD: write_usd,
+    Format.USD: _write_usd,
     Format.SDF: write_sdf,
     Format.GLB: _write_glb,
 }

@@ -15,7 +15,7 @@ from anymesh.errors import AnymeshError
 from anymesh.export.asset_json import json_text
 from anymesh.export.formats import ExportOptions, Format, main_file
 from anymesh.export.notation import vector
-from anymesh.export.usd_ import load_usd
+from anymesh.openusd.writer_ import load_usd
 from anymesh.runtime import read_json, write_whole
 
 SCENE = "scene.json"
