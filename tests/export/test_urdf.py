@@ -9,10 +9,12 @@ import numpy as np
 import pytest
 import yourdfpy
 from assets import cabinet, posed_triangles, poses, read_obj, slanted, within_limits
+from lxml import etree
 from models import CONFIG, desk, model_of, with_meshes
 
 from anymesh.export.formats import Format, write_formats
-from anymesh.export.model import Base
+from anymesh.export.model import Base, Driven, drives
+from anymesh.export.notation import DRAKE
 from anymesh.export.urdf import urdf_text
 from anymesh.types import JointType
 
@@ -97,6 +99,40 @@ def test_numbers_and_paths_are_plain(written):
     for limit in (j.find("limit") for j in continuous):
         assert limit is not None
         assert set(limit.keys()) == {"effort", "velocity"}
+
+
+def test_xml_states_no_encoding(tmp_path):
+    """A string that states one is refused by lxml, and so by kinpy and pytorch_kinematics."""
+    model = model_of(cabinet())
+    write_formats(model, with_meshes(model, tmp_path), [Format.URDF, Format.MJCF, Format.SDF], CONFIG)
+    for name in ("cabinet.urdf", "cabinet.xml", "model.sdf", "model.config"):
+        text = (tmp_path / name).read_text(encoding="utf-8")
+        assert etree.fromstring(text).tag == ElementTree.fromstring(text).tag
+
+
+def test_drives_are_actuators_with_gains_and_a_hardware_block():
+    model = model_of(desk())
+    root = ElementTree.fromstring(urdf_text(model))
+    actuators = {
+        str(t.find("actuator").get("name")): t.find(f"actuator/{DRAKE}controller_gains").attrib
+        for t in root.findall("transmission")
+    }
+    gains = {n: {"p": pytest.approx(d.stiffness), "d": pytest.approx(d.damping)} for n, d in drives(model).items()}
+    assert {n: {k: float(v) for k, v in a.items()} for n, a in actuators.items()} == gains
+    assert all(t.find("joint").get("name") == t.find("actuator").get("name") for t in root.findall("transmission"))
+    (control,) = root.findall("ros2_control")
+    assert control.findtext("hardware/plugin") == "mock_components/GenericSystem"
+    limits = {
+        str(j.get("name")): tuple(float(str(p.text)) for p in j.findall("command_interface[@name='position']/param"))
+        for j in control.findall("joint")
+    }
+    moving = [j for j in model.asset.joints if j.type is not JointType.FIXED]
+    assert limits == {j.name: pytest.approx(j.limits or ()) for j in moving}
+
+
+def test_passive_joints_have_no_actuators():
+    root = ElementTree.fromstring(urdf_text(model_of(desk(), driven=Driven.PASSIVE)))
+    assert root.find("transmission") is root.find("ros2_control") is None
 
 
 def test_flat_links_load_in_mujoco(tmp_path):

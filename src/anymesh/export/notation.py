@@ -8,6 +8,9 @@ from xml.etree import ElementTree
 import numpy as np
 from jaxtyping import Float
 
+DRAKE = "{http://drake.mit.edu}"  # Drake's own tags in a URDF, which other readers pass over
+ElementTree.register_namespace("drake", DRAKE[1:-1])
+
 
 def rpy(rotation: Float[np.ndarray, "3 3"]) -> Float[np.ndarray, " 3"]:
     """Return roll, pitch, yaw [rad] about the fixed x, y, z in this order, as in URDF and SDFormat; no roll at the pole."""
@@ -70,6 +73,6 @@ def moments(tensor: Float[np.ndarray, "3 3"]) -> dict[str, str]:
 
 
 def document(root: ElementTree.Element) -> str:
-    """Return the indented file, with a final newline."""
+    """Return the indented file, with a final newline. It states no encoding, since lxml refuses text that does."""
     ElementTree.indent(root)
-    return '<?xml version="1.0" encoding="utf-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
+    return '<?xml version="1.0"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"

@@ -10,8 +10,8 @@ import numpy as np
 
 from anymesh.export.links import Link
 from anymesh.export.meshes import display_color, material_names, painted, widest
-from anymesh.export.model import ExportLink, Model
-from anymesh.export.notation import document, moments, number, rpy, vector
+from anymesh.export.model import Driven, ExportLink, Model, drives
+from anymesh.export.notation import DRAKE, document, moments, number, rpy, vector
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
 
 # By default, MuJoCo drops visuals and folders of mesh names, and fuses static links.
@@ -34,6 +34,8 @@ def urdf_text(model: Model) -> str:
         _add_link(robot, body, _appearance(asset.mesh, body.link, names))
     for joint in asset.joints:
         _add_joint(robot, joint, origins)
+    if model.driven is Driven.POSITION:
+        _add_drives(robot, model)
     return document(robot)
 
 
@@ -92,3 +94,25 @@ def _add_joint(robot: ElementTree.Element, joint: Joint, origins: Mapping[str, n
         limit = {"lower": number(joint.limits[0]), "upper": number(joint.limits[1])} | limit
     sub(element, "limit", limit)
     sub(element, "dynamics", damping=number(joint.damping), friction=number(joint.friction))
+
+
+def _add_drives(robot: ElementTree.Element, model: Model) -> None:
+    """Add an actuator with gains for each joint, which Drake needs, and the block of ROS 2 with its mock hardware."""
+    sub, gains = ElementTree.SubElement, drives(model)
+    for name, drive in gains.items():
+        transmission = sub(robot, "transmission", name=f"{name}_transmission")
+        sub(transmission, "type").text = "transmission_interface/SimpleTransmission"
+        for tag in ("joint", "actuator"):
+            end = sub(transmission, tag, name=name)
+            sub(end, "hardwareInterface").text = "hardware_interface/PositionJointInterface"
+        sub(end, "mechanicalReduction").text = "1"
+        sub(end, f"{DRAKE}controller_gains", p=number(drive.stiffness), d=number(drive.damping))
+    control = sub(robot, "ros2_control", name=model.asset.name, type="system")
+    sub(sub(control, "hardware"), "plugin").text = "mock_components/GenericSystem"
+    for joint in (j for j in model.asset.joints if j.name in gains):
+        element = sub(control, "joint", name=joint.name)
+        command = sub(element, "command_interface", name="position")
+        for key, limit in zip(("min", "max"), joint.limits or (), strict=False):
+            sub(command, "param", name=key).text = number(limit)
+        sub(sub(element, "state_interface", name="position"), "param", name="initial_value").text = "0"
+        sub(element, "state_interface", name="velocity")
