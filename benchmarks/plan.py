@@ -22,6 +22,7 @@ from collections import Counter
 from dataclasses import dataclass, replace
 from importlib import import_module
 from pathlib import Path
+from xml.etree import ElementTree
 
 import numpy as np
 from PIL import Image
@@ -137,10 +138,14 @@ def true_asset(task: Task, subject: EvalSample, folder: Path) -> Path:
     if not (folder / "asset.json").exists():
         asset = subject.asset()
         own = f"{task.part}_joint"
-        joints = tuple(replace(j, damping=task.damping, friction=task.friction) if j.name == own else j for j in asset.joints)
         source = replace(asset.source, T_asset_source=subject.T)
         folder.mkdir(parents=True)
-        write_asset(replace(asset, joints=joints, source=source), folder)
+        write_asset(replace(asset, source=source), folder)
+        path = folder / f"{asset.name}.xml"
+        written = ElementTree.parse(path)
+        for joint in written.iterfind(f".//joint[@name='{own}']"):
+            joint.attrib |= {"damping": str(task.damping), "frictionloss": str(task.friction)}
+        written.write(path)
     return folder
 
 

@@ -129,7 +129,7 @@ def cabinet(names=("base", "door", "drawer", "knob"), name: str = "cabinet", **c
     base, door, drawer, knob = names
     joints = (
         joint("hinge", "revolute", base, door, (0.6, 0, 0.3), (0, 0, 1), (0.0, 1.9)),
-        joint("slide", "prismatic", base, drawer, (0.3, 0, 0.8), (0, -1, 0), (0.0, 0.3), damping=2.0, friction=0.4),
+        joint("slide", "prismatic", base, drawer, (0.3, 0, 0.8), (0, -1, 0), (0.0, 0.3)),
         joint("turn", "continuous", drawer, knob, (0.3, -0.04, 0.8), (0, -1, 0), None),
     )
     fields = {"joints": joints, "answerer": "geometry", "warnings": ("a warning",), "timing": {"mesh": 0.25}}

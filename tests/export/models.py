@@ -14,6 +14,7 @@ from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.meshes import write_meshes
 from anymesh.export.model import Base, Driven, Exclusion, ExportConfig, ExportLink, Model
 from anymesh.physics.inertia import link_inertia
+from anymesh.physics.resistance import resistances
 from anymesh.types import Asset, Box, Cylinder, Hull, Material, Part, Segmentation, Shape, Texture
 from anymesh.types.mesh import TEXTURE_SLOTS
 
@@ -62,7 +63,8 @@ def model_of(
     links = split_links(asset)
     shapes = [shapes_of(link, i) for i, link in enumerate(links)] if like is None else [b.shapes for b in like.bodies]
     bodies = tuple(ExportLink(link, link_inertia(link.triangles, CONFIG), s) for link, s in zip(links, shapes, strict=True))
-    return Model(asset, bodies, base, exclusions, driven)
+    resisting = resistances(asset, {body.name: body.inertia for body in bodies})
+    return Model(asset, bodies, resisting, base, exclusions, driven)
 
 
 def with_meshes(model: Model, folder: Path) -> Path:
@@ -95,11 +97,11 @@ def desk() -> Asset:
     mesh, _ = mesh_of(pieces, face_material, materials=materials, corner_uv=np.tile(QUAD_UV, (len(part_of) // 2, 1, 1)))
     names = ("desk", "cap", "tray", "lid", "stop", "dial")  # children before their parents
     joints = (
-        joint("lid", "revolute", "desk", "lid", (1 / 3, 0.1, 0.3), (-1, 0.01, 0), (-0.1, np.pi / 3), damping=1 / 7, effort=7.5),
-        joint("tray", "prismatic", "lid", "tray", (2 / 3, 0.217, 0.05), (1e-3, -1, 2e-3), (-0.05, 1 / 3), velocity=1 / 3),
-        joint("turn", "continuous", "tray", "dial", (1.11, 0.33, np.pi / 10), (0.6, 0.8, -0.1), None, friction=1 / 30),
+        joint("lid", "revolute", "desk", "lid", (1 / 3, 0.1, 0.3), (-1, 0.01, 0), (-0.1, np.pi / 3)),
+        joint("tray", "prismatic", "lid", "tray", (2 / 3, 0.217, 0.05), (1e-3, -1, 2e-3), (-0.05, 1 / 3)),
+        joint("turn", "continuous", "tray", "dial", (1.11, 0.33, np.pi / 10), (0.6, 0.8, -0.1), None),
         joint("stop_joint", "fixed", "dial", "stop", (1.5, 0.44, 0.05), (0, 0, 1), None),
-        joint("push", "prismatic", "stop", "cap", (1.9, 0.6, 0.2), (-1, 0, 0), (-0.01, 0.0), effort=1.0),
+        joint("push", "prismatic", "stop", "cap", (1.9, 0.6, 0.2), (-1, 0, 0), (-0.01, 0.0)),
     )
     parts = tuple(Part(n, "part") for n in names)
     part_of = np.array([0, 3, 2, 5, 4, 1])[part_of]

@@ -15,6 +15,8 @@ import yourdfpy
 from pxr import Gf, Usd, UsdGeom, UsdPhysics
 from scipy.spatial.transform import Rotation
 
+from anymesh.export.notation import DRAKE
+
 Poses = Callable[[dict[str, float]], dict[str, np.ndarray]]  # joint positions -> link frames in the asset frame
 KINDS = {"revolute": "turn", "continuous": "turn", "prismatic": "slide", "fixed": "none"}
 
@@ -233,6 +235,7 @@ def _usd_joint(prim) -> dict:
         ("maxJointVelocity", "velocityLimit"),
         ("dynamicFrictionEffort", "friction"),
         ("viscousFrictionCoefficient", "damping"),
+        ("armature", "armature"),
     ):
         assert value(f"physxJointAxis:{kind}:{physx}") == value(f"newton:{newton}")
     return {
@@ -243,6 +246,7 @@ def _usd_joint(prim) -> dict:
         "velocity": value("newton:velocityLimit") * unit,
         "damping": value("newton:damping") / unit,
         "friction": value("newton:friction"),
+        "armature": value("newton:armature"),
         "drive": (drive.GetStiffnessAttr().Get() / unit, drive.GetDampingAttr().Get() / unit, drive.GetMaxForceAttr().Get()),
     }
 
@@ -260,6 +264,10 @@ def read_urdf(folder: Path, name: str) -> Read:
                 "damping": float(j.dynamics.damping),
                 "friction": float(j.dynamics.friction),
             }
+    for transmission in ElementTree.parse(folder / f"{name}.urdf").iter("transmission"):
+        gains = transmission.find(f"actuator/{DRAKE}controller_gains")
+        said = joints[transmission.find("joint").get("name")]
+        said["drive"] = (float(gains.get("p")), float(gains.get("d")), said["effort"])
     bodies = {}
     for link in robot.robot.links:
         body = bodies[link.name] = Body(link.inertial.mass, link.inertial.origin[:3, 3], link.inertial.inertia)
@@ -299,6 +307,7 @@ def read_mjcf(folder: Path, name: str) -> Read:
             "effort": float(model.jnt_actfrcrange[k, 1]),
             "damping": float(np.atleast_2d(model.dof_damping.T)[0][dof]),
             "friction": float(model.dof_frictionloss[dof]),
+            "armature": float(model.dof_armature[dof]),
             "drive": (float(motor.gainprm[0]), float(-motor.biasprm[2]), float(motor.forcerange[1])),
         }
     bodies = {}

@@ -85,7 +85,8 @@ def test_joints_say_the_same(written, name, kind):
         assert (said["limits"] is None) == (j.limits is None)
         if j.limits is not None:
             np.testing.assert_allclose(said["limits"], j.limits, **CLOSE)
-        expected = {key: getattr(j, key) for key in ("effort", "velocity", "damping", "friction")}
+        words = ("effort", "velocity", "damping", "friction", "armature")
+        expected = {key: getattr(model.resistances[j.name], key) for key in words}
         expected["drive"] = (motors[j.name].stiffness, motors[j.name].damping, motors[j.name].effort)
         for key, value in expected.items():
             assert (key in said) != ((kind, key) in GAPS), f"{kind} and docs/formats.md differ on {key}"

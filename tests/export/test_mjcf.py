@@ -44,21 +44,22 @@ def test_the_file_moves_with_its_folder(tmp_path):
     assert not [f for f in files if f.endswith(".jpg")]
 
 
-def stronger(asset):
-    """Return the asset with joints strong enough for their load."""
-    return replace(asset, joints=tuple(replace(j, effort=1e5) for j in asset.joints))
+def stronger(model):
+    """Return the model with joints strong enough for their load."""
+    return replace(model, resistances={name: replace(r, effort=1e5) for name, r in model.resistances.items()})
 
 
 @pytest.mark.parametrize("make", [cabinet, slanted, desk])
 def test_drives_lead_to_the_limits_no_faster_than_the_joint_may_and_hold_there(make, tmp_path):
-    model = model_of(stronger(make()))
+    model = stronger(model_of(make()))
     read = load(model, tmp_path)
     read.opt.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
     data = mujoco.MjData(read)
     limited = [j for j in model.asset.joints if j.limits is not None]
     for j in limited:
         data.actuator(j.name).ctrl = j.limits[1] if j.limits[1] > 0 else j.limits[0]
-    seconds = max((j.limits[1] - j.limits[0]) / j.velocity for j in limited)
+    velocity = {name: r.velocity for name, r in model.resistances.items()}
+    seconds = max((j.limits[1] - j.limits[0]) / velocity[j.name] for j in limited)
     fastest = {j.name: 0.0 for j in limited}
     for _ in range(int(8 * seconds / read.opt.timestep)):
         mujoco.mj_step(read, data)
@@ -67,7 +68,7 @@ def test_drives_lead_to_the_limits_no_faster_than_the_joint_may_and_hold_there(m
         span = j.limits[1] - j.limits[0]
         goal = j.limits[1] if j.limits[1] > 0 else j.limits[0]
         assert abs(float(data.joint(j.name).qpos[0]) - goal) < 1.5 * WITHIN * span, j.name
-        assert fastest[j.name] < 1.1 * j.velocity + 0.05, j.name
+        assert fastest[j.name] < 1.1 * velocity[j.name] + 0.05, j.name
 
 
 def test_drives_are_at_least_critically_damped():
@@ -77,8 +78,8 @@ def test_drives_are_at_least_critically_damped():
             if j.name in drives(model):
                 drive = drives(model)[j.name]
                 span = 2 * np.pi if j.limits is None else j.limits[1] - j.limits[0]
-                assert drive.damping / drive.stiffness == pytest.approx(span / j.velocity)
-                assert drive.stiffness * WITHIN * span >= j.friction
+                assert drive.damping / drive.stiffness == pytest.approx(span / model.resistances[j.name].velocity)
+                assert drive.stiffness * WITHIN * span >= model.resistances[j.name].friction
 
 
 def test_the_drives_can_be_switched_off_as_a_group(tmp_path):
@@ -92,14 +93,15 @@ def test_the_drives_can_be_switched_off_as_a_group(tmp_path):
 
 
 def test_an_asset_is_passive_unless_position_drives_are_asked_for(tmp_path):
-    read = load(model_of(cabinet(), driven=Driven.PASSIVE), tmp_path)
+    model = model_of(cabinet(), driven=Driven.PASSIVE)
+    read = load(model, tmp_path)
     data = mujoco.MjData(read)
     data.joint("slide").qpos = 0.1
     mujoco.mj_forward(read, data)
     assert not data.actuator_force.any()  # the open drawer is not moved
     data.ctrl[:] = 1e9
     mujoco.mj_forward(read, data)
-    np.testing.assert_allclose(np.sort(data.actuator_force), sorted(j.effort for j in cabinet().joints if j.type != "fixed"))
+    np.testing.assert_allclose(np.sort(data.actuator_force), sorted(r.effort for r in model.resistances.values()))
 
 
 def test_excluded_pairs_do_not_touch_and_others_do_whether_the_base_is_fixed_or_free(tmp_path):

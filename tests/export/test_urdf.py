@@ -39,14 +39,15 @@ def test_yourdfpy_reads_the_same_joints_and_poses(written):
     asset, folder = written
     robot = yourdfpy.URDF.load(str(folder / f"{asset.name}.urdf"), mesh_dir=str(folder))
     assert robot.validate()
+    resisting = model_of(asset).resistances
     for j in asset.joints:
-        read = robot.joint_map[j.name]
+        read, r = robot.joint_map[j.name], resisting.get(j.name)
         assert (read.type, read.parent, read.child) == (j.type, j.parent, j.child)
         if j.type is JointType.FIXED:
             continue
         np.testing.assert_allclose(read.axis, j.axis, atol=1e-9)
-        assert (read.limit.effort, read.limit.velocity) == pytest.approx((j.effort, j.velocity))
-        assert (float(read.dynamics.damping), float(read.dynamics.friction)) == pytest.approx((j.damping, j.friction))
+        assert (read.limit.effort, read.limit.velocity) == pytest.approx((r.effort, r.velocity))
+        assert (float(read.dynamics.damping), float(read.dynamics.friction)) == pytest.approx((r.damping, r.friction))
         if j.limits is not None:
             np.testing.assert_allclose((read.limit.lower, read.limit.upper), j.limits, atol=1e-9)
     rng = np.random.default_rng(1)
@@ -85,7 +86,7 @@ def test_mujoco_reads_the_same_from_any_folder(written, monkeypatch):
     for j in asset.joints:
         if j.limits is not None:
             np.testing.assert_allclose(model.joint(j.name).range, j.limits, atol=1e-6)
-            assert model.joint(j.name).damping[0] == pytest.approx(j.damping)
+            assert model.joint(j.name).damping[0] == pytest.approx(model_of(asset).resistances[j.name].damping)
 
 
 def test_numbers_and_paths_are_plain(written):

@@ -12,9 +12,10 @@ import numpy as np
 import anymesh
 from anymesh.export.formats import Format, main_file
 from anymesh.export.model import ExportLink, Model
+from anymesh.physics.resistance import Resistance
 from anymesh.types import Exchange, Joint, Mesh, Source
 
-SCHEMA_VERSION = "1.2"
+SCHEMA_VERSION = "1.3"
 TIMING_FILE = "timing.json"  # separate, so that everything else is the same in every run
 
 
@@ -31,7 +32,7 @@ def asset_record(model: Model, formats: Sequence[Format]) -> dict[str, Any]:
         **({} if model.hulls is None else {"hulls": model.hulls}),
         "files": {str(kind): main_file(kind, asset.name) for kind in formats},
         "parts": [_part(asset.mesh, body, asset.source_face) for body in model.bodies],
-        "joints": [_joint(joint) for joint in asset.joints],
+        "joints": [_joint(joint, model.resistances.get(joint.name)) for joint in asset.joints],
         "no_contact": [{"links": [e.a, e.b], "reason": e.why} for e in model.exclusions],
         "answerer": asset.answerer,
         "usage": usage(asset.exchanges),
@@ -93,7 +94,7 @@ def _part(mesh: Mesh, body: ExportLink, source_face: np.ndarray | None) -> dict[
     }
 
 
-def _joint(joint: Joint) -> dict[str, Any]:
+def _joint(joint: Joint, resistance: Resistance | None) -> dict[str, Any]:
     return {
         "name": joint.name,
         "type": str(joint.type),
@@ -102,12 +103,28 @@ def _joint(joint: Joint) -> dict[str, Any]:
         "origin": [_round(v) for v in joint.origin],
         "axis": [_round(v) for v in joint.axis],
         "limits": None if joint.limits is None else [_round(v) for v in joint.limits],
-        "effort": _round(joint.effort),
-        "velocity": _round(joint.velocity),
-        "damping": _round(joint.damping),
-        "friction": _round(joint.friction),
+        **({} if resistance is None else _resistance(resistance)),
         "confidence": _round(joint.confidence),
         "reason": joint.reason,
+    }
+
+
+def _resistance(r: Resistance) -> dict[str, Any]:
+    numbers = {"typical": r.pull.typical, "least": r.pull.least, "most": r.pull.most}
+    vectors = {"at": r.pull.at, "direction": r.pull.direction}
+    return {
+        "effort": _round(r.effort),
+        "velocity": _round(r.velocity),
+        "damping": _round(r.damping),
+        "friction": _round(r.friction),
+        "friction_range": [_round(v) for v in r.friction_range],
+        "armature": _round(r.armature),
+        "pull": {
+            "unit": r.pull.unit,
+            **{name: _round(v) for name, v in numbers.items()},
+            **{name: [_round(v) for v in values] for name, values in vectors.items()},
+        },
+        "resistance": r.source,
     }
 
 

@@ -21,6 +21,7 @@ from anymesh.export.meshes import display_color, material_names, painted, textur
 from anymesh.export.model import FOLDER, Base, Drive, Driven, ExportConfig, ExportLink, Model, drives
 from anymesh.export.notation import moments, number, quaternion, vector
 from anymesh.mujoco_ import load_mujoco
+from anymesh.physics.resistance import Resistance
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Material, Mesh, Shape
 from anymesh.types.exchange import PNG
 
@@ -49,7 +50,7 @@ def write_mjcf(model: Model, folder: Path, config: ExportConfig) -> None:
         joint = body.link.joint
         parent = spec.worldbody if joint is None else frames[joint.parent]
         frames[body.name] = _add_body(model, body, parent)
-        _add_joint(mujoco, frames[body.name], joint, model.base)
+        _add_joint(mujoco, frames[body.name], joint, model)
         _add_geoms(mujoco, spec, frames[body.name], body, looks[body.name], names)
     for pair in model.exclusions:
         spec.add_exclude(bodyname1=pair.a, bodyname2=pair.b)
@@ -125,22 +126,22 @@ def _add_body(model: Model, body: ExportLink, parent: Any) -> Any:
     return frame
 
 
-def _add_joint(mujoco: Any, frame: Any, joint: Joint | None, base: Base) -> None:
+def _add_joint(mujoco: Any, frame: Any, joint: Joint | None, model: Model) -> None:
     """Add the joint that carries a body, in its frame; none for a fixed one."""
     if joint is None:
-        if base is Base.FREE:
+        if model.base is Base.FREE:
             frame.add_freejoint(name=f"{frame.name}_free")
         return
     if joint.type is JointType.FIXED:
         return
-    slides = joint.type is JointType.PRISMATIC
+    resistance, slides = model.resistances[joint.name], joint.type is JointType.PRISMATIC
     kind = mujoco.mjtJoint.mjJNT_SLIDE if slides else mujoco.mjtJoint.mjJNT_HINGE
-    added = frame.add_joint(name=joint.name, type=kind, axis=joint.axis, frictionloss=joint.friction)
-    added.damping = [joint.damping, 0, 0]
+    added = frame.add_joint(name=joint.name, type=kind, axis=joint.axis, armature=resistance.armature)
+    added.frictionloss, added.damping = resistance.friction, [resistance.damping, 0, 0]
     added.limited = int(joint.limits is not None)
     if joint.limits is not None:
         added.range = joint.limits
-    added.actfrclimited, added.actfrcrange = 1, [-joint.effort, joint.effort]
+    added.actfrclimited, added.actfrcrange = 1, [-resistance.effort, resistance.effort]
 
 
 def _add_geoms(
@@ -250,7 +251,7 @@ def with_digits(text: str, model: Model, motors: Mapping[str, Drive]) -> str:
     joints = {element.get("name"): element for element in root.iter("joint")}
     for joint in model.asset.joints:
         if joint.name in joints:
-            _joint(joints[joint.name], joint)
+            _joint(joints[joint.name], joint, model.resistances[joint.name])
     for element in root.iter("texture"):
         element.attrib.pop("colorspace", None)  # inferred at compile time; older versions do not know the attribute
     actuators = root.find("actuator")
@@ -271,11 +272,13 @@ def _inertial(element: ElementTree.Element, body: ExportLink) -> None:
     inertial.set("fullinertia", " ".join(entries[key] for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")))
 
 
-def _joint(element: ElementTree.Element, joint: Joint) -> None:
+def _joint(element: ElementTree.Element, joint: Joint, resistance: Resistance) -> None:
     element.set("axis", vector(joint.axis / np.linalg.norm(joint.axis)))
-    element.set("damping", number(joint.damping))
-    element.set("frictionloss", number(joint.friction))
-    element.set("actuatorfrcrange", vector((-joint.effort, joint.effort)))
+    element.set("damping", number(resistance.damping))
+    element.set("frictionloss", number(resistance.friction))
+    if resistance.armature:
+        element.set("armature", number(resistance.armature))
+    element.set("actuatorfrcrange", vector((-resistance.effort, resistance.effort)))
     if joint.limits is not None:
         element.set("range", vector(joint.limits))
 

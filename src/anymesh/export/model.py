@@ -19,15 +19,14 @@ from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.geometry.surface import plain_triangles
 from anymesh.physics.collision import CollisionConfig, collision_shapes
 from anymesh.physics.inertia import Inertia, InertiaConfig, Substance, link_inertia, substance_of
+from anymesh.physics.resistance import Resistance, resistances
 from anymesh.runtime import Deadline
-from anymesh.types import Asset, Hull, Joint, JointType, Mesh, Shape
+from anymesh.types import Asset, Hull, Joint, Mesh, Shape
 
 FOLDER = "meshes"
 OVERLAP = "their surfaces overlap at rest"
 TIGHT = "their collision shapes touch where the surfaces do not"
-GRAVITY = 9.81  # [m/s^2]
 WITHIN = 0.02  # of a joint's range: maximum steady-state error of a drive under its load
-UPRIGHT = 0.999  # minimum cosine to the vertical of an upright joint, which tilts nothing that it carries
 
 
 class Base(StrEnum):
@@ -98,11 +97,13 @@ class Exclusion:
 class Model:
     """An asset with legal names, ready for export.
 
-    bodies: in the order of the parts, the root first; hulls: limit of collision shapes per link, None for no limit.
+    bodies: in the order of the parts, the root first; resistances: of the moving joints, by name; hulls: limit of collision
+    shapes per link, None for no limit.
     """
 
     asset: Asset
     bodies: tuple[ExportLink, ...]
+    resistances: Mapping[str, Resistance]
     base: Base = Base.FIXED
     exclusions: tuple[Exclusion, ...] = ()
     driven: Driven = Driven.PASSIVE
@@ -170,7 +171,8 @@ def build_model(
     )
     excluded = [Exclusion(a, b, OVERLAP) for a, b in collision.overlapping]
     excluded += [Exclusion(a, b, TIGHT) for a, b in collision.tight]
-    return Model(asset, bodies, base, tuple(excluded), driven, config.collision.hulls)
+    resisting = resistances(asset, {body.name: body.inertia for body in bodies})
+    return Model(asset, bodies, resisting, base, tuple(excluded), driven, config.collision.hulls)
 
 
 def _made_of(mesh: Mesh, link: Link, kept: Int[np.ndarray, " K"]) -> list[Substance | None]:
@@ -196,51 +198,13 @@ def drives(model: Model) -> Mapping[str, Drive]:
     The stiffness keeps the error due to friction and weight within a share of the range. It is at least that of critical
     damping, so that no drive oscillates or overshoots.
     """
-    moving = [j for j in model.asset.joints if j.type is not JointType.FIXED]
     if model.driven is Driven.PASSIVE:
-        return {j.name: Drive(0.0, 0.0, j.effort) for j in moving}
-    return {j.name: _drive(model, j) for j in moving}
+        return {name: Drive(0.0, 0.0, r.effort) for name, r in model.resistances.items()}
+    return {j.name: _drive(j, model.resistances[j.name]) for j in model.asset.joints if j.name in model.resistances}
 
 
-def _drive(model: Model, joint: Joint) -> Drive:
+def _drive(joint: Joint, r: Resistance) -> Drive:
     span = 2 * np.pi if joint.limits is None else joint.limits[1] - joint.limits[0]
-    seconds = span / joint.velocity
-    inertia, load = _carried(model, joint)
-    stiffness = max(4 * inertia / seconds**2, (joint.friction + load) / (WITHIN * span))
-    return Drive(float(stiffness), float(stiffness * seconds), joint.effort)
-
-
-def _carried(model: Model, joint: Joint) -> tuple[float, float]:
-    """Return the inertia that the joint moves at rest [kg m^2 or kg], and the maximum load from gravity [N m or N]."""
-    bodies = _subtree(model, joint.child)
-    masses = np.array([b.inertia.mass for b in bodies])
-    along, tilt = (1.0, 1.0) if _is_tilted(model, joint) else (abs(joint.axis[2]), float(np.linalg.norm(joint.axis[:2])))
-    if joint.type is JointType.PRISMATIC:
-        return float(masses.sum()), float(masses.sum() * GRAVITY * along)
-    levers = np.array([b.link.origin + b.inertia.center - joint.origin for b in bodies])
-    levers -= np.outer(levers @ joint.axis, joint.axis)
-    own = sum(float(joint.axis @ b.inertia.tensor @ joint.axis) for b in bodies)
-    return own + float(masses @ (levers**2).sum(1)), float(np.linalg.norm(masses @ levers)) * GRAVITY * tilt
-
-
-def _is_tilted(model: Model, joint: Joint) -> bool:
-    """Return whether a joint before this one can tilt its axis."""
-    carriers = {j.child: j for j in model.asset.joints}
-    at = carriers.get(joint.parent)
-    while at is not None:
-        if at.type in (JointType.REVOLUTE, JointType.CONTINUOUS) and abs(at.axis[2]) < UPRIGHT:
-            return True
-        at = carriers.get(at.parent)
-    return False
-
-
-def _subtree(model: Model, name: str) -> list[ExportLink]:
-    """Return a link and all links that it carries."""
-    names = {name}
-    waiting = [name]
-    while waiting:
-        at = waiting.pop()
-        children = {j.child for j in model.asset.joints if j.parent == at}
-        names |= children
-        waiting += sorted(children)
-    return [b for b in model.bodies if b.name in names]
+    seconds = span / r.velocity
+    stiffness = max(4 * r.inertia / seconds**2, (r.friction + r.load) / (WITHIN * span))
+    return Drive(float(stiffness), float(stiffness * seconds), r.effort)

@@ -13,7 +13,8 @@ from anymesh.export.meshes import display_color, painted, widest
 from anymesh.export.model import Base, ExportConfig, ExportLink, Model
 from anymesh.export.notation import document, moments, number, rpy, vector
 from anymesh.names import legal_names
-from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
+from anymesh.physics.resistance import Resistance
+from anymesh.types import Box, Cylinder, Hull, Joint, Mesh, Shape
 
 VERSION = "1.9"
 FILE, CONFIG_FILE = "model.sdf", "model.config"
@@ -57,7 +58,7 @@ def sdf_text(model: Model) -> str:
         _leaf(fixed, "parent", "world")
         _leaf(fixed, "child", model.bodies[0].name)
     for joint in asset.joints:
-        _add_joint(element, joint, names[joint.name])
+        _add_joint(element, joint, names[joint.name], model.resistances.get(joint.name))
     return document(root)
 
 
@@ -128,11 +129,11 @@ def _add_shape(geometry: ElementTree.Element, shape: Shape, path: str | None) ->
             assert_never(shape)
 
 
-def _add_joint(model: ElementTree.Element, joint: Joint, name: str) -> None:
+def _add_joint(model: ElementTree.Element, joint: Joint, name: str, resistance: Resistance | None) -> None:
     element = ElementTree.SubElement(model, "joint", name=name, type=str(joint.type))
     _leaf(element, "parent", joint.parent)
     _leaf(element, "child", joint.child)
-    if joint.type is JointType.FIXED:
+    if resistance is None:  # fixed
         return
     axis = ElementTree.SubElement(element, "axis")
     _leaf(axis, "xyz", vector(joint.axis / np.linalg.norm(joint.axis)))
@@ -140,11 +141,11 @@ def _add_joint(model: ElementTree.Element, joint: Joint, name: str) -> None:
     if joint.limits is not None:
         _leaf(limit, "lower", number(joint.limits[0]))
         _leaf(limit, "upper", number(joint.limits[1]))
-    _leaf(limit, "effort", number(joint.effort))
-    _leaf(limit, "velocity", number(joint.velocity))
+    _leaf(limit, "effort", number(resistance.effort))
+    _leaf(limit, "velocity", number(resistance.velocity))
     dynamics = ElementTree.SubElement(axis, "dynamics")
-    _leaf(dynamics, "damping", number(joint.damping))
-    _leaf(dynamics, "friction", number(joint.friction))
+    _leaf(dynamics, "damping", number(resistance.damping))
+    _leaf(dynamics, "friction", number(resistance.friction))
 
 
 def _pose(place: np.ndarray, rotation: np.ndarray) -> str:

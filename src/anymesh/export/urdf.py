@@ -12,7 +12,8 @@ from anymesh.export.links import Link
 from anymesh.export.meshes import display_color, material_names, painted, widest
 from anymesh.export.model import Driven, ExportLink, Model, drives
 from anymesh.export.notation import DRAKE, document, moments, number, rpy, vector
-from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
+from anymesh.physics.resistance import Resistance
+from anymesh.types import Box, Cylinder, Hull, Joint, Mesh, Shape
 
 # By default, MuJoCo drops visuals and folders of mesh names, and fuses static links.
 MUJOCO = {"discardvisual": "false", "fusestatic": "false", "strippath": "false", "balanceinertia": "true"}
@@ -33,7 +34,7 @@ def urdf_text(model: Model) -> str:
     for body in model.bodies:
         _add_link(robot, body, _appearance(asset.mesh, body.link, names))
     for joint in asset.joints:
-        _add_joint(robot, joint, origins)
+        _add_joint(robot, joint, origins, model.resistances.get(joint.name))
     if model.driven is Driven.POSITION:
         _add_drives(robot, model)
     return document(robot)
@@ -80,20 +81,22 @@ def _add_collision(link: ElementTree.Element, shape: Shape, path: str | None) ->
             assert_never(shape)
 
 
-def _add_joint(robot: ElementTree.Element, joint: Joint, origins: Mapping[str, np.ndarray]) -> None:
+def _add_joint(
+    robot: ElementTree.Element, joint: Joint, origins: Mapping[str, np.ndarray], resistance: Resistance | None
+) -> None:
     sub = ElementTree.SubElement
     element = sub(robot, "joint", name=joint.name, type=str(joint.type))
     sub(element, "origin", xyz=vector(origins[joint.child] - origins[joint.parent]), rpy="0 0 0")
     sub(element, "parent", link=joint.parent)
     sub(element, "child", link=joint.child)
-    if joint.type is JointType.FIXED:
+    if resistance is None:  # fixed
         return
     sub(element, "axis", xyz=vector(joint.axis / np.linalg.norm(joint.axis)))
-    limit = {"effort": number(joint.effort), "velocity": number(joint.velocity)}
+    limit = {"effort": number(resistance.effort), "velocity": number(resistance.velocity)}
     if joint.limits is not None:
         limit = {"lower": number(joint.limits[0]), "upper": number(joint.limits[1])} | limit
     sub(element, "limit", limit)
-    sub(element, "dynamics", damping=number(joint.damping), friction=number(joint.friction))
+    sub(element, "dynamics", damping=number(resistance.damping), friction=number(resistance.friction))
 
 
 def _add_drives(robot: ElementTree.Element, model: Model) -> None:

@@ -18,6 +18,7 @@ from anymesh.export.meshes import GREY, material_names, painted, texture_files, 
 from anymesh.export.model import FOLDER, Base, Drive, ExportConfig, ExportLink, Model, drives
 from anymesh.export.notation import principal, quaternion, turning_x_to
 from anymesh.names import legal_names
+from anymesh.physics.resistance import Resistance
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Material, Mesh, Shape, Texture
 from anymesh.types.mesh import TEXTURE_SLOTS, to_linear
 
@@ -185,19 +186,21 @@ def _add_joint(pxr: Any, stage: Any, top: str, model: Model, joint: Joint, motor
     drive.CreateTargetPositionAttr(0.0)
     drive.CreateStiffnessAttr(motor.stiffness * per_unit)
     drive.CreateDampingAttr(motor.damping * per_unit)
-    _add_resistance(pxr, added.GetPrim(), joint, kind, per_unit)
+    _add_resistance(pxr, added.GetPrim(), model.resistances[joint.name], kind, per_unit)
 
 
-def _add_resistance(pxr: Any, prim: Any, joint: Joint, kind: str, per_unit: float) -> None:
+def _add_resistance(pxr: Any, prim: Any, r: Resistance, kind: str, per_unit: float) -> None:
     """Add damping, dry friction and velocity as attributes of PhysX and of Newton, since UsdPhysics has none."""
     values = {
-        f"physxJointAxis:{kind}:maxJointVelocity": joint.velocity / per_unit,
-        f"physxJointAxis:{kind}:staticFrictionEffort": joint.friction,
-        f"physxJointAxis:{kind}:dynamicFrictionEffort": joint.friction,
-        f"physxJointAxis:{kind}:viscousFrictionCoefficient": joint.damping * per_unit,
-        "newton:velocityLimit": joint.velocity / per_unit,
-        "newton:friction": joint.friction,
-        "newton:damping": joint.damping * per_unit,
+        f"physxJointAxis:{kind}:maxJointVelocity": r.velocity / per_unit,
+        f"physxJointAxis:{kind}:staticFrictionEffort": r.friction,
+        f"physxJointAxis:{kind}:dynamicFrictionEffort": r.friction,
+        f"physxJointAxis:{kind}:viscousFrictionCoefficient": r.damping * per_unit,
+        "newton:velocityLimit": r.velocity / per_unit,
+        "newton:friction": r.friction,
+        "newton:damping": r.damping * per_unit,
+        f"physxJointAxis:{kind}:armature": r.armature,
+        "newton:armature": r.armature,
     }
     prim.AddAppliedSchema(f"PhysxJointAxisAPI:{kind}")
     prim.AddAppliedSchema("NewtonJointAPI")

@@ -188,7 +188,9 @@ def _pack_joint(joint: Joint | StatedJoint) -> Record:
 
 
 def _unpack_joint(kind: type[AnyJoint], record: Record) -> AnyJoint:
-    values: dict[str, Any] = {**record, "type": JointType(record["type"]), "limits": _limits(record)}
+    known = {f.name for f in fields(kind)}  # joints had an effort and the like until 0.2
+    values: dict[str, Any] = {name: value for name, value in record.items() if name in known}
+    values |= {"type": JointType(record["type"]), "limits": _limits(record)}
     values["origin"], values["axis"] = np.array(record["origin"], float), np.array(record["axis"], float)
     return kind(**values)
 

@@ -144,7 +144,7 @@ class Joint:
     """A joint at rest in the asset frame. Positive motion opens.
 
     origin: a point on the axis [m]; axis: unit; limits: (lower, upper) [rad or m] containing 0, None if and only if the joint
-    is continuous or fixed; effort [N or N m], velocity [m/s or rad/s], damping [N s/m or N m s/rad], friction [N or N m].
+    is continuous or fixed.
     """
 
     name: str
@@ -156,10 +156,6 @@ class Joint:
     limits: tuple[float, float] | None
     confidence: float
     reason: str
-    effort: float = 50.0
-    velocity: float = 2.0
-    damping: float = 0.1
-    friction: float = 0.05
 
     def __post_init__(self) -> None:
         if not abs(float(np.linalg.norm(self.axis)) - 1) <= 1e-6:  # also rejects NaN

@@ -131,7 +131,7 @@ def _face_part(mesh: Mesh, parts: Sequence[Part]) -> np.ndarray:
 def _joint(record: Mapping[str, Any]) -> Joint:
     axis = np.array(record["axis"], float)
     limits = record["limits"]
-    made = Joint(
+    return Joint(
         name=record["name"],
         type=JointType(record["type"]),
         parent=record["parent"],
@@ -142,7 +142,6 @@ def _joint(record: Mapping[str, Any]) -> Joint:
         confidence=record["confidence"],
         reason=record["reason"],
     )
-    return replace(made, **{key: float(record[key]) for key in ("effort", "velocity", "damping", "friction")})
 
 
 def _exchange(folder: Path, path: Path) -> Exchange | None:
