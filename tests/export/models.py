@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from assets import QUAD_UV, box, checker, joint, mesh_of, source
 from PIL import Image
 from scipy.spatial import ConvexHull
 
+from anymesh.export.flat_looks import with_materials
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.meshes import write_meshes
 from anymesh.export.model import Base, Driven, Exclusion, ExportConfig, ExportLink, Model
@@ -60,6 +62,7 @@ def model_of(
 ) -> Model:
     """Return a model of an asset, with its inertia; its shapes are those of `like` if given."""
     asset = with_legal_names(asset)
+    asset = replace(asset, mesh=with_materials(asset.mesh))
     links = split_links(asset)
     shapes = [shapes_of(link, i) for i, link in enumerate(links)] if like is None else [b.shapes for b in like.bodies]
     bodies = tuple(ExportLink(link, link_inertia(link.triangles, CONFIG), s) for link, s in zip(links, shapes, strict=True))

@@ -253,9 +253,13 @@ def _usd_joint(prim) -> dict:
 
 def read_urdf(folder: Path, name: str) -> Read:
     robot = yourdfpy.URDF.load(str(folder / f"{name}.urdf"), mesh_dir=str(folder), load_meshes=False)
+    transmissions = ElementTree.parse(folder / f"{name}.urdf").getroot().findall("transmission")
+    gains = {t.find("joint").get("name"): t.find("actuator/{http://drake.mit.edu}controller_gains") for t in transmissions}
     joints = {}
     for j in robot.joint_map.values():
         joints[j.name] = {"type": j.type, "parent": j.parent, "child": j.child}
+        if j.name in gains:
+            joints[j.name]["drive"] = (float(gains[j.name].get("p")), float(gains[j.name].get("d")), j.limit.effort)
         if j.type != "fixed":
             joints[j.name] |= {
                 "limits": None if j.type == "continuous" else (j.limit.lower, j.limit.upper),

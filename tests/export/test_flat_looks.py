@@ -19,7 +19,7 @@ from pxr import Usd, UsdGeom, UsdShade
 
 from anymesh.export.flat_looks import losses, tiled, tinted
 from anymesh.export.formats import Format, write_formats
-from anymesh.rendering.render import base_colors
+from anymesh.rendering.render import PLAIN, base_colors
 from anymesh.types import Asset, Material, Mesh, Part, Segmentation, Texture
 from anymesh.types.mesh import CLAMP, MIRROR, REPEAT, to_linear, to_srgb
 
@@ -95,6 +95,22 @@ def test_alpha_of_factor_picture_and_vertices_does_not_count_where_opaque(tmp_pa
     bare = replace(boxes(Material(), np.array([9, 9, 9, 0])), face_material=np.full(24, -1), materials=())
     assert Written(bare, tmp_path).rgba()[3] == 1
     assert not UsdGeom.Mesh(Written(bare, tmp_path).prim()).GetDisplayOpacityPrimvar().HasValue()
+
+
+WHITE = np.array([255, 255, 255, 255])
+
+
+@pytest.mark.parametrize(("color", "shade"), [(None, PLAIN), (WHITE, 1.0), (GREY, float(to_linear([128 / 255])[0]))])
+def test_faces_without_a_material_look_the_same_everywhere(tmp_path: Path, color: np.ndarray | None, shade: float) -> None:
+    """Without one, viewers show white, a dark metal, or a grey of their own."""
+    out = Written(replace(boxes(Material(), color), face_material=np.full(24, -1), materials=()), tmp_path)
+    shown = pytest.approx([float(to_srgb([shade])[0])] * 3, abs=1e-3)
+    assert [out.rgba()[:3], out.urdf()[:3], out.mtl()["Kd"]] == [shown] * 3
+    assert "usemtl unassigned" in (tmp_path / "meshes" / "base.obj").read_text()
+    assert list(out.usd().GetInput("diffuseColor").Get()) == pytest.approx([shade] * 3)
+    (material,) = out.glb["materials"]
+    factor, tint = material["pbrMetallicRoughness"]["baseColorFactor"][:3], "COLOR_0" in str(out.glb["meshes"])
+    assert (factor, tint) == ([1.0] * 3, True) if color is GREY else (pytest.approx([shade] * 3), False)
 
 
 @pytest.mark.parametrize(("mode", "alpha", "opacity"), [("BLEND", 0.25, 0.25), ("MASK", 0.75, 1), ("MASK", 0.25, 0)])

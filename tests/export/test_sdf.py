@@ -60,10 +60,12 @@ def test_links_that_no_joint_connects_collide_unless_such_a_pair_is_excluded(pai
     assert parsed(model_of(cabinet(), exclusions=exclusions)).findtext("self_collide") == collides
 
 
-def test_colours_are_written_where_the_obj_has_no_material():
+def test_colours_are_written_where_those_of_corners_vary():
     asset = cabinet()
     knob = asset.segmentation.face_part == [p.name for p in asset.segmentation.parts].index("knob")
-    mesh = replace(asset.mesh, face_material=np.where(knob, -1, asset.mesh.face_material))
+    color = asset.mesh.corner_color.copy()
+    color[np.flatnonzero(knob)[::2], :, 0] += 2
+    mesh = replace(asset.mesh, corner_color=color, face_material=np.where(knob, -1, asset.mesh.face_material))
     root = parsed(model_of(replace(asset, mesh=mesh)))
     colored = {str(link.get("name")): link.findtext("visual/material/diffuse") for link in root.findall("link")}
-    assert colored == {"base": None, "door": None, "drawer": None, "knob": "0.0392157 0.784314 0.352941 1"}
+    assert colored == {"base": None, "door": None, "drawer": None, "knob": "0.0431373 0.784314 0.352941 1"}

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float32, Int
 
-from anymesh.rendering.render import texel
+from anymesh.rendering.render import PLAIN, texel
 from anymesh.types import Material, Mesh, Texture
 from anymesh.types.mesh import CLAMP, REPEAT, to_linear, to_srgb
 
@@ -30,6 +30,19 @@ def losses(mesh: Mesh, face_part: Int[np.ndarray, " F"]) -> Iterator[str]:
     if vary:
         named = ", ".join(sorted(vary)[:3])
         yield f"vertex colours vary on {len(vary)} materials with pictures ({named}): GLB has them, others their mean per part"
+
+
+def with_materials(mesh: Mesh) -> Mesh:
+    """Return the mesh with a material for the faces without one: the grey of pictures, or white under vertex colours.
+
+    Consumers differ in what they show without a material: white, a dark metal, or their own grey.
+    """
+    bare = mesh.face_material < 0
+    if not bare.any():
+        return mesh
+    shade = PLAIN if mesh.corner_color is None else 1.0
+    materials = (*mesh.materials, Material("unassigned", (shade, shade, shade, 1.0)))
+    return replace(mesh, face_material=np.where(bare, len(mesh.materials), mesh.face_material), materials=materials)
 
 
 def _groups(mesh: Mesh, face_part: np.ndarray) -> Iterator[tuple[Material, np.ndarray]]:

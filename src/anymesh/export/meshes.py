@@ -40,12 +40,10 @@ def write_meshes(model: Model, folder: Path, config: ExportConfig) -> None:
     names = material_names(mesh.materials)
     for body in bodies:
         primitives = visible(body.link, config)
-        used = sorted({p.material for p in primitives if p.material >= 0})
+        used = sorted({p.material for p in primitives})
         mtl = "".join(_mtl(names[i], mesh.materials[i], files) for i in used)
-        if used:
-            (folder / FOLDER / f"{body.name}.mtl").write_text(mtl, encoding="ascii", newline="\n")
-        library = f"{body.name}.mtl" if used else None
-        write_obj(folder / body.visual_path(), body.name, library, primitives, names)
+        (folder / FOLDER / f"{body.name}.mtl").write_text(mtl, encoding="ascii", newline="\n")
+        write_obj(folder / body.visual_path(), body.name, f"{body.name}.mtl", primitives, names)
         _write_hulls(body, folder)
         np.save(folder / body.faces_path(), body.source_faces(model.asset.source_face).astype(np.int64), allow_pickle=False)
 
@@ -164,7 +162,7 @@ def _visual_lines(name: str, library: str | None, primitives: Sequence[Primitive
     uses = 1 + textured + shaded
     offset = 1
     for p in primitives:
-        if p.material >= 0:
+        if library:
             yield f"usemtl {names[p.material]}\n"
         pattern = " ".join(["f", *[corner[textured, shaded]] * 3]) + "\n"
         yield from _rows(pattern, np.repeat(p.triangles + offset, uses, axis=1))
@@ -206,15 +204,13 @@ def small_box(
 
 def painted(mesh: Mesh, p: Primitive) -> bool:
     """Return whether a primitive is coloured by its corners, which requires that its material has no texture."""
-    return p.colors is not None and (p.material < 0 or not mesh.materials[p.material].textures)
+    return p.colors is not None and not mesh.materials[p.material].textures
 
 
 def display_color(mesh: Mesh, p: Primitive) -> tuple[float, ...]:
     """Return one colour (sRGB and alpha, 0..1) for a primitive; a texture multiplies it."""
     if p.colors is not None and painted(mesh, p):
         return tuple(float(c) for c in p.colors.mean(0) / 255)
-    if p.material < 0:
-        return GREY
     material = mesh.materials[p.material]
     return (*to_srgb(material.base_color[:3]).tolist(), material.opacity)
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 from collections.abc import Collection, Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, assert_never
 from xml.etree import ElementTree
@@ -208,8 +208,8 @@ def geom_materials(mesh: Mesh, body: ExportLink, folder: Path, config: ExportCon
         if len(primitives) > 1:
             (folder / PIECES).mkdir(exist_ok=True)
             path = f"{PIECES}/{body.name}_{k}.obj"
-            write_obj(folder / path, body.name, None, [replace(with_four_corners(p), material=-1)], names)
-        material = None if p.material < 0 or painted(mesh, p) else p.material
+            write_obj(folder / path, body.name, None, [with_four_corners(p)], names)
+        material = None if painted(mesh, p) else p.material
         geoms.append(GeomMaterial(f"{body.name}_visual_{k}", path, material, display_color(mesh, p)))
     return geoms
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.export.flat_looks import losses, tiled, tinted
+from anymesh.export.flat_looks import losses, tiled, tinted, with_materials
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.geometry.surface import plain_triangles
 from anymesh.physics.collision import CollisionConfig, collision_shapes
@@ -95,7 +95,7 @@ class Exclusion:
 
 @dataclass(frozen=True, eq=False)
 class Model:
-    """An asset with legal names, ready for export.
+    """An asset with legal names and a material for each face, ready for export.
 
     bodies: in the order of the parts, the root first; resistances: of the moving joints, by name; hulls: limit of collision
     shapes per link, None for no limit.
@@ -149,6 +149,7 @@ def build_model(
     cache: folder of decompositions, None for none.
     """
     asset = with_legal_names(asset)
+    asset = replace(asset, mesh=with_materials(asset.mesh))
     links = split_links(asset)
     plain = {link.name: plain_triangles(link.triangles, asset.mesh.diagonal) for link in links}
     triangles = {name: surface for name, (surface, _) in plain.items()}
@@ -177,7 +178,7 @@ def build_model(
 
 def _made_of(mesh: Mesh, link: Link, kept: Int[np.ndarray, " K"]) -> list[Substance | None]:
     """Return the substance of some triangles of a link, by the names of their materials."""
-    named = {p.material: None if p.material < 0 else substance_of(mesh.materials[p.material].name) for p in link.primitives}
+    named = {p.material: substance_of(mesh.materials[p.material].name) for p in link.primitives}
     all_ = [named[p.material] for p in link.primitives for _ in range(len(p.triangles))]
     return [all_[k] for k in kept]
 

@@ -108,7 +108,7 @@ def _add_visual(link: ElementTree.Element, mesh: Mesh, body: ExportLink) -> None
     """Add the visual OBJ with the materials of its MTL, or a colour if it has none."""
     visual = ElementTree.SubElement(link, "visual", name="visual")
     _leaf(ElementTree.SubElement(ElementTree.SubElement(visual, "geometry"), "mesh"), "uri", body.visual_path())
-    if all(p.material < 0 or painted(mesh, p) for p in body.link.primitives):
+    if all(painted(mesh, p) for p in body.link.primitives):
         color = " ".join(f"{c:.6g}" for c in display_color(mesh, widest(body.link)))
         material = ElementTree.SubElement(visual, "material")
         _leaf(material, "ambient", color)

@@ -45,7 +45,7 @@ def _appearance(mesh: Mesh, link: Link, names: Sequence[str]) -> tuple[str, tupl
     most = widest(link)
     if painted(mesh, most):
         return f"{link.name}_color", display_color(mesh, most)
-    return "unassigned" if most.material < 0 else names[most.material], display_color(mesh, most)
+    return names[most.material], display_color(mesh, most)
 
 
 def _add_link(robot: ElementTree.Element, body: ExportLink, look: tuple[str, tuple[float, ...]]) -> None:

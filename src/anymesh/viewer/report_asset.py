@@ -21,6 +21,7 @@ from PIL import Image
 
 from anymesh.errors import InputError
 from anymesh.export import Format
+from anymesh.export.flat_looks import with_materials
 from anymesh.export.formats import main_file
 from anymesh.export.glb import glb_bytes
 from anymesh.export.links import split_links, with_legal_names
@@ -181,6 +182,7 @@ def displayed(asset: Asset, *, faces: int = FACES, pixels: int = PIXELS) -> tupl
 
 def display_glb(asset: Asset) -> bytes:
     """Return the GLB of an asset with legal names."""
+    asset = replace(asset, mesh=with_materials(asset.mesh))
     return glb_bytes(asset, split_links(asset), ExportConfig())
 
 
