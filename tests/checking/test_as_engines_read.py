@@ -72,10 +72,13 @@ class FakeWorld:
         self.engine, self.robot = "fake", robot
         self.limits = {j.name: j.limits for j in robot.moving}
         self.commands = []
-        self.reset()
+        self.reset(np.zeros(len(self.limits)))
 
-    def reset(self):
-        self.at = np.zeros(len(self.limits))
+    def reset(self, positions):
+        self.at = positions.copy()
+
+    def push(self, forces):
+        self.at = self.at + np.sign(forces)
 
     def step(self, targets):
         self.at = targets.copy()

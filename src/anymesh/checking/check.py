@@ -13,7 +13,7 @@ from anymesh.checking.engines.locate import MJCF, find_description, kind_of
 from anymesh.checking.engines.mjcf_ import read_mjcf
 from anymesh.checking.engines.mujoco_ import rest_contacts
 from anymesh.checking.engines.robot import Robot, read_urdf
-from anymesh.checking.joints import check_direction, check_joints, check_motion
+from anymesh.checking.joints import check_damping, check_direction, check_joints, check_motion
 from anymesh.checking.report import CheckReport, Finding, Severity, failure
 from anymesh.checking.schema_ import NAME, SCHEMA, check_asset_json, check_files, check_naming, check_tree
 from anymesh.checking.shapes import check_meshes, check_scale, check_texture
@@ -55,7 +55,7 @@ def _still(content: Content) -> Iterator[Finding]:
     beside = robot.path.parent / NAME
     ours = beside.is_file()
     schema = [*check_files(content), *(check_asset_json(beside, robot) if ours else ())]
-    joints = [*check_joints(robot, content.diagonal)]
+    joints = [*check_joints(robot, content.diagonal), *check_damping(robot)]
     straight = not any(f.severity is Severity.FAILURE for f in joints)
     tree = f"{len(robot.links)} links and {len(robot.joints)} joints in a tree with the root {robot.roots[0]!r}"
     yield from _or_ok(SCHEMA, schema, f"{tree}{', asset.json matches its schema' if ours else ''}")

@@ -9,7 +9,8 @@ import numpy as np
 
 from anymesh.checking.content import Content, rigid_groups
 from anymesh.checking.engines import sweep_in
-from anymesh.checking.engines.driving import SweepReport
+from anymesh.checking.engines.driving import SweepReport, resisting_of
+from anymesh.checking.engines.pushing import damping_text
 from anymesh.checking.engines.robot import MOVING, Robot, RobotJoint
 from anymesh.checking.report import Finding, Severity, failure, warning
 from anymesh.errors import InputError, MissingExtraError
@@ -52,6 +53,15 @@ def check_joints(robot: Robot, diagonal: float) -> Iterator[Finding]:
             yield warning(JOINTS, joint.name, f"its type {joint.type} has several degrees of freedom; it is not driven here")
     if not robot.moving:
         yield warning(JOINTS, "", "no joint moves; an articulated asset has at least one")
+
+
+def check_damping(robot: Robot) -> Iterator[Finding]:
+    """Check that engines that apply damping explicitly can: damping * (1/60 s) / inertia about the axis is below 1."""
+    at = robot.placements({})
+    for joint in (j for j in robot.moving if np.linalg.norm(j.axis) > 0):
+        text = damping_text(joint.damping, resisting_of(robot, joint, at), joint.type == "prismatic")
+        if text:
+            yield warning(JOINTS, joint.name, text)
 
 
 def _axis(joint: RobotJoint) -> Iterator[Finding]:

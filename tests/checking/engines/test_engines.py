@@ -33,14 +33,17 @@ class Ideal:
     def __init__(self, robot, stop: float = np.inf, read=None, twist: float = 0.0) -> None:
         self.robot, self.stop, self.twist = robot, stop, twist
         self.limits = {j.name: read or j.limits for j in robot.moving}
-        self.reset()
+        self.reset(np.zeros(len(self.limits)))
 
-    def reset(self) -> None:
-        self.at = np.zeros(len(self.limits))
+    def reset(self, positions: np.ndarray) -> None:
+        self.at = positions.copy()
 
     def step(self, targets: np.ndarray) -> None:
         self.at = targets.copy()
         self.at[0] = min(self.at[0], self.stop)
+
+    def push(self, forces: np.ndarray) -> None:
+        self.at = self.at + STEP * np.sign(forces)
 
     def positions(self) -> np.ndarray:
         return self.at
@@ -89,7 +92,7 @@ def test_limits_read_otherwise_and_links_held_elsewhere_are_told(robot):
 def test_a_joint_that_the_engine_does_not_know_is_told(robot):
     world = Ideal(robot)
     world.limits.pop("slide")
-    world.reset()
+    world.reset(np.zeros(1))
     assert drive(world, robot).joints[0].faults == ("the engine does not know this joint",)
 
 
@@ -141,7 +144,7 @@ def test_an_unknown_engine_is_an_option_error():
 
 @pytest.mark.parametrize("engine", OTHERS)
 def test_without_an_engine_the_extra_is_named(engine, monkeypatch, tmp_path):
-    library = {"drake": "pydrake.all"}.get(engine, engine)
+    library = {"drake": "pydrake.all", "physx": "ovphysx"}.get(engine, engine)
     monkeypatch.setitem(sys.modules, library, None)
     with pytest.raises(MissingExtraError, match=rf"\[{engine}\]"):
         sweep_in(engine, chest(tmp_path), apart=False)

@@ -17,7 +17,7 @@ from anymesh.checking.engines.driving import SweepReport, drive, from_record, mo
 from anymesh.checking.engines.robot import read_urdf
 from anymesh.errors import AnymeshError, InputError, MissingExtraError, OptionError
 
-ENGINES = ("mujoco", "pybullet", "sapien", "drake", "pinocchio", "newton", "genesis")
+ENGINES = ("mujoco", "pybullet", "sapien", "drake", "pinocchio", "newton", "genesis", "physx")
 PATIENCE = 600.0  # [s] for one engine and one asset; some compile for a minute at first
 CHILD = "import sys, anymesh.checking.engines as e; e.answer(*sys.argv[1:])"  # program of the process
 KINDS: dict[str, type[AnymeshError]] = {kind.__name__: kind for kind in (InputError, MissingExtraError)}

@@ -46,12 +46,15 @@ class World:
         self.diagram = builder.Build()
         self.order = [j.position_start() for j in joints]
         self.commands = [plant.GetJointActuatorByName(f"{j.name()}_motor", model).index() for j in joints]
-        self.reset()
+        self.velocities = [j.velocity_start() for j in joints]
+        self.reset(np.zeros(len(joints)))
 
-    def reset(self) -> None:
+    def reset(self, positions: Float[np.ndarray, " n"]) -> None:
         self.simulator = self._drake.Simulator(self.diagram)
         self.context = self.plant.GetMyMutableContextFromRoot(self.simulator.get_mutable_context())
-        self.plant.SetPositions(self.context, np.zeros(self.plant.num_positions()))
+        q = np.zeros(self.plant.num_positions())
+        q[self.order] = positions
+        self.plant.SetPositions(self.context, q)
         self.simulator.Initialize()
         self.time = 0.0
 
@@ -60,6 +63,14 @@ class World:
         wanted = np.zeros(2 * count)
         wanted[[int(c) for c in self.commands]] = targets
         self.plant.get_desired_state_input_port(self.model).FixValue(self.context, wanted)
+        self.time += STEP
+        self.simulator.AdvanceTo(self.time)
+
+    def push(self, forces: Float[np.ndarray, " n"]) -> None:
+        """Advance with a desired state that was never given since the reset, so that the motors are off."""
+        applied = np.zeros(self.plant.num_velocities())
+        applied[self.velocities] = forces
+        self.plant.get_applied_generalized_force_input_port().FixValue(self.context, applied)
         self.time += STEP
         self.simulator.AdvanceTo(self.time)
 

@@ -12,10 +12,10 @@ from typing import Any, Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.checking.engines.pushing import STEP, PassiveWorld, Resisting, push_faults
 from anymesh.checking.engines.robot import Robot, RobotJoint
 from anymesh.errors import InputError, MissingExtraError
 
-STEP = 0.005  # [s] simulated time step
 HOLD_STEPS = 100  # steps for which a motor is held at a limit
 SAME = 1e-4  # tolerance of limits as read by the engine [rad or m]
 DEEP = 0.01  # share of the asset's extent: penetration or displacement that counts as a fault
@@ -96,18 +96,19 @@ def motors_of(robot: Robot) -> dict[str, Motor]:
     motors = {}
     at = robot.placements({})
     for joint in robot.moving:
-        inertia = max(_inertia(robot, joint, at), 1e-6)
+        inertia = max(moved_inertia(robot, joint, at), 1e-6)
         span = float(np.ptp(joint.range))
         effort = joint.effort or DEFAULT_EFFORT
-        seconds = min(max(1.0, np.pi * np.sqrt(inertia * span / effort)), MAX_ENGINE_SECONDS)
+        fastest = np.pi / 2 * span / joint.velocity if joint.velocity else 0.0  # PhysX keeps to the file's velocity
+        seconds = min(max(1.0, np.pi * np.sqrt(inertia * span / effort), fastest), MAX_ENGINE_SECONDS)
         against = max(4 * joint.friction / max(REACHED_RATIO * span, 1e-9), MIN_SETTLING_RATIO * joint.damping / seconds)
         stiffness = max(inertia * MOTOR_FREQUENCY**2, against)
         motors[joint.name] = Motor(stiffness, 2 * float(np.sqrt(stiffness * inertia)), effort, float(seconds))
     return motors
 
 
-def _inertia(robot: Robot, joint: RobotJoint, at: Mapping[str, np.ndarray]) -> float:
-    """Compute the inertia that a motor of the joint moves, at rest [kg or kg m2]."""
+def moved_inertia(robot: Robot, joint: RobotJoint, at: Mapping[str, np.ndarray]) -> float:
+    """Compute the inertia that a joint moves at rest [kg or kg m2]. at: placements of the links; without the armature."""
     carried, T = robot.carried(joint.child), at[joint.child]
     axis = T[:3, :3] @ joint.axis / np.linalg.norm(joint.axis)
     total = 0.0
@@ -167,27 +168,24 @@ def pose_matrix(position: np.ndarray, quaternion: np.ndarray) -> Float[np.ndarra
 
 
 @runtime_checkable
-class EngineWorld(Protocol):
-    """Protocol of one asset in one engine: root fixed, no gravity, one motor per joint."""
+class EngineWorld(PassiveWorld, Protocol):
+    """Protocol of one asset in one engine: root fixed, no gravity, one motor per joint; joints in the order of `limits`.
+
+    After the first push its motors stay off.
+    """
 
     engine: str  # name and version
     limits: dict[str, Limits]  # moving joint -> limits as the engine read them, None if it has none
 
-    def reset(self) -> None:
-        """Set all joints to 0, at rest."""
-
     def step(self, targets: Float[np.ndarray, " n"]) -> None:
-        """Advance by STEP seconds, with motor targets [rad or m], in the order of `limits`."""
-
-    def positions(self) -> Float[np.ndarray, " n"]:
-        """Return the positions of the joints, in the order of `limits`."""
+        """Advance by STEP seconds, with motor targets [rad or m]."""
 
     def pose(self, link: str) -> Float[np.ndarray, "4 4"]:
         """Return the transform from a link's frame to the root's."""
 
 
 def drive(world: EngineWorld, robot: Robot) -> SweepReport:
-    """Drive every joint to its upper limit, then to its lower one, with the others held at rest; return the report.
+    """Drive every joint to its upper limit, then to its lower one, with the others held at rest; push it; return the report.
 
     A joint that fails is tried again with others opened (such as a drawer behind a door), which the report states. A joint that
     the engine does not know is a fault, and so are limits that differ from the file.
@@ -200,7 +198,25 @@ def drive(world: EngineWorld, robot: Robot) -> SweepReport:
         else:
             missing = ("the engine does not know this joint",)
             sweeps.append(JointSweep(joint.name, joint.type, *joint.range, 0.0, 0.0, None, "", 0.0, 0.0, missing))
-    return SweepReport(world.engine, tuple(sweeps), (), tuple((name, f"follows {m.leader}") for name, m in followers.items()))
+    undriven = tuple((name, f"follows {m.leader}") for name, m in followers.items())
+    return SweepReport(world.engine, tuple(_pushed(world, robot, s, motors[s.name].seconds) for s in sweeps), (), undriven)
+
+
+def _pushed(world: EngineWorld, robot: Robot, sweep: JointSweep, seconds: float) -> JointSweep:
+    """Add the faults of a push, if the joint has none so far and leads no other."""
+    if sweep.faults or sweep.name in {m.leader for m in robot.followers.values()}:
+        return sweep
+    joint = next(j for j in robot.moving if j.name == sweep.name)
+    resisting = resisting_of(robot, joint, robot.placements({}))
+    names, ranges = list(world.limits), {j.name: j.range for j in robot.moving}
+    start = np.array([ranges[name][1] if name in sweep.opened else 0.0 for name in names])
+    return replace(sweep, faults=tuple(push_faults(world, names.index(joint.name), resisting, joint.range, seconds, start)))
+
+
+def resisting_of(robot: Robot, joint: RobotJoint, at: Mapping[str, np.ndarray]) -> Resisting:
+    """Return what resists a push of a joint by its file. at: placements of the links at rest."""
+    inertia = max(moved_inertia(robot, joint, at) + joint.armature, 1e-12)
+    return Resisting(inertia, joint.friction, joint.damping, joint.effort or DEFAULT_EFFORT)
 
 
 def _extent(robot: Robot) -> float:
@@ -242,7 +258,7 @@ def _swept(
         led = robot.coupled({name: at for name, at in led.items() if name not in followers})
         return np.array([led[name] for name in names])
 
-    world.reset()
+    world.reset(np.zeros(len(names)))
     for share in _smooth(max(motors[name].seconds for name in opened)) if opened else ():
         world.step(coupled(share * open_at))
     targets = open_at.copy()
@@ -274,6 +290,21 @@ def _off(world: EngineWorld, robot: Robot, joint: RobotJoint, positions: np.ndar
     there = world.pose(joint.child)
     center = np.zeros(3) if inertial is None else inertial.center
     return float(np.linalg.norm(T[:3, :3] @ center + T[:3, 3] - (there[:3, :3] @ center + there[:3, 3])))
+
+
+def distance_off(slides: bool, step: float, place: tuple[np.ndarray, np.ndarray, np.ndarray], now: np.ndarray) -> float:
+    """Compute the distance of the link's shapes from their positions by the joint alone [m].
+
+    step: from where place was taken: the joint's axis, its anchor and the positions of the shapes; now: their positions.
+    """
+    axis, anchor, start = place
+    if slides:
+        expected = start + step * axis
+    else:
+        r = start - anchor
+        turned = np.cos(step) * r + np.sin(step) * np.cross(axis, r)
+        expected = anchor + turned + (1 - np.cos(step)) * (r @ axis)[:, None] * axis
+    return float(np.linalg.norm(now - expected, axis=1).max(initial=0.0))
 
 
 def _faults(joint: RobotJoint, read: Limits, reached: tuple[float, float], off: float, extent: float) -> tuple[str, ...]:

@@ -42,12 +42,16 @@ class World:
         self.links = {link.name: link for link in self.body.links}
         self.root = robot.roots[0]
 
-    def reset(self) -> None:
-        self.body.set_dofs_position(np.zeros(len(self.order), np.float32), self.order)
+    def reset(self, positions: Float[np.ndarray, " n"]) -> None:
+        self.body.set_dofs_position(positions.astype(np.float32), self.order)
         self.body.zero_all_dofs_velocity()
 
     def step(self, targets: Float[np.ndarray, " n"]) -> None:
         self.body.control_dofs_position(targets.astype(np.float32), self.order)
+        self.scene.step()
+
+    def push(self, forces: Float[np.ndarray, " n"]) -> None:
+        self.body.control_dofs_force(forces.astype(np.float32), self.order)
         self.scene.step()
 
     def positions(self) -> Float[np.ndarray, " n"]:

@@ -146,8 +146,14 @@ class _Reader:
             elif kind == "revolute":
                 kind = "continuous"
             axis = T[:3, :3].T @ self.data.xaxis[joint]
+            dof = self.model.jnt_dofadr[joint]
+            resisting = {
+                "friction": float(self.model.dof_frictionloss[dof]),
+                "damping": float(self.model.dof_damping[dof]),
+                "armature": float(self.model.dof_armature[dof]),
+            }
             mimic = self._mimic(joint)
-            joints.append(RobotJoint(label, kind, before, child, np.linalg.inv(at) @ T, axis, limits, mimic=mimic))
+            joints.append(RobotJoint(label, kind, before, child, np.linalg.inv(at) @ T, axis, limits, mimic=mimic, **resisting))
             at, before = T, child
         return joints
 

@@ -11,15 +11,18 @@ import numpy as np
 
 from anymesh.checking.engines.driving import (
     DEEP,
+    DEFAULT_EFFORT,
     MIN_SETTLING_RATIO,
     REACHED_RATIO,
     UNSTABLE,
     JointSweep,
     SweepReport,
+    distance_off,
     motor_faults,
     place_faults,
 )
 from anymesh.checking.engines.mjcf_ import load_errors, read_spec, without_ground
+from anymesh.checking.engines.pushing import MujocoPassive, push_faults
 from anymesh.mujoco_ import is_unstable, load_mujoco, name_elements
 
 TOUCH = 1e-4  # share of the asset's extent: bodies with deeper penetration at rest overlap
@@ -46,6 +49,7 @@ class MujocoBench:
     rest_depth: dict[tuple[int, int], float]  # pair of bodies -> penetration at rest [m]
     followers: Mapping[int, tuple[int, np.ndarray]]  # joint -> the one that it follows, and coefficients of the polynomial
     undriven: Mapping[int, str]  # joints that are not driven themselves -> why
+    passive: MujocoPassive  # the same without motors
 
     @property
     def extent(self) -> float:
@@ -95,11 +99,13 @@ def make_bench(mujoco: Any, path: Path) -> tuple[MujocoBench, tuple[tuple[str, s
     single = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
     joints = tuple(k for k in range(model.njnt) if int(model.jnt_type[k]) in single)
     followers, undriven = _coupled(model, joints, couplings, loops)
+    passive = MujocoPassive(mujoco, model)
     seconds = _add_motors(mujoco, spec, model, ranges, joints)
     model = spec.compile()
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    return MujocoBench(mujoco, model, data, joints, ranges, seconds, depths(model, data), followers, undriven), tuple(excluded)
+    rest = depths(model, data)
+    return MujocoBench(mujoco, model, data, joints, ranges, seconds, rest, followers, undriven, passive), tuple(excluded)
 
 
 def _joined(model: Any) -> list[tuple[int, int]]:
@@ -226,9 +232,21 @@ def sweep_joints(path: Path, *, steps: int = 100) -> SweepReport:
     mujoco = load_mujoco()
     with load_errors(mujoco, path):
         bench, excluded = make_bench(mujoco, Path(path))
-    joints = tuple(_cleared_sweep(bench, index, steps) for index in bench.joints if index not in bench.undriven)
+    driven = [index for index in bench.joints if index not in bench.undriven]
+    joints = tuple(_pushed(bench, index, _cleared_sweep(bench, index, steps)) for index in driven)
     undriven = tuple((bench.model.joint(k).name, why) for k, why in bench.undriven.items())
     return SweepReport(f"mujoco {mujoco.__version__}", joints, excluded, undriven)
+
+
+def _pushed(bench: MujocoBench, index: int, sweep: JointSweep) -> JointSweep:
+    """Add the faults of a push without motors, if the joint has none so far and leads no other."""
+    if sweep.faults or index in {leader for leader, _ in bench.followers.values()}:
+        return sweep
+    model, (lower, upper) = bench.model, bench.ranges[index]
+    effort = float(model.jnt_actfrcrange[index, 1]) if model.jnt_actfrclimited[index] else DEFAULT_EFFORT
+    start = bench.posture({k: float(bench.ranges[k, 1]) for k in bench.joints if model.joint(k).name in sweep.opened})
+    args = bench.passive.resisting(index, effort), (float(lower), float(upper)), float(bench.seconds[index])
+    return replace(sweep, faults=tuple(push_faults(bench.passive, index, *args, start[model.jnt_qposadr])))
 
 
 def _cleared_sweep(bench: MujocoBench, index: int, steps: int) -> JointSweep:
@@ -346,23 +364,8 @@ def _driven(bench: MujocoBench, index: int, moved: Mapping[int, float]) -> tuple
         data.qpos[others] = start_posture[others]  # what moves the other joints does not count
         mujoco.mj_kinematics(model, data)
         step = reached[way] - float(start_posture[address])
-        off = max(off, _off(model.jnt_type[index] == mujoco.mjtJoint.mjJNT_SLIDE, step, place, data.geom_xpos[geoms]))
+        off = max(off, distance_off(model.jnt_type[index] == mujoco.mjtJoint.mjJNT_SLIDE, step, place, data.geom_xpos[geoms]))
     return (reached[-1.0], reached[1.0]), drift, off, bool(blew_up)
-
-
-def _off(slides: bool, step: float, place: tuple[np.ndarray, np.ndarray, np.ndarray], now: np.ndarray) -> float:
-    """Compute the distance of the link's shapes from their positions by the joint alone [m].
-
-    step: from where place was taken: the joint's axis, its anchor and the positions of the shapes; now: their positions.
-    """
-    axis, anchor, start = place
-    if slides:
-        expected = start + step * axis
-    else:
-        r = start - anchor
-        turned = np.cos(step) * r + np.sin(step) * np.cross(axis, r)
-        expected = anchor + turned + (1 - np.cos(step)) * (r @ axis)[:, None] * axis
-    return float(np.linalg.norm(now - expected, axis=1).max(initial=0.0))
 
 
 def _faults(bench: MujocoBench, sweep: JointSweep, blew_up: bool) -> tuple[str, ...]:

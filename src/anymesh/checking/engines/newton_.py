@@ -29,6 +29,7 @@ class World:
             raise InputError(f"Newton cannot load {path}: {type(error).__name__}: {error}") from error
         self.limits: dict[str, Limits] = {}
         self.order: list[int] = []  # indices of coordinates
+        self.dofs: list[int] = []
         self.bodies = {_last(label): k for k, label in enumerate(builder.body_label)}
         for k, label in enumerate(builder.joint_label):
             name = _last(label)
@@ -38,6 +39,7 @@ class World:
             limits = (float(builder.joint_limit_lower[dof]), float(builder.joint_limit_upper[dof]))
             self.limits[name] = limits if np.abs(limits).max() < UNLIMITED else None
             self.order.append(builder.joint_q_start[k])
+            self.dofs.append(dof)
             builder.joint_target_ke[dof], builder.joint_target_kd[dof] = motor.stiffness, motor.damping
             builder.joint_target_mode[dof] = newton.JointTargetMode.POSITION
             builder.joint_effort_limit[dof] = motor.effort
@@ -45,18 +47,33 @@ class World:
         self.model = builder.finalize(device="cpu")
         self.solver = newton.solvers.SolverMuJoCo(self.model, use_mujoco_cpu=True)
         self.control = self.model.control()
-        self.reset()
+        self.newton, self.driven = newton, True
+        self.reset(np.zeros(len(self.order)))
 
-    def reset(self) -> None:
+    def reset(self, positions: Float[np.ndarray, " n"]) -> None:
         self.now, self.next = self.model.state(), self.model.state()
+        q = np.zeros(self.now.joint_q.shape, np.float32)
+        q[self.order] = positions
         for state in (self.now, self.next):
-            state.joint_q.zero_()
+            state.joint_q.assign(q)
             state.joint_qd.zero_()
 
     def step(self, targets: Float[np.ndarray, " n"]) -> None:
         goal = np.zeros(self.control.joint_target_q.shape, np.float32)
         goal[self.order] = targets
         self.control.joint_target_q.assign(goal)
+        self.solver.step(self.now, self.next, self.control, None, STEP)
+        self.now, self.next = self.next, self.now
+
+    def push(self, forces: Float[np.ndarray, " n"]) -> None:
+        if self.driven:
+            self.model.joint_target_ke.zero_()
+            self.model.joint_target_kd.zero_()
+            self.solver.notify_model_changed(self.newton.ModelFlags.JOINT_DOF_PROPERTIES)
+            self.driven = False
+        applied = np.zeros(self.control.joint_f.shape, np.float32)
+        applied[self.dofs] = forces
+        self.control.joint_f.assign(applied)
         self.solver.step(self.now, self.next, self.control, None, STEP)
         self.now, self.next = self.next, self.now
 

@@ -32,7 +32,7 @@ class World:
         self.stiffness = np.array([motors[n].stiffness for n in names])
         self.damping = np.array([motors[n].damping for n in names])
         self.effort = np.array([motors[n].effort for n in names])
-        self.reset()
+        self.reset(np.zeros(len(names)))
 
     def _limits(self, number: int) -> Limits:
         joint = self.model.joints[number]
@@ -40,18 +40,31 @@ class World:
             return None
         return float(self.model.lowerPositionLimit[joint.idx_q]), float(self.model.upperPositionLimit[joint.idx_q])
 
-    def reset(self) -> None:
-        self.q, self.v, self.at = self.pin.neutral(self.model), np.zeros(self.model.nv), np.zeros(self.model.nv)
+    def reset(self, positions: Float[np.ndarray, " n"]) -> None:
+        self.q, self.v = self.pin.integrate(self.model, self.pin.neutral(self.model), positions), np.zeros(self.model.nv)
+        self.at = np.array(positions, float)
 
     def step(self, targets: Float[np.ndarray, " n"]) -> None:
         """Make one implicit Euler step of M dv = force * dt, with the motor's force at the end of the step."""
-        mass = self.pin.crba(self.model, self.data, self.q)
-        bias = self.pin.nonLinearEffects(self.model, self.data, self.q, self.v)
+        mass, bias = self._dynamics()
         gain = self.stiffness * STEP + self.damping
         error = self.stiffness * (targets - self.positions()) - gain * self.v
         solved = np.linalg.solve(mass + STEP * np.diag(gain), error - bias)
         force = np.clip(error - STEP * gain * solved, -self.effort, self.effort)
-        self.v = self.v + STEP * np.linalg.solve(mass, force - bias)
+        self._advance(mass, force - bias)
+
+    def push(self, forces: Float[np.ndarray, " n"]) -> None:
+        """Advance without the friction and damping of the file, which the engine does not apply."""
+        mass, bias = self._dynamics()
+        self._advance(mass, forces - bias)
+
+    def _dynamics(self) -> tuple[np.ndarray, np.ndarray]:
+        """Return the mass matrix and the bias forces of the present state."""
+        mass = self.pin.crba(self.model, self.data, self.q)
+        return mass, self.pin.nonLinearEffects(self.model, self.data, self.q, self.v)
+
+    def _advance(self, mass: np.ndarray, force: np.ndarray) -> None:
+        self.v = self.v + STEP * np.linalg.solve(mass, force)
         self.q = self.pin.integrate(self.model, self.q, STEP * self.v)
         self.at = self.at + STEP * self.v
 

@@ -38,15 +38,23 @@ class World:
                 self.index.append(k)
         self.motors = [motors[name] for name in self.limits]
 
-    def reset(self) -> None:
-        for k in self.index:
-            self.bullet.resetJointState(self.body, k, 0.0, 0.0, physicsClientId=self.client)
+    def reset(self, positions: Float[np.ndarray, " n"]) -> None:
+        for k, at in zip(self.index, positions, strict=True):
+            self.bullet.resetJointState(self.body, k, float(at), 0.0, physicsClientId=self.client)
 
     def step(self, targets: Float[np.ndarray, " n"]) -> None:
         for k, target, motor in zip(self.index, targets, self.motors, strict=True):
             self.bullet.setJointMotorControl2(
                 self.body, k, self.bullet.POSITION_CONTROL, targetPosition=float(target), force=motor.effort,
                 physicsClientId=self.client,
+            )  # fmt: skip
+        self.bullet.stepSimulation(physicsClientId=self.client)
+
+    def push(self, forces: Float[np.ndarray, " n"]) -> None:
+        modes = ((self.bullet.VELOCITY_CONTROL, np.zeros(len(forces))), (self.bullet.TORQUE_CONTROL, forces))  # brakes off first
+        for mode, some in modes:
+            self.bullet.setJointMotorControlArray(
+                self.body, self.index, mode, forces=some.tolist(), physicsClientId=self.client
             )  # fmt: skip
         self.bullet.stepSimulation(physicsClientId=self.client)
 

@@ -73,7 +73,7 @@ class RobotJoint:
     """A joint as written. T_parent_joint: (4, 4) at position 0; axis: in the joint frame, any length.
 
     limits [rad or m], effort [N m or N], velocity [rad/s or m/s]: None if not given; friction [N m or N], damping [N m s/rad or
-    N s/m]: 0 if not given.
+    N s/m], armature [kg m2 or kg] (MJCF): 0 if not given.
     """
 
     name: str
@@ -88,6 +88,7 @@ class RobotJoint:
     friction: float = 0.0
     damping: float = 0.0
     mimic: Mimic | None = None
+    armature: float = 0.0
 
     @property
     def moves(self) -> bool:

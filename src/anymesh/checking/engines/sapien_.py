@@ -52,18 +52,25 @@ class World:
             link.disable_gravity = True
         self.active = list(self.body.active_joints)
         self.limits = {j.name: _limits(j) for j in self.active}
+        self.damping = [j.damping for j in self.active]  # of the file, in SAPIEN a drive without stiffness
         for joint in self.active:
             motor = motors[joint.name]
             joint.set_drive_properties(motor.stiffness, motor.damping, motor.effort, "force")
         self.links = {link.name: link for link in self.body.links}
 
-    def reset(self) -> None:
-        self.body.set_qpos(np.zeros(len(self.active)))
+    def reset(self, positions: Float[np.ndarray, " n"]) -> None:
+        self.body.set_qpos(positions)
         self.body.set_qvel(np.zeros(len(self.active)))
 
     def step(self, targets: Float[np.ndarray, " n"]) -> None:
         for joint, target in zip(self.active, targets, strict=True):
             joint.set_drive_target(float(target))
+        self.scene.step()
+
+    def push(self, forces: Float[np.ndarray, " n"]) -> None:
+        for joint, damping in zip(self.active, self.damping, strict=True):
+            joint.set_drive_properties(0.0, damping)
+        self.body.set_qf(forces)
         self.scene.step()
 
     def positions(self) -> Float[np.ndarray, " n"]:
