@@ -20,7 +20,8 @@ Engines = Annotated[
     list[str],
     typer.Option(
         "--engine",
-        help="Engine that drives every joint; may be repeated: mujoco, pybullet, sapien, drake, pinocchio, newton, genesis.",
+        help="Engine that drives every joint; may be repeated: mujoco, pybullet, sapien, drake, pinocchio, newton, genesis, "
+        "physx.",
     ),
 ]
 

@@ -12,10 +12,11 @@ from assets import box, cabinet, joint, mesh_of, slanted, source
 from drawn import chest
 
 from anymesh.checking.engines import ENGINES, sweep_in
-from anymesh.checking.engines.driving import STEP, drive, from_record, motors_of, readable
+from anymesh.checking.engines.driving import drive, from_record, motors_of, readable
 from anymesh.checking.engines.locate import find_file
 from anymesh.checking.engines.mjcf_ import read_mjcf
 from anymesh.checking.engines.mujoco_ import rest_contacts, sweep_joints
+from anymesh.checking.engines.pushing import STEP
 from anymesh.checking.engines.robot import Geometry, read_urdf, shape_triangles
 from anymesh.errors import InputError, MissingExtraError, OptionError
 from anymesh.export import write_asset

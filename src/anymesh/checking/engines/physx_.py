@@ -28,12 +28,11 @@ class World:
         usd = next((path.with_suffix(s) for s in SUFFIXES if path.with_suffix(s).is_file()), None)
         if usd is None:
             raise InputError(f"PhysX reads USD, and found none beside {path.name}; write it with --formats usd,urdf")
+        ovphysx.set_global_config(self.types.GlobalConfigKey.NUM_THREADS, 0)  # a few links: threads cost more than they give
         ovphysx.PhysX.set_cpu_mode(True)
         self.physx = ovphysx.PhysX()
         try:
-            stages.population.register_usd_schemas(
-                [*map(str, schemas.physx_schema_paths()), str(ovphysx.newton_schema_root())]
-            )
+            stages.population.register_usd_schemas([*map(str, schemas.physx_schema_paths()), str(ovphysx.newton_schema_root())])
             self.stage = stages.Stage("check")
             stages.population.open_usd(self.stage, str(usd), ordinal=1, domains=stages.PopulationDomain.ALL)
             self.stage.advance_write_floor(ordinal=1).wait()
@@ -49,9 +48,8 @@ class World:
         self.unit = {name: 1.0 if moving[name].type == "prismatic" else 180 / np.pi for name in self.names}
         ends = self._read(self.joint, "jointLimit")
         self.limits: dict[str, Limits] = {name: self._limits(name, ends[name].reshape(-1)) for name in self.names}
-        self._write(self.link, "disableGravity", {name: 1 for name in self._read(self.link, "disableGravity")})
+        self._write(self.link, "disableGravity", dict.fromkeys(self._read(self.link, "disableGravity"), 1))
         self.motors = {name: motors[name] for name in self.names}
-        self.own = {word: self._read(self.joint, word) for word in ("jointStiffness", "jointDamping")}
         gains = {
             "jointStiffness": {n: m.stiffness / self.unit[n] for n, m in self.motors.items()},
             "jointDamping": {n: m.damping / self.unit[n] for n, m in self.motors.items()},
@@ -67,13 +65,13 @@ class World:
 
     def _read(self, kind: Any, attribute: str) -> dict[str, np.ndarray]:
         """Return the values of a column by the names of the prims."""
-        found = {}
+        columns = {}
         with self.physx.read_sync(kind, [attribute], scope=self.types.ObjectScope.ALL) as result:
             for group in result.groups:
                 names = [str(p).rsplit("/", 1)[-1] for p in self.paths.get_path_strings(group.prim_list)]
                 rows = [t.numpy() for t in group.tensors] if group.is_array else group.tensors[0].numpy()
-                found |= {name: np.array(row, float) for name, row in zip(names, rows, strict=True)}
-        return found
+                columns |= {name: np.array(row, float) for name, row in zip(names, rows, strict=True)}
+        return columns
 
     def _write(self, kind: Any, attribute: str, values: Mapping[str, float]) -> None:
         """Write a column; prims that are not named keep what they have."""
@@ -101,15 +99,15 @@ class World:
 
     def push(self, forces: Float[np.ndarray, " n"]) -> None:
         if self.driven:
-            for word in self.own:
+            for word in ("jointStiffness", "jointDamping"):
                 self._write(self.joint, word, dict.fromkeys(self.names, 0.0))
             self.driven = False
         self._write(self.joint, "jointActuationForce", dict(zip(self.names, forces.tolist(), strict=True)))
         self.physx.step_sync(STEP)
 
     def positions(self) -> Float[np.ndarray, " n"]:
-        found = self._read(self.joint, "jointPosition")
-        return np.array([float(found[name].reshape(-1)[0]) / self.unit[name] for name in self.names])
+        columns = self._read(self.joint, "jointPosition")
+        return np.array([float(columns[name].reshape(-1)[0]) / self.unit[name] for name in self.names])
 
     def pose(self, link: str) -> Float[np.ndarray, "4 4"]:
         place, turn = self._read(self.link, "position"), self._read(self.link, "orientation")

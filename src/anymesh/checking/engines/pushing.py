@@ -74,11 +74,13 @@ def damping_text(damping: float, resisting: Resisting, slides: bool) -> str | No
     """Describe damping that is too strong for a light link; None if it is not. slides: of a prismatic joint."""
     if damping <= resisting.most_damping:
         return None
-    unit, inertia = ("N s/m", "moving mass of") if slides else ("N m s/rad", "inertia about its axis of")
+    unit = "N s/m" if slides else "N m s/rad"
+    inertia = (
+        f"moving mass of {resisting.inertia:.3g} kg" if slides else f"inertia about its axis of {resisting.inertia:.3g} kg m2"
+    )
     return (
-        f"its damping {damping:.3g} {unit} is too strong for the {inertia} {resisting.inertia:.3g} {'kg' if slides else 'kg m2'}; "
-        f"at most {resisting.most_damping:.3g} {unit} does (the inertia divided by 1/60 s): with more, the joint stands still in "
-        "PhysX and shakes in PyBullet"
+        f"its damping {damping:.3g} {unit} is too strong for the {inertia}; at most {resisting.most_damping:.3g} {unit} does "
+        "(the inertia divided by 1/60 s): with more, the joint stands still in PhysX and shakes in PyBullet"
     )
 
 
@@ -146,4 +148,3 @@ class MujocoPassive:
         m, dof = self.model, self.model.jnt_dofadr[index]
         values = (m.dof_M0[dof], m.dof_frictionloss[dof], m.dof_damping[dof], effort, m.jnt_stiffness[index])
         return Resisting(*(float(v) for v in values), relaxed=float(m.qpos_spring[m.jnt_qposadr[index]]))
-

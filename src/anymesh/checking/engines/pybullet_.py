@@ -51,7 +51,10 @@ class World:
         self.bullet.stepSimulation(physicsClientId=self.client)
 
     def push(self, forces: Float[np.ndarray, " n"]) -> None:
-        modes = ((self.bullet.VELOCITY_CONTROL, np.zeros(len(forces))), (self.bullet.TORQUE_CONTROL, forces))  # brakes off first
+        modes = (
+            (self.bullet.VELOCITY_CONTROL, np.zeros(len(forces))),
+            (self.bullet.TORQUE_CONTROL, forces),
+        )  # brakes off first
         for mode, some in modes:
             self.bullet.setJointMotorControlArray(
                 self.body, self.index, mode, forces=some.tolist(), physicsClientId=self.client

@@ -1,0 +1,65 @@
+"""A push without motors, read from positions, and the damping that a light link can bear."""
+
+import numpy as np
+import pytest
+
+from anymesh.checking.engines.mujoco_ import sweep_joints
+from anymesh.checking.engines.pushing import STEP, Resisting, push_faults
+from anymesh.checking.engines.robot import read_urdf
+from anymesh.checking.joints import check_damping
+
+KNOB = """<robot name="knob"><link name="base"/><link name="knob"><inertial><mass value=".014"/>
+<inertia ixx="3e-6" iyy="3e-6" izz="3e-6" ixy="0" ixz="0" iyz="0"/></inertial></link><joint name="turn" type="continuous">
+<parent link="base"/><child link="knob"/><axis xyz="0 0 1"/><limit effort="1" velocity="20"/>
+<dynamics damping="%s"/></joint></robot>
+"""
+
+
+class Explicit:
+    """A knob in an engine that applies damping explicitly; it keeps its velocity and not its position if `stuck`."""
+
+    def __init__(self, damping: float, stuck: bool) -> None:
+        self.damping, self.stuck = damping, stuck
+
+    def reset(self, positions: np.ndarray) -> None:
+        self.at, self.speed = positions.copy(), 1e-3
+
+    def push(self, forces: np.ndarray) -> None:
+        self.speed = float(np.clip(self.speed + STEP * (forces[0] - self.damping * self.speed) / 3e-6, -100, 100))
+        self.at = self.at + (0 if self.stuck else STEP * self.speed)
+
+    def positions(self) -> np.ndarray:
+        return self.at
+
+
+@pytest.mark.parametrize(
+    ("damping", "stuck", "words"),
+    [
+        (1e-5, False, None),
+        (1e-5, True, "moves it by 0 instead of 1.57, read from its position"),
+        (0.1, False, "it shakes by 0.5"),
+    ],
+)
+def test_a_push_without_motors_is_read_from_positions(damping, stuck, words):
+    resisting = Resisting(3e-6, 0.0, damping, 1.0)
+    faults = push_faults(Explicit(damping, stuck), 0, resisting, (-np.pi, np.pi), 1.0, np.zeros(1))
+    assert (not faults) if words is None else any(words in fault for fault in faults), faults
+
+
+def test_a_push_goes_as_far_as_friction_damping_and_springs_let_it():
+    assert Resisting(2.0, 1.0, 0.0, 9.0).reached(3.0, 9.0, 1.0) == pytest.approx(0.5, rel=0.01)  # (3 - 1) / 2 / 2
+    assert Resisting(1e-4, 1.0, 4.0, 9.0).reached(3.0, 9.0, 2.0) == pytest.approx(1, rel=0.01)  # (3 - 1) / 4 * 2
+    assert Resisting(1.0, 4.0, 0.0, 9.0).reached(3.0, 9.0, 2.0) == 0
+    assert Resisting(1e-3, 0.0, 1.0, 9.0, stiffness=4.0, relaxed=-0.25).reached(3.0, 9.0, 9.0) == pytest.approx(0.5, rel=0.01)
+    assert Resisting(1.0, 4.0, 0.0, 9.0).force(0.1, 1.0) == pytest.approx(1.5 * 4.2)
+    assert Resisting(1.0, 40.0, 0.0, 9.0).force(0.1, 1.0) == 9
+
+
+def test_damping_that_a_light_link_cannot_bear_is_a_warning_with_the_largest_that_it_can(tmp_path):
+    (tmp_path / "knob.urdf").write_text(KNOB % 0.1)
+    (warned,) = check_damping(read_urdf(tmp_path / "knob.urdf"))
+    assert (warned.severity, warned.subject) == ("warning", "turn")
+    assert "at most 0.00018 N m s/rad" in warned.text
+    (tmp_path / "knob.urdf").write_text(KNOB % 0.00017)
+    assert not [*check_damping(read_urdf(tmp_path / "knob.urdf"))]
+    assert sweep_joints(tmp_path / "knob.urdf", steps=20).ok
