@@ -45,8 +45,8 @@ MANY_PARAMETERS = {
     "agents/server_.py:articulate", "agents/tools.py:articulate", "applications/generate/run.py:explain_generation",
     "applications/generate/run.py:generate", "applications/plan/planner.py:plan", "applications/plan/replay_.py:replay",
     "applications/policy/env_.py:make_env", "applications/policy/training_.py:train",
-    "applications/scan/rendered.py:render_frames", "evaluation/evaluating.py:evaluate", "export/__init__.py:write_asset",
-    "pipeline/api.py:articulate", "pipeline/api.py:segment", "pipeline/api.py:export_asset", "finishing/finishing.py:finish",
+    "applications/scan/rendered.py:render_frames", "evaluation/evaluating.py:evaluate",
+    "pipeline/api.py:articulate", "pipeline/api.py:segment", "finishing/finishing.py:finish",
     "viewer/server_.py:serve", "viewer/pictures_.py:write_picture",
     # inner functions
     "articulation/estimate.py:joint_of", "geometry/creases.py:_folds_inwards", "pipeline/stage_files.py:assemble",

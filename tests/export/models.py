@@ -14,7 +14,8 @@ from scipy.spatial import ConvexHull
 from anymesh.export.flat_looks import with_materials
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.meshes import write_meshes
-from anymesh.export.model import Base, Driven, Exclusion, ExportConfig, ExportLink, Model
+from anymesh.export.model import Exclusion, ExportConfig, ExportLink, Model
+from anymesh.export.options import Base, Driven, ExportOptions
 from anymesh.physics.inertia import link_inertia
 from anymesh.physics.resistance import resistances
 from anymesh.types import Asset, Box, Cylinder, Hull, Material, Part, Segmentation, Shape, Texture
@@ -67,7 +68,7 @@ def model_of(
     shapes = [shapes_of(link, i) for i, link in enumerate(links)] if like is None else [b.shapes for b in like.bodies]
     bodies = tuple(ExportLink(link, link_inertia(link.triangles, CONFIG), s) for link, s in zip(links, shapes, strict=True))
     resisting = resistances(asset, {body.name: body.inertia for body in bodies})
-    return Model(asset, bodies, resisting, base, exclusions, driven)
+    return Model(asset, bodies, resisting, ExportOptions(base, drives=driven), exclusions)
 
 
 def with_meshes(model: Model, folder: Path) -> Path:

@@ -18,7 +18,8 @@ from PIL import Image
 from pxr import Usd, UsdGeom, UsdShade
 
 from anymesh.export.flat_looks import losses, tiled, tinted
-from anymesh.export.formats import Format, write_formats
+from anymesh.export.formats import write_formats
+from anymesh.export.options import Format
 from anymesh.rendering.render import PLAIN, base_colors
 from anymesh.types import Asset, Material, Mesh, Part, Segmentation, Texture
 from anymesh.types.mesh import CLAMP, MIRROR, REPEAT, to_linear, to_srgb

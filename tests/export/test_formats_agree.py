@@ -12,18 +12,10 @@ from readers import READERS
 from scipy.spatial.transform import Rotation
 
 from anymesh.errors import MissingExtraError, OptionError
-from anymesh.export.formats import (
-    DEFAULT,
-    WRITERS,
-    ExportOptions,
-    Format,
-    load_libraries,
-    main_file,
-    parse_formats,
-    write_formats,
-)
-from anymesh.export.model import Base, Exclusion, drives
+from anymesh.export.formats import WRITERS, load_libraries, main_file, write_formats
+from anymesh.export.model import Exclusion, drives
 from anymesh.export.notation import principal, quaternion, rpy, turning_x_to
+from anymesh.export.options import DEFAULT, Base, Driven, ExportOptions, Format, parse_formats
 from anymesh.export.sdf import joint_names
 from anymesh.types import Box, Cylinder, JointType
 
@@ -220,12 +212,18 @@ def test_a_missing_package_is_one_error_that_says_how_it_is_had(kind, package, t
 
 
 def test_the_options_of_an_asset_are_those_that_it_was_written_with() -> None:
-    asset = {"files": {"usd": "a.usda", "mjcf": "a.xml"}, "base": "free", "drives": "position"}
-    assert ExportOptions.of(asset) == ExportOptions.parse("free", "mjcf,usd", "position")
-    assert ExportOptions.of({}) == ExportOptions.parse("fixed", "urdf,mjcf,sdf,glb", "passive")
+    asset = {"files": {"usd": "a.usda", "mjcf": "a.xml"}, "base": "free", "drives": "position", "hulls": 7}
+    kept = ExportOptions(Base.FREE, (Format.MJCF, Format.USD), Driven.POSITION, 7)
+    assert ExportOptions.parse({}, before=asset) == kept
+    assert ExportOptions.parse(dict.fromkeys(("base", "formats", "drives", "hulls")), before=asset) == kept
+    assert kept.record() == {"base": "free", "drives": "position", "hulls": 7}
+    given = ExportOptions.parse({"drives": "passive", "formats": "glb", "hulls": 0}, before=asset)
+    assert given == ExportOptions(Base.FREE, (Format.GLB,))
+    assert given.record() == {"base": "free", "drives": "passive"}
+    assert ExportOptions.parse({}, before={}) == ExportOptions()
 
 
-@pytest.mark.parametrize("damaged", [{"base": "fixd"}, {"base": ["fixed"]}, {"drives": 1}])
+@pytest.mark.parametrize("damaged", [{"base": "fixd"}, {"base": ["fixed"]}, {"drives": 1}, {"hulls": "2"}, {"hulls": -1}])
 def test_a_damaged_record_of_an_asset_gives_one_clear_error(damaged: dict) -> None:
-    with pytest.raises(OptionError, match=r"found .*; valid are"):
-        ExportOptions.of(damaged)
+    with pytest.raises(OptionError, match=r"found .*; valid (are|is)"):
+        ExportOptions.parse({}, before=damaged)

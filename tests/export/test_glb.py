@@ -14,9 +14,10 @@ from PIL import Image
 from pxr import Usd, UsdGeom, UsdShade
 from scipy.spatial.transform import Rotation, Slerp
 
-from anymesh.export.formats import Format, write_formats
+from anymesh.export.formats import write_formats
 from anymesh.export.glb import glb_bytes, tracks
 from anymesh.export.links import split_links
+from anymesh.export.options import Format
 from anymesh.loading import load_mesh
 from anymesh.types import JointType
 from anymesh.types.mesh import to_linear, to_srgb

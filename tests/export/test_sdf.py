@@ -8,7 +8,8 @@ import pytest
 from assets import cabinet
 from models import CONFIG, desk, model_of, with_meshes
 
-from anymesh.export.model import Base, Exclusion
+from anymesh.export.model import Exclusion
+from anymesh.export.options import Base
 from anymesh.export.sdf import joint_names, sdf_text, write_sdf
 
 

@@ -12,9 +12,10 @@ from assets import cabinet, posed_triangles, poses, read_obj, slanted, within_li
 from lxml import etree
 from models import CONFIG, desk, model_of, with_meshes
 
-from anymesh.export.formats import Format, write_formats
-from anymesh.export.model import Base, Driven, drives
+from anymesh.export.formats import write_formats
+from anymesh.export.model import drives
 from anymesh.export.notation import DRAKE
+from anymesh.export.options import Base, Driven, Format
 from anymesh.export.urdf import urdf_text
 from anymesh.types import JointType
 

@@ -19,9 +19,9 @@ from models import CONFIG, desk, model_of, with_meshes
 from anymesh.errors import InputError, OutputError
 from anymesh.export import write_asset
 from anymesh.export.asset_json import schema
-from anymesh.export.formats import DEFAULT, write_formats
+from anymesh.export.formats import write_formats
 from anymesh.export.links import split_links, unique_rows
-from anymesh.export.model import Base
+from anymesh.export.options import DEFAULT, Base
 from anymesh.export.package import check_zip, write_package, write_zip
 from anymesh.types import Asset, Part, Segmentation
 

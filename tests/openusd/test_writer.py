@@ -7,7 +7,8 @@ from assets import cabinet, slanted
 from models import CONFIG, desk, model_of, with_meshes
 from pxr import Usd, UsdPhysics, UsdValidation
 
-from anymesh.export.model import Base, Exclusion
+from anymesh.export.model import Exclusion
+from anymesh.export.options import Base
 from anymesh.openusd.writer_ import write_usd
 
 

@@ -138,4 +138,4 @@ def test_shapes_of_each_link_are_limited_and_the_kept_share_is_stated(tmp_path) 
         assert any("--hulls" in text for text in record["warnings"]) == (most == 3)
         assert kept is None or part["openings"] <= kept
     with pytest.raises(OptionError, match="--hulls"):
-        anymesh.articulate(path, tmp_path / "no", hulls=0)
+        anymesh.articulate(path, tmp_path / "no", hulls=-1)

@@ -59,6 +59,23 @@ def test_a_surface_becomes_a_whole_asset(surface, finished):
     assert check_asset(finished).ok
 
 
+def test_export_and_finish_keep_how_the_asset_was_written(surface, tmp_path):
+    folder, done = tmp_path / "out", tmp_path / "done"
+    shutil.copytree(surface, folder)
+    export_asset(folder, base="free", drives="position", hulls=4)
+    export_asset(folder, hulls=3)
+    finish(folder, done, completer="off", base="fixed")
+    for place, base in ((folder, "free"), (done, "fixed")):
+        record = json.loads((place / "asset.json").read_text())
+        assert (record["base"], record["drives"], record["hulls"]) == (base, "position", 3)
+        assert set(record["files"]) == {"urdf", "mjcf", "sdf", "glb"}
+        assert "<position" in (place / "case.xml").read_text()
+    finish(folder, done, completer="off", formats="urdf", drives="passive", hulls=0, force=True)
+    record = json.loads((done / "asset.json").read_text())
+    assert (record["base"], record["drives"], set(record["files"])) == ("free", "passive", {"urdf"})
+    assert "hulls" not in record
+
+
 def test_finish_past_its_time_limit_leaves_surfaces_open_and_says_so(surface, finished, tmp_path):
     shutil.copytree(finished, tmp_path / "done")
     asset = finish(surface, tmp_path / "done", force=True, time_limit=1e-6)  # another limit computes the stage anew

@@ -9,8 +9,7 @@ import typer
 
 from anymesh.cli import make_app
 from anymesh.errors import OptionError
-from anymesh.export import Base, Driven
-from anymesh.export.formats import DEFAULT
+from anymesh.export.options import ExportOptions
 from anymesh.finishing.finishing import finish
 from anymesh.pipeline import api
 from anymesh.pipeline.answering import choose_answerer
@@ -23,6 +22,7 @@ from anymesh.pipeline.options import (
     FormatOptions,
     PlacementOptions,
     RunOptions,
+    Writing,
     command_fields,
     defaults,
 )
@@ -35,10 +35,6 @@ NAMES = {
     "export": api.export_asset,
     "finish": finish,
 }
-
-
-def test_the_keyword_arguments_are_the_fields() -> None:
-    assert typing.get_type_hints(Answering, localns=LOCAL) == typing.get_type_hints(AnswererOptions, localns=LOCAL)
 
 
 def test_an_unknown_option_is_refused() -> None:
@@ -54,8 +50,14 @@ def test_functions_have_the_defaults_of_the_classes(name: str) -> None:
     assert given
 
 
-def test_formats_are_those_of_the_export() -> None:
-    assert FormatOptions() == FormatOptions(Base.FIXED, ",".join(DEFAULT), Driven.PASSIVE)
+@pytest.mark.parametrize(("arguments", "of"), [(Answering, AnswererOptions), (Writing, FormatOptions)])
+def test_the_keyword_arguments_are_the_fields(arguments: type, of: type) -> None:
+    assert typing.get_type_hints(arguments, localns=LOCAL) == typing.get_type_hints(of, localns=LOCAL)
+
+
+def test_the_options_of_files_are_those_of_the_export() -> None:
+    assert {f.name for f in fields(FormatOptions)} == {f.name for f in fields(ExportOptions)}
+    assert ExportOptions.parse(defaults(FormatOptions)) == ExportOptions()
 
 
 @pytest.mark.parametrize("name", ["articulate", "generate", "annotate", "segment", "joints", "export", "finish", "eval"])

@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from assets import cabinet
 
-from anymesh.export import Format, write_asset
+from anymesh.export import ExportOptions, Format, write_asset
 from anymesh.types import Asset, Exchange
 from anymesh.types.exchange import Picture
 
@@ -24,7 +24,7 @@ VOID = {"meta", "img", "input", "br"}
 def folder_of(asset: Asset, place: Path) -> Path:
     """The asset as `anymesh articulate` leaves it, of the formats the GLB alone."""
     place.mkdir(parents=True)
-    write_asset(asset, place, formats=(Format.GLB,))
+    write_asset(asset, place, ExportOptions(formats=(Format.GLB,)))
     return place
 
 

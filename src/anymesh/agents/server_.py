@@ -93,7 +93,7 @@ def _making(work: ToolRunner) -> tuple[Callable[..., Any], ...]:
             ),
         ] = "auto",
         scale: Annotated[str, Field(description="auto, a factor to metres, or METRES:AXIS such as 0.9:z.")] = "auto",
-        formats: Formats = "urdf,mjcf,sdf,glb",
+        formats: Formats | None = None,
         force: Annotated[bool, Field(description="Replace an existing output.")] = False,
         time_limit: Annotated[float, Field(description="Seconds.", gt=0)] = 600.0,
     ) -> Content:
@@ -122,13 +122,15 @@ def _making(work: ToolRunner) -> tuple[Callable[..., Any], ...]:
     async def export(
         ctx: Context,
         asset: AssetPath,
-        formats: Formats = "urdf,mjcf,sdf,glb",
-        base: Annotated[Literal["fixed", "free"], Field(description="The root link: fixed to the world, or free.")] = "fixed",
-        drives: Annotated[Literal["passive", "position"], Field(description="Whether drives lead the joints.")] = "passive",
+        formats: Formats | None = None,
+        base: Annotated[
+            Literal["fixed", "free"] | None, Field(description="The root link: fixed to the world, or free.")
+        ] = None,
+        drives: Annotated[Literal["passive", "position"] | None, Field(description="Whether drives lead the joints.")] = None,
         package: Annotated[str | None, Field(description="Folder for a ROS 2 package of the URDF.")] = None,
         archive: Annotated[str | None, Field(description="Zip file of the asset.")] = None,
     ) -> Content:
-        """Write the files of an asset in other formats, as a package or as a zip."""
+        """Write the files of an asset anew, where what is not given stays as it was, as a package or as a zip."""
         return await work.run(
             ctx, work.tools.export, asset, formats=formats, base=base, drives=drives, package=package, archive=archive,
             long=True,

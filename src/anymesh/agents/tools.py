@@ -15,7 +15,6 @@ from anymesh.checking import check_asset
 from anymesh.correcting import CorrectionError, open_asset, ranked_motions, save_asset
 from anymesh.correcting.history import pack_entry, unpack_log
 from anymesh.errors import InputError, OpenQuestionError, OptionError, OutputError
-from anymesh.export.formats import DEFAULT
 from anymesh.pipeline.options import FILES
 from anymesh.prompted.answerers.file_answerer import open_in, record_answer
 from anymesh.prompted.answerers.question_files import QuestionFolder, find_questions
@@ -84,7 +83,7 @@ class AgentTools:
         category: str | None = None,
         up: str = "auto",
         scale: str = "auto",
-        formats: str = ",".join(DEFAULT),
+        formats: str | None = None,
         force: bool = False,
         time_limit: float = DEFAULT_SECONDS,
         progress: Progress = silent,
@@ -180,14 +179,17 @@ class AgentTools:
         self,
         asset: str,
         *,
-        formats: str = ",".join(DEFAULT),
-        base: str = "fixed",
-        drives: str = "passive",
+        formats: str | None = None,
+        base: str | None = None,
+        drives: str | None = None,
         package: str | None = None,
         archive: str | None = None,
         progress: Progress = silent,
     ) -> ToolResult:
-        """Write the files of an asset in other formats; package: folder for a ROS 2 package; archive: a zip file."""
+        """Write the files of an asset anew; what is not given stays as it was.
+
+        package: folder for a ROS 2 package; archive: a zip file.
+        """
         folder = self._places.inside(asset, below=True)
         places = [None if path is None else self._places.inside(path) for path in (package, archive)]
         pipeline.export_asset(

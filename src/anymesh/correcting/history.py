@@ -15,7 +15,7 @@ from anymesh.correcting.corrections import Correction, CorrectionError, FaceSet
 from anymesh.correcting.edits import apply
 from anymesh.errors import OutputError
 from anymesh.export import write_asset
-from anymesh.export.formats import ExportOptions
+from anymesh.export.options import ExportOptions
 from anymesh.pipeline.atomic_folder import CORRECTIONS, locked
 from anymesh.pipeline.results import CorrectionResult
 from anymesh.pipeline.run_folder import RunFolder, Saved
@@ -175,11 +175,8 @@ def _write(run: RunFolder, history: History) -> None:
     key = stage_key(stage, previous=run.last_key(edited=False), config={"log": log})
     run.save(stage, key, CorrectionResult(asset.segmentation, asset.joints, asset.warnings, tuple(log)))
     with run.timed("export"):
-        how = ExportOptions.of(read_json(run.target / "asset.json") or {})
-        cache = cache_folder("shapes")
-        write_asset(
-            run.asset(), run.folder, base=how.base, formats=how.formats, driven=how.driven, hulls=how.hulls, cache=cache
-        )
+        how = ExportOptions.parse({}, before=read_json(run.target / "asset.json") or {})
+        write_asset(run.asset(), run.folder, how, cache=cache_folder("shapes"))
         write_preview(asset, run.folder / "preview.png")
     before = () if stage is CORRECTION else run.corrections(CORRECTION)
     write_json(run.folder / CORRECTIONS, {"asset": asset.name, "corrections": [*before, *log]})

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 import anymesh
-from anymesh.export.formats import Format, main_file
+from anymesh.export.formats import main_file
 from anymesh.export.model import ExportLink, Model
 from anymesh.physics.resistance import Resistance
 from anymesh.types import Exchange, Joint, Mesh, Source
@@ -19,7 +19,7 @@ SCHEMA_VERSION = "1.3"
 TIMING_FILE = "timing.json"  # separate, so that everything else is the same in every run
 
 
-def asset_record(model: Model, formats: Sequence[Format]) -> dict[str, Any]:
+def asset_record(model: Model) -> dict[str, Any]:
     """Return the content of asset.json as plain values."""
     asset = model.asset
     return {
@@ -27,10 +27,8 @@ def asset_record(model: Model, formats: Sequence[Format]) -> dict[str, Any]:
         "generator": {"name": "articulate-anymesh", "version": anymesh.__version__},
         "name": asset.name,
         "source": source_record(asset.source),
-        "base": str(model.base),
-        "drives": str(model.driven),
-        **({} if model.hulls is None else {"hulls": model.hulls}),
-        "files": {str(kind): main_file(kind, asset.name) for kind in formats},
+        **model.how.record(),
+        "files": {str(kind): main_file(kind, asset.name) for kind in model.how.formats},
         "parts": [_part(asset.mesh, body, asset.source_face) for body in model.bodies],
         "joints": [_joint(joint, model.resistances.get(joint.name)) for joint in asset.joints],
         "no_contact": [{"links": [e.a, e.b], "reason": e.why} for e in model.exclusions],

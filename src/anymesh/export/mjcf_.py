@@ -18,8 +18,9 @@ from PIL import Image
 
 from anymesh.errors import OutputError
 from anymesh.export.meshes import display_color, material_names, painted, texture_files, visible, with_four_corners, write_obj
-from anymesh.export.model import FOLDER, Base, Drive, Driven, ExportConfig, ExportLink, Model, drives
+from anymesh.export.model import FOLDER, Drive, ExportConfig, ExportLink, Model, drives
 from anymesh.export.notation import moments, number, quaternion, vector
+from anymesh.export.options import Base, Driven
 from anymesh.mujoco_ import load_mujoco
 from anymesh.physics.resistance import Resistance
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Material, Mesh, Shape
@@ -129,7 +130,7 @@ def _add_body(model: Model, body: ExportLink, parent: Any) -> Any:
 def _add_joint(mujoco: Any, frame: Any, joint: Joint | None, model: Model) -> None:
     """Add the joint that carries a body, in its frame; none for a fixed one."""
     if joint is None:
-        if model.base is Base.FREE:
+        if model.how.base is Base.FREE:
             frame.add_freejoint(name=f"{frame.name}_free")
         return
     if joint.type is JointType.FIXED:
@@ -179,7 +180,7 @@ def _add_drive(mujoco: Any, spec: Any, model: Model, name: str, drive: Drive) ->
     joint = next(j for j in model.asset.joints if j.name == name)
     motor = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_JOINT, group=DRIVES)
     motor.forcelimited, motor.forcerange = 1, [-drive.effort, drive.effort]
-    if model.driven is Driven.PASSIVE:
+    if model.how.drives is Driven.PASSIVE:
         motor.set_to_motor()
         motor.ctrllimited, motor.ctrlrange = 1, [-drive.effort, drive.effort]
         return
@@ -303,7 +304,7 @@ def _geoms(element: ElementTree.Element, body: ExportLink) -> None:
 
 def _actuators(actuators: ElementTree.Element, model: Model, motors: Mapping[str, Drive]) -> None:
     """Replace `general` and its parameters by the equivalent `motor` or `position`."""
-    passive = model.driven is Driven.PASSIVE
+    passive = model.how.drives is Driven.PASSIVE
     joints = {j.name: j for j in model.asset.joints}
     for element in list(actuators):
         name = str(element.get("name"))

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from enum import StrEnum
 from functools import cached_property
 from pathlib import Path
 
@@ -16,6 +15,7 @@ from jaxtyping import Int
 
 from anymesh.export.flat_looks import losses, tiled, tinted, with_materials
 from anymesh.export.links import Link, split_links, with_legal_names
+from anymesh.export.options import Driven, ExportOptions
 from anymesh.geometry.surface import plain_triangles
 from anymesh.physics.collision import CollisionConfig, collision_shapes
 from anymesh.physics.inertia import Inertia, InertiaConfig, Substance, link_inertia, substance_of
@@ -27,20 +27,6 @@ FOLDER = "meshes"
 OVERLAP = "their surfaces overlap at rest"
 TIGHT = "their collision shapes touch where the surfaces do not"
 WITHIN = 0.02  # of a joint's range: maximum steady-state error of a drive under its load
-
-
-class Base(StrEnum):
-    """Whether the root link is fixed to the world or moves freely in it."""
-
-    FIXED = "fixed"
-    FREE = "free"
-
-
-class Driven(StrEnum):
-    """Whether drives leave joints passive, or move them to a commanded position."""
-
-    PASSIVE = "passive"
-    POSITION = "position"
 
 
 @dataclass(frozen=True, eq=False)
@@ -97,17 +83,14 @@ class Exclusion:
 class Model:
     """An asset with legal names and a material for each face, ready for export.
 
-    bodies: in the order of the parts, the root first; resistances: of the moving joints, by name; hulls: limit of collision
-    shapes per link, None for no limit.
+    bodies: in the order of the parts, the root first; resistances: of the moving joints, by name.
     """
 
     asset: Asset
     bodies: tuple[ExportLink, ...]
     resistances: Mapping[str, Resistance]
-    base: Base = Base.FIXED
+    how: ExportOptions = field(default_factory=ExportOptions)
     exclusions: tuple[Exclusion, ...] = ()
-    driven: Driven = Driven.PASSIVE
-    hulls: int | None = None
 
     @property
     def links(self) -> Sequence[Link]:
@@ -142,7 +125,12 @@ class ExportConfig(InertiaConfig):
 
 
 def build_model(
-    asset: Asset, *, base: Base, driven: Driven, config: ExportConfig, cache: Path | None, deadline: Deadline | None = None
+    asset: Asset,
+    how: ExportOptions,
+    *,
+    config: ExportConfig,
+    cache: Path | None,
+    deadline: Deadline | None = None,
 ) -> Model:
     """Build the model of an asset, with legal names and the warnings of its collision shapes.
 
@@ -154,7 +142,8 @@ def build_model(
     plain = {link.name: plain_triangles(link.triangles, asset.mesh.diagonal) for link in links}
     triangles = {name: surface for name, (surface, _) in plain.items()}
     origins = {link.name: link.origin for link in links}
-    collision = collision_shapes(asset, triangles, origins, config.collision, cache, deadline=deadline)
+    shapes = replace(config.collision, hulls=how.hulls)
+    collision = collision_shapes(asset, triangles, origins, shapes, cache, deadline=deadline)
     asset = replace(
         asset,
         warnings=tuple(
@@ -173,7 +162,7 @@ def build_model(
     excluded = [Exclusion(a, b, OVERLAP) for a, b in collision.overlapping]
     excluded += [Exclusion(a, b, TIGHT) for a, b in collision.tight]
     resisting = resistances(asset, {body.name: body.inertia for body in bodies})
-    return Model(asset, bodies, resisting, base, tuple(excluded), driven, config.collision.hulls)
+    return Model(asset, bodies, resisting, how, tuple(excluded))
 
 
 def _made_of(mesh: Mesh, link: Link, kept: Int[np.ndarray, " K"]) -> list[Substance | None]:
@@ -199,7 +188,7 @@ def drives(model: Model) -> Mapping[str, Drive]:
     The stiffness keeps the error due to friction and weight within a share of the range. It is at least that of critical
     damping, so that no drive oscillates or overshoots.
     """
-    if model.driven is Driven.PASSIVE:
+    if model.how.drives is Driven.PASSIVE:
         return {name: Drive(0.0, 0.0, r.effort) for name, r in model.resistances.items()}
     return {j.name: _drive(j, model.resistances[j.name]) for j in model.asset.joints if j.name in model.resistances}
 

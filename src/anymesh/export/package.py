@@ -14,8 +14,9 @@ from xml.etree import ElementTree
 
 import anymesh
 from anymesh.errors import InputError, OutputError
-from anymesh.export.model import FOLDER, Base
+from anymesh.export.model import FOLDER
 from anymesh.export.notation import document
+from anymesh.export.options import Base
 from anymesh.names import legal_names
 
 CMAKE = """cmake_minimum_required(VERSION 3.8)

@@ -10,8 +10,9 @@ from xml.etree import ElementTree
 import numpy as np
 
 from anymesh.export.meshes import display_color, painted, widest
-from anymesh.export.model import Base, ExportConfig, ExportLink, Model
+from anymesh.export.model import ExportConfig, ExportLink, Model
 from anymesh.export.notation import document, moments, number, rpy, vector
+from anymesh.export.options import Base
 from anymesh.names import legal_names
 from anymesh.physics.resistance import Resistance
 from anymesh.types import Box, Cylinder, Hull, Joint, Mesh, Shape
@@ -52,7 +53,7 @@ def sdf_text(model: Model) -> str:
     for body in model.bodies:
         _add_link(element, asset.mesh, body, origins)
     names = joint_names(model)
-    if model.base is Base.FIXED:
+    if model.how.base is Base.FIXED:
         fixed = ElementTree.SubElement(element, "joint", name=legal_names([*origins, *names.values(), "fixed_base"])[-1])
         fixed.set("type", "fixed")
         _leaf(fixed, "parent", "world")

@@ -10,8 +10,9 @@ import numpy as np
 
 from anymesh.export.links import Link
 from anymesh.export.meshes import display_color, material_names, painted, widest
-from anymesh.export.model import Driven, ExportLink, Model, drives
+from anymesh.export.model import ExportLink, Model, drives
 from anymesh.export.notation import DRAKE, document, moments, number, rpy, vector
+from anymesh.export.options import Driven
 from anymesh.physics.resistance import Resistance
 from anymesh.types import Box, Cylinder, Hull, Joint, Mesh, Shape
 
@@ -35,7 +36,7 @@ def urdf_text(model: Model) -> str:
         _add_link(robot, body, _appearance(asset.mesh, body.link, names))
     for joint in asset.joints:
         _add_joint(robot, joint, origins, model.resistances.get(joint.name))
-    if model.driven is Driven.POSITION:
+    if model.how.drives is Driven.POSITION:
         _add_drives(robot, model)
     return document(robot)
 

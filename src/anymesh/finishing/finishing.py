@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Unpack
 
 import numpy as np
 
 from anymesh.errors import ModelError, OptionError, OutputError
-from anymesh.export import Base, Driven
-from anymesh.export.formats import DEFAULT, ExportOptions
+from anymesh.export import ExportOptions
 from anymesh.finishing.bake import Baked
 from anymesh.finishing.complete import complete
 from anymesh.finishing.holopart import VALID, HoloPart, open_holopart
@@ -19,11 +19,12 @@ from anymesh.finishing.meshy_api import read_key
 from anymesh.finishing.protocol import Completer, Finished, ShapeConfig
 from anymesh.finishing.retexture import Remote
 from anymesh.finishing.texture import Carried, Retexturer
+from anymesh.pipeline.options import Writing
 from anymesh.pipeline.results import CompletionResult
-from anymesh.pipeline.run_folder import RunFolder
+from anymesh.pipeline.run_folder import LAST, RunFolder
 from anymesh.pipeline.stage_files import COMPLETION, stage_key
 from anymesh.pipeline.stages import write_files
-from anymesh.runtime import DEFAULT_SECONDS, Deadline, Progress, silent
+from anymesh.runtime import DEFAULT_SECONDS, Deadline, Progress, read_json, silent
 from anymesh.types import Asset
 
 TEXTURES = "builtin, bake, bake:PIXELS, meshy or meshy:PROMPT"
@@ -120,27 +121,25 @@ def finish(
     texture: str = "builtin",
     watertight: bool = True,
     max_calls: int | None = None,
-    base: str = Base.FIXED,
-    formats: str = ",".join(DEFAULT),
-    drives: str = Driven.PASSIVE,
-    hulls: int | None = None,
     force: bool = False,
     time_limit: float = DEFAULT_SECONDS,
     progress: Progress = silent,
+    **writing: Unpack[Writing],
 ) -> Asset:
     """Run Stage C: complete shapes and textures of the asset in `folder`, an output of `articulate`, and write it to `out`.
 
     completer: builtin, off, holopart:FOLDER[#PYTHON] or holopart:URL; texture: builtin, bake, bake:PIXELS, meshy or
     meshy:PROMPT, with at most `max_calls` paid tasks; watertight: also close surfaces that no motion uncovers; time_limit: [s],
-    as for `articulate`.
+    as for `articulate`; writing: likewise, where what is not given is as in `folder`.
     Raise OptionError, OutputError, ModelError or BudgetError; a paid task that was started is resumed by the next run.
     """
-    written, deadline, out = ExportOptions.parse(base, formats, drives, hulls), Deadline(time_limit), Path(out)
+    how = ExportOptions.parse(writing, before=read_json(Path(folder) / LAST) or {})
+    deadline, out = Deadline(time_limit), Path(out)
     state = out.parent / f".{out.name}.meshy.json"
     first, retexturer = open_completer(completer), open_retexturer(texture, state=state, max_calls=max_calls)
-    if (Path(folder) / "asset.json").is_file() and Path(folder).absolute() in out.absolute().parents:
+    if (Path(folder) / LAST).is_file() and Path(folder).absolute() in out.absolute().parents:
         raise OutputError(f"{out} lies in the asset {folder}, which is not changed; choose another folder")
-    with RunFolder.create(out, source=Path(folder) / "asset.json", force=force) as run:
+    with RunFolder.create(out, source=Path(folder) / LAST, force=force) as run:
         run.take_over(Path(folder))
         progress("finish", completer, 0, 1)
         settings = {"by": completer, "texture": texture, "tight": watertight, "limit": deadline.limit}
@@ -156,4 +155,4 @@ def finish(
                     deadline=deadline,
                 )
             run.save(COMPLETION, key, completion)
-        return write_files(run, written, deadline, progress)
+        return write_files(run, how, deadline, progress)

@@ -15,8 +15,9 @@ import numpy as np
 from anymesh.errors import MissingExtraError
 from anymesh.export.links import Link, Primitive
 from anymesh.export.meshes import GREY, material_names, painted, texture_files, visible, write_textures
-from anymesh.export.model import FOLDER, Base, Drive, ExportConfig, ExportLink, Model, drives
+from anymesh.export.model import FOLDER, Drive, ExportConfig, ExportLink, Model, drives
 from anymesh.export.notation import principal, quaternion, turning_x_to
+from anymesh.export.options import Base
 from anymesh.names import legal_names
 from anymesh.physics.resistance import Resistance
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Material, Mesh, Shape, Texture
@@ -150,7 +151,7 @@ def _add_exclusions(pxr: Any, stage: Any, top: str, model: Model) -> None:
 
 def _add_root_joint(pxr: Any, stage: Any, top: str, model: Model) -> None:
     """Fix the root to the place of the asset; the other side of the joint is the asset's frame, which is no body."""
-    if model.base is Base.FREE:
+    if model.how.base is Base.FREE:
         return
     name = legal_names([*(j.name for j in model.asset.joints), "fixed_base"], fallback="joint")[-1]
     fixed = pxr.UsdPhysics.FixedJoint.Define(stage, f"{top}/joints/{name}")

@@ -10,13 +10,12 @@ from typing import Unpack
 
 from anymesh.entry_points import REMOVE_TRANSCRIPT, WRITE_TRANSCRIPT, resolve
 from anymesh.errors import OpenQuestionError, OptionError, OutputError
-from anymesh.export import Base, Driven, Format
-from anymesh.export.formats import DEFAULT, ExportOptions
+from anymesh.export import ExportOptions, Format
 from anymesh.export.package import check_zip, write_package, write_zip
 from anymesh.isolation import AHEAD, shared_pool
 from anymesh.loading.load import reads_joints
 from anymesh.pipeline.answering import AnswererSetup, choose_answerer, object_name
-from anymesh.pipeline.options import Answering, PlacementOptions
+from anymesh.pipeline.options import Answering, MakingOptions, PlacementOptions, Writing, divided
 from anymesh.pipeline.results import LoadResult
 from anymesh.pipeline.run_folder import LAST, RunFolder
 from anymesh.pipeline.stage_files import JOINTS, MESH, RECOGNITION, SEGMENTATION
@@ -37,13 +36,9 @@ def articulate(
     root: str | Path | None = None,
     animation: str = "read",
     force: bool = False,
-    base: str = Base.FIXED,
-    formats: str = ",".join(DEFAULT),
-    drives: str = Driven.PASSIVE,
-    hulls: int | None = None,
     time_limit: float = DEFAULT_SECONDS,
     progress: Progress = silent,
-    **answering: Unpack[Answering],
+    **options: Unpack[MakingOptions],
 ) -> Asset:
     """Turn a rigid mesh into an articulated asset and write it to the folder `out`.
 
@@ -52,14 +47,13 @@ def articulate(
     or METRES:AXIS;
     root: folder within which files that the mesh refers to may be read (default: the mesh's own); animation: read, or ignore
     (animations, physics joints and bones of the file give no joints);
-    base: fixed or free; formats: comma-separated, of urdf, mjcf, usd, sdf, glb;
-    drives: passive, or position (joints follow a commanded position); hulls: maximum number of collision shapes per link;
-    time_limit: [s], past a share of which each stage
-    shortens its work, with a warning.
+    time_limit: [s], past a share of which each stage shortens its work, with a warning; options: `FormatOptions` (base,
+    formats, drives, hulls) and `AnswererOptions`.
     Raise InputError, OptionError, OutputError or ModelError; then nothing is written. After OpenQuestionError and BudgetError,
     finished stages are kept for the next call.
     """
-    how = ExportOptions.parse(base, formats, drives, hulls)
+    answering, writing = divided(options)
+    how = ExportOptions.parse(writing)
     with new_run(mesh_path, out, answering, force, time_limit, progress) as run:
         shared_pool().warm(*AHEAD)
         loaded = load(run, Path(mesh_path), PlacementOptions(up, scale, root, animation))
@@ -128,29 +122,30 @@ def joints(
 def export_asset(
     folder: str | Path,
     *,
-    base: str = Base.FIXED,
-    formats: str = ",".join(DEFAULT),
-    drives: str = Driven.PASSIVE,
-    hulls: int | None = None,
     package: str | Path | None = None,
     archive: str | Path | None = None,
     time_limit: float = DEFAULT_SECONDS,
     progress: Progress = silent,
+    **writing: Unpack[Writing],
 ) -> Asset:
-    """Write the files of the asset that `segment` and `joints` saved in `folder`. Options as for `articulate`.
+    """Write the files of the asset that `segment` and `joints` saved in `folder`.
 
-    Formats that the folder holds are written anew, besides `formats`.
+    writing: as for `articulate`; what is not given stays as it was, and formats that the folder holds are written anew, besides
+    those that are given.
 
     package: folder for a ROS 2 package of the URDF; archive: a zip file of the asset.
     """
-    how, deadline = ExportOptions.parse(base, formats, drives, hulls), Deadline(time_limit)
-    if package is not None and Format.URDF not in how.formats:
-        raise OptionError(f"--package needs the format urdf, found {formats!r}")
+    deadline = Deadline(time_limit)
+    ExportOptions.parse(writing)  # report invalid values before anything is read
     if archive is not None:
         check_zip(Path(archive))
     with RunFolder.open(Path(folder)) as run:
-        if written := read_json(run.target / LAST):
-            how = how.with_formats(ExportOptions.of(written).formats)
+        written = read_json(run.target / LAST) or {}
+        how = ExportOptions.parse(writing, before=written)
+        if written:
+            how = how.with_formats(ExportOptions.parse({}, before=written).formats)
+        if package is not None and Format.URDF not in how.formats:
+            raise OptionError(f"--package needs the format urdf, found {','.join(how.formats)!r}")
         asset = write_files(run, how, deadline, progress)
     if package is not None:
         write_package(Path(folder), Path(package), base=how.base)

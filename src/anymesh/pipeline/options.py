@@ -195,12 +195,35 @@ class CompletionOptions:
 
 @dataclass(frozen=True)
 class FormatOptions:
-    """Which files are written."""
+    """Which files are written and how; None stands for what an asset that is written again has, else for the usual value."""
 
-    base: str = _option("fixed", "fixed or free: whether the root link is fixed to the world.")
-    formats: str = _option("urdf,mjcf,sdf,glb", "Comma-separated, of urdf, mjcf, usd, sdf, glb; usd needs its extra.")
-    drives: str = _option("passive", "passive, or position: joints follow a commanded position, initially 0.")
-    hulls: int | None = _option(None, "Maximum number of collision shapes per link.", metavar="N", kind=int)
+    base: str | None = _option(None, "fixed (usual) or free: whether the root link is fixed to the world.", kind=str)
+    formats: str | None = _option(
+        None, "Comma-separated, of urdf, mjcf, usd, sdf, glb; usually all but usd, which needs its extra.", kind=str
+    )
+    drives: str | None = _option(
+        None, "passive (usual), or position: joints follow a commanded position, initially 0.", kind=str
+    )
+    hulls: int | None = _option(None, "Maximum number of collision shapes per link, 0 for no limit.", metavar="N", kind=int)
+
+
+class Writing(TypedDict, total=False):
+    """The keyword arguments of `FormatOptions`, for the Python functions: see there."""
+
+    base: str | None
+    formats: str | None
+    drives: str | None
+    hulls: int | None
+
+
+class MakingOptions(Answering, Writing):
+    """The keyword arguments of functions that answer questions and write an asset."""
+
+
+def divided(options: MakingOptions) -> tuple[Answering, Writing]:
+    """Divide options into those of the answerer, with any unknown ones, and those of the files."""
+    written = {k: v for k, v in options.items() if k in Writing.__annotations__}
+    return {k: v for k, v in options.items() if k not in written}, written  # ty: ignore[invalid-explicit-return]
 
 
 @dataclass(frozen=True)

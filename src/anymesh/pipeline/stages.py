@@ -10,7 +10,7 @@ from typing import Generic, TypeVar
 
 from anymesh.entry_points import SCENE_WARNING, resolve
 from anymesh.export import load_libraries, write_asset
-from anymesh.export.formats import ExportOptions
+from anymesh.export.options import ExportOptions
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline.answering import AnswererSetup
 from anymesh.pipeline.options import PlacementOptions
@@ -146,10 +146,7 @@ def write_files(folder: RunFolder, how: ExportOptions, deadline: Deadline, progr
             return aside.submit(write_legend if brief else write_preview, asset, folder.folder / "preview.png")
 
         picture = draw() if len(asset.mesh.faces) <= ASIDE else None  # while child processes divide components
-        model = write_asset(
-            asset, folder.folder, base=how.base, formats=how.formats, driven=how.driven, hulls=how.hulls,
-            cache=cache_folder("shapes"), deadline=deadline,
-        )  # fmt: skip
+        model = write_asset(asset, folder.folder, how, cache=cache_folder("shapes"), deadline=deadline)
         progress("export", "preview", 1, 2)
         (picture or draw()).result()
     return replace(asset, warnings=model.asset.warnings, timing=folder.timing())

@@ -10,8 +10,9 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.correcting.corrections import Vector, vector
-from anymesh.export.model import Base, Driven, ExportConfig, Model, build_model
+from anymesh.export.model import ExportConfig, Model, build_model
 from anymesh.export.notation import quaternion
+from anymesh.export.options import ExportOptions
 from anymesh.rendering.viewpoints import away
 from anymesh.runtime import cache_folder
 from anymesh.types import Asset, JointType, Mesh, Segmentation
@@ -191,7 +192,7 @@ def ray_through(camera: Any, x: Float[np.ndarray, " n"], y: Float[np.ndarray, " 
 
 
 def _model(asset: Asset) -> Model:
-    return build_model(asset, base=Base.FIXED, driven=Driven.PASSIVE, config=ExportConfig(), cache=cache_folder("shapes"))
+    return build_model(asset, ExportOptions(), config=ExportConfig(), cache=cache_folder("shapes"))
 
 
 def _glb(asset: Asset, number: int) -> bytes:

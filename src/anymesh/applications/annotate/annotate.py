@@ -18,7 +18,7 @@ from anymesh.applications.annotate.states import AttemptOutcome
 from anymesh.applications.annotate.tally import Tally, tally
 from anymesh.applications.annotate.workers import LocalWorkers, Workers, object_limits
 from anymesh.errors import OptionError
-from anymesh.export.formats import DEFAULT, ExportOptions
+from anymesh.export.options import ExportOptions
 from anymesh.pipeline.answering import choose_answerer
 from anymesh.pipeline.options import FILES, GEOMETRY, Answering
 from anymesh.runtime import DEFAULT_SECONDS, Deadline, usable_cores, writing
@@ -115,12 +115,7 @@ def checked(options: Mapping[str, Any]) -> str:
     Raise OptionError, ModelError (no key) or MissingExtraError.
     """
     answering: Answering = {k: v for k, v in options.items() if k in Answering.__annotations__}  # ty: ignore[invalid-assignment]
-    ExportOptions.parse(
-        options.get("base", "fixed"),
-        options.get("formats", ",".join(DEFAULT)),
-        options.get("drives", "passive"),
-        options.get("hulls"),
-    )
+    ExportOptions.parse(options)
     who = choose_answerer(answering).name
     return FILES if who.startswith(FILES) else who
 

@@ -15,6 +15,7 @@ from typing import Any
 
 from anymesh.errors import InputError, OptionError
 from anymesh.loading.files import FORMATS
+from anymesh.pipeline.options import KIND, FormatOptions, command_fields
 
 log = logging.getLogger("anymesh")
 OBJAVERSE = "objaverse:"  # prefix of the source of an object that is fetched by id
@@ -22,8 +23,9 @@ READABLE = 60  # characters of a name that are kept in its folder's name
 DIGEST = 12  # hex digits that distinguish folders; with 48 bits, two of a million names collide with probability .002
 # Options of single objects, and the types of their values in a table.
 OPTIONS: dict[str, type] = {
-    "parts": str, "up": str, "scale": str, "root": str, "animation": str, "base": str, "formats": str, "drives": str,
-    "hulls": int, "category": str, "parts_list": str, "at_least": int, "seed": int, "time_limit": float,
+    "parts": str, "up": str, "scale": str, "root": str, "animation": str,
+    "category": str, "parts_list": str, "at_least": int, "seed": int, "time_limit": float,
+    **{f.name: f.metadata[KIND] for f in command_fields(FormatOptions)},
 }  # fmt: skip
 TABLES = (".csv", ".parquet")
 PATH, UID, NAME = "path", "uid", "name"  # columns of a table, beside OPTIONS

@@ -15,7 +15,7 @@ from anymesh import __version__
 from anymesh.applications.generate.generators import GivenMesh, open_generator
 from anymesh.applications.generate.protocol import Generator3D, MeshRequest, Unit
 from anymesh.errors import OptionError, OutputError
-from anymesh.export.formats import ExportOptions
+from anymesh.export.options import ExportOptions
 from anymesh.finishing.finishing import open_completer, open_retexturer
 from anymesh.loading import place_mesh
 from anymesh.loading.load import LoadedMesh, usual_size
@@ -27,6 +27,7 @@ from anymesh.pipeline.options import (
     Answering,
     CompletionOptions,
     FormatOptions,
+    MakingOptions,
     PlacementOptions,
     RunOptions,
     defaults,
@@ -41,18 +42,14 @@ DEFAULTS = {
     for name, value in defaults(PlacementOptions, FormatOptions, RunOptions, CompletionOptions, AnswererOptions).items()
     if name not in (*FREE, "force")
 }
-FINISHING = ("completer", "texture", "watertight", "base", "formats", "drives", "hulls")  # do not affect the pipeline's result
+FINISHING = ("completer", "texture", "watertight", *defaults(FormatOptions))  # do not affect the pipeline's result
 
 
-class GenerateOptions(Answering, total=False):
+class GenerateOptions(MakingOptions, total=False):
     """Options of `articulate` and `finish` with the same meaning; `max_calls` limits paid tasks and model calls together."""
 
     up: str
     scale: str
-    base: str
-    formats: str
-    drives: str
-    hulls: int | None
     time_limit: float
     completer: str
     texture: str
@@ -101,7 +98,7 @@ class GenerationJob:
     def check(self, *, force: bool) -> None:
         """Check all options before the run. Raise OptionError, OutputError, ModelError (no key) or MissingExtraError."""
         options = self.options
-        ExportOptions.parse(options["base"], options["formats"], options["drives"], options["hulls"])
+        ExportOptions.parse(options)
         Deadline(options["time_limit"])
         place_mesh(_cube(), up=options["up"], scale=options["scale"])
         choose_answerer(self.answering())

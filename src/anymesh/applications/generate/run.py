@@ -24,10 +24,10 @@ from anymesh.applications.generate.work import (
     retexture_task,
 )
 from anymesh.errors import ModelError, OutputError, note_stage
-from anymesh.export.formats import ExportOptions
+from anymesh.export.options import ExportOptions
 from anymesh.finishing.finishing import finish
 from anymesh.finishing.meshy_api import RETEXTURE
-from anymesh.pipeline.options import GEOMETRY, Account, Spent
+from anymesh.pipeline.options import GEOMETRY, Account, FormatOptions, Spent, defaults
 from anymesh.pipeline.run_folder import RunFolder, Saved
 from anymesh.runtime import Progress, silent
 from anymesh.types import Asset, JointType
@@ -158,12 +158,9 @@ def _finish(job: GenerationJob, work: WorkFolder, spent: Account, seconds: float
         texture=options["texture"],
         watertight=options["watertight"],
         max_calls=None if most is None else max(0, most - spent.calls),
-        base=options["base"],
-        formats=options["formats"],
-        drives=options["drives"],
-        hulls=options["hulls"],
         force=force,
         progress=progress,
+        **{name: options[name] for name in defaults(FormatOptions)},
     )
     timing = _add_timing(job.out, {"generate": seconds, **Saved.at(work.articulated).timing()})
     if options["texture"].startswith("meshy"):
@@ -243,7 +240,7 @@ def _making(job: GenerationJob, anew: bool) -> tuple[Step, ...]:
 
 def _following(job: GenerationJob) -> tuple[Step, ...]:
     options = job.options
-    formats = ", ".join(ExportOptions.parse(options["base"], options["formats"], options["drives"]).formats)
+    formats = ", ".join(ExportOptions.parse(options).formats)
     who = "geometry, without a model" if job.answerer == GEOMETRY else f"{job.answerer}; its cost is limited by --max-cost"
     return (
         Step(f"find parts and joints, as `anymesh articulate` does; questions are answered by {who}"),

@@ -15,7 +15,8 @@ import anymesh
 from anymesh.applications.scenes.objects import SceneObject, find_objects
 from anymesh.applications.scenes.whole import SCENE, Placement, SceneAssets, write_scene
 from anymesh.errors import AnymeshError, BudgetError, MissingExtraError, OptionError, OutputError
-from anymesh.export.formats import ExportOptions, load_libraries
+from anymesh.export.formats import load_libraries
+from anymesh.export.options import ExportOptions
 from anymesh.isolation import AHEAD, shared_pool
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.loading.load import UNITS, PlacedMesh
@@ -54,7 +55,7 @@ def articulate_scene(
     if parts not in ("auto", "nodes"):
         raise OptionError(f"--scene split finds the parts of each object; valid are --parts auto and nodes, found {parts!r}")
     written = {k: options.pop(k, d) for k, d in defaults(FormatOptions).items()}
-    how = ExportOptions.parse(**written)
+    how = ExportOptions.parse(written)
     load_libraries(how.formats)
     placing = PlacementOptions(**{k: options.pop(k, d) for k, d in defaults(PlacementOptions).items()})
     time_limit = options.pop("time_limit", DEFAULT_SECONDS)

@@ -13,8 +13,9 @@ from jaxtyping import Float
 import anymesh
 from anymesh.errors import AnymeshError
 from anymesh.export.asset_json import json_text
-from anymesh.export.formats import ExportOptions, Format, main_file
+from anymesh.export.formats import main_file
 from anymesh.export.notation import vector
+from anymesh.export.options import ExportOptions, Format
 from anymesh.openusd.writer_ import load_usd
 from anymesh.runtime import read_json, write_whole
 

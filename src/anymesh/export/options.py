@@ -1,0 +1,97 @@
+"""The formats, and the options of an export: what is not given stays as asset.json says."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from enum import StrEnum
+from typing import Any
+
+from anymesh.errors import OptionError
+
+
+class Base(StrEnum):
+    """Whether the root link is fixed to the world or moves freely in it."""
+
+    FIXED = "fixed"
+    FREE = "free"
+
+
+class Driven(StrEnum):
+    """Whether drives leave joints passive, or move them to a commanded position."""
+
+    PASSIVE = "passive"
+    POSITION = "position"
+
+
+class Format(StrEnum):
+    """Names of the formats, as used in options."""
+
+    URDF = "urdf"
+    MJCF = "mjcf"
+    USD = "usd"  # requires the extra
+    SDF = "sdf"
+    GLB = "glb"
+
+
+DEFAULT = (Format.URDF, Format.MJCF, Format.SDF, Format.GLB)
+CHOICES: Mapping[str, type[StrEnum]] = {"base": Base, "drives": Driven}  # options whose values are words
+
+
+def parse_formats(text: str) -> tuple[Format, ...]:
+    """Return the formats of a comma-separated list, each once, in the order of Format. Raise OptionError for unknown names."""
+    asked = {word.strip().lower() for word in text.split(",") if word.strip()}
+    unknown = sorted(asked - set(Format))
+    if unknown or not asked:
+        problem = f"unknown {', '.join(map(repr, unknown))}" if unknown else "none"
+        raise OptionError(f"formats {text!r}: {problem}; valid are {', '.join(Format)}, with commas between")
+    return tuple(f for f in Format if f in asked)
+
+
+@dataclass(frozen=True)
+class ExportOptions:
+    """How an asset is written. hulls: maximum number of collision shapes per link, None for no limit."""
+
+    base: Base = Base.FIXED
+    formats: tuple[Format, ...] = DEFAULT
+    drives: Driven = Driven.PASSIVE
+    hulls: int | None = None
+
+    @classmethod
+    def parse(cls, given: Mapping[str, Any], *, before: Mapping[str, Any] | None = None) -> ExportOptions:
+        """Return the options of which some values are given as text; None stands for one that is not.
+
+        before: the asset.json of the asset as it was written, which may be empty: its values are kept where none is given.
+        Raise OptionError, which lists the valid values.
+        """
+        how = cls() if before is None else cls._of(before)
+        values = {k: _value(k, given[k]) for k in (f.name for f in fields(cls)) if given.get(k) is not None}
+        return replace(how, **values)
+
+    @classmethod
+    def _of(cls, record: Mapping[str, Any]) -> ExportOptions:
+        kept = {k: record[k] for k in (f.name for f in fields(cls)) if k in record}
+        formats = tuple(f for f in Format if f in record.get("files", {})) or DEFAULT
+        return cls.parse({**kept, "formats": ",".join(formats)})
+
+    def record(self) -> dict[str, Any]:
+        """Return the values for asset.json but the formats, which its files show; others than words only if not the default."""
+        values = {f.name: (getattr(self, f.name), f.default) for f in fields(self) if f.name != "formats"}
+        return {k: str(v) if k in CHOICES else v for k, (v, usual) in values.items() if k in CHOICES or v != usual}
+
+    def with_formats(self, others: tuple[Format, ...]) -> ExportOptions:
+        """Return the options with further formats."""
+        return replace(self, formats=tuple(f for f in Format if f in self.formats or f in others))
+
+
+def _value(name: str, given: Any) -> Any:
+    """Return the value of an option."""
+    if name == "formats":
+        return parse_formats(given)
+    if name in CHOICES:
+        if given not in list(CHOICES[name]):
+            raise OptionError(f"--{name}: found {given!r}; valid are {', '.join(CHOICES[name])}")
+        return CHOICES[name](given)
+    if isinstance(given, bool) or not isinstance(given, int) or given < 0:
+        raise OptionError(f"--{name}: found {given!r}; valid is an integer from 1 up, or 0 for no limit")
+    return given or None
