@@ -97,7 +97,7 @@ def documented_gaps() -> set[tuple[str, str]]:
 GAPS = documented_gaps()
 
 
-@pytest.mark.parametrize("kind", [k for k in READERS if k != "glb"])
+@pytest.mark.parametrize("kind", READERS)
 @pytest.mark.parametrize("name", ASSETS)
 def test_mass_and_collision_are_the_same(written, name, kind):
     model, found = read(written, name, kind)
@@ -127,7 +127,7 @@ def reach(shape, d) -> float:
             return float((shape.vertices @ d).max())
 
 
-@pytest.mark.parametrize("kind", ["mjcf", "usd", "sdf"])
+@pytest.mark.parametrize("kind", ["mjcf", "usd", "sdf", "glb"])
 @pytest.mark.parametrize("base", Base)
 def test_the_base_is_fixed_or_free(written, kind, base):
     assert read(written, "cabinet", kind, base)[1].fixed == (base is Base.FIXED)

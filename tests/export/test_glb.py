@@ -307,7 +307,7 @@ def test_glb(written):
     raw = (folder / f"{model.asset.name}.glb").read_bytes()
     length = int.from_bytes(raw[12:16], "little")
     doc, data = json.loads(raw[20 : 20 + length]), raw[28 + length :]
-    for node in doc["nodes"][1:]:
+    for node in doc["nodes"][1 : 1 + len(model.bodies)]:
         shown = []
         for p in doc["meshes"][node["mesh"]]["primitives"]:
             pbr = doc["materials"][p["material"]]["pbrMetallicRoughness"] if "material" in p else {}

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
-from anymesh.entry_points import LOAD_USD, WRITE_USD, resolve
+from anymesh.entry_points import GLTF_PHYSICS, LOAD_USD, WRITE_USD, resolve
 from anymesh.export.glb import glb_bytes
 from anymesh.export.mjcf_ import write_mjcf
 from anymesh.export.model import ExportConfig, Model
@@ -47,7 +48,7 @@ def _write_urdf(model: Model, folder: Path, config: ExportConfig) -> None:
 
 
 def _write_glb(model: Model, folder: Path, config: ExportConfig) -> None:
-    glb = glb_bytes(model.asset, model.links, config)
+    glb = glb_bytes(model.asset, model.links, config, partial(resolve(GLTF_PHYSICS), model))
     (folder / main_file(Format.GLB, model.asset.name)).write_bytes(glb)
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -34,8 +34,11 @@ STRENGTHS = {"normal": "scale", "occlusion": "strength"}
 PBR_KEYS = {"base_color": "baseColorTexture", "metallic_roughness": "metallicRoughnessTexture"}
 
 
-def glb_bytes(asset: Asset, links: Sequence[Link], config: ExportConfig) -> bytes:
-    """Return the GLB of an asset with legal names. Nodes are link frames under a root node that rotates Z up to Y up."""
+def glb_bytes(asset: Asset, links: Sequence[Link], config: ExportConfig, extend: Extend | None = None) -> bytes:
+    """Return the GLB of an asset with legal names. Nodes are link frames under a root node that rotates Z up to Y up.
+
+    extend: adds to the document.
+    """
     buffer = GlbBuffer()
     looks = _Materials(asset, buffer)
     meshes = [{"name": link.name, "primitives": [looks.primitive(p) for p in link.primitives]} for link in links]
@@ -50,6 +53,8 @@ def glb_bytes(asset: Asset, links: Sequence[Link], config: ExportConfig) -> byte
     animation = _animation(asset, links, buffer, config)
     if animation["channels"]:
         document["animations"] = [animation]
+    if extend is not None:
+        extend(document, buffer)
     return buffer.encode(document)
 
 
@@ -246,6 +251,9 @@ class GlbBuffer:
         total = 12 + 8 + len(text) + 8 + self._length
         head = b"glTF" + np.array([2, total, len(text)], "<u4").tobytes() + b"JSON"
         return b"".join([head, text, np.array([self._length], "<u4").tobytes(), b"BIN\0", *self._chunks])
+
+
+Extend = Callable[[dict[str, Any], GlbBuffer], None]
 
 
 @dataclass(frozen=True, eq=False)

@@ -34,8 +34,7 @@ class BodyJoint:
         """Return the joint with `parent` as the body a."""
         if parent == self.a:
             return self
-        limits = None if self.limits is None else (0.0 - self.limits[1], 0.0 - self.limits[0])
-        return replace(self, a=self.b, b=self.a, limits=limits)
+        return replace(self, a=self.b, b=self.a, axis=-self.axis)
 
 
 def joints_of_bodies(

@@ -44,7 +44,7 @@ def stated_joints(
 def _stated(
     mesh: Mesh, home: Sequence[int | None], tree: dict[str, Any], placed: Placed, buffers: Buffers, folder: Folder
 ) -> Mesh:
-    joints = list(_physics_joints(tree, placed, folder))
+    joints = list(_physics_joints(KHR, tree, placed, folder)) or list(_physics_joints(OMI, tree, placed, folder))
     if joints:
         body = [None if h is None else _body(tree, _parents(tree), h) for h in home]
         names: dict[Body, str] = {k: _name(tree, k) for k in placed if _is_dynamic(tree["nodes"][k])}
@@ -230,25 +230,26 @@ def _body(tree: dict[str, Any], parents: dict[int, int], index: int) -> Body:
     return next((k for k in _upwards(parents, index) if _is_dynamic(tree["nodes"][k])), None)
 
 
-def _physics_joints(tree: dict[str, Any], placed: Placed, folder: Folder) -> Iterator[BodyJoint]:
-    """Yield the joints of both physics extensions; a warning counts those that are broken or not of one axis."""
+def _physics_joints(kind: str, tree: dict[str, Any], placed: Placed, folder: Folder) -> Iterator[BodyJoint]:
+    """Yield the joints of an extension; a warning counts those that are broken or not of one axis."""
     parents, free, broken = _parents(tree), 0, 0
     for index, T in placed.items():
-        node = tree["nodes"][index]
-        for name, stated in ((KHR, _extension(node, KHR).get("joint")), (OMI, _extension(node, OMI) or None)):
-            if stated is None:
-                continue
-            try:
-                a, b, limits = _connected(_extension(tree, name), stated, index)
-                axes = _ranges(limits, override="constraints" in stated)
-                ends = _body(tree, parents, a), _body(tree, parents, b)
-                joint = _body_joint(axes, T, placed[index if "constraints" in stated else b], ends, f"from {name}")
-            except (LookupError, TypeError, ValueError, AttributeError):
-                broken += 1
-                continue
-            free += joint is None
-            if joint is not None:
-                yield joint
+        content = _extension(tree["nodes"][index], kind)
+        stated = content.get("joint") if kind == KHR else content or None
+        if stated is None:
+            continue
+        try:
+            a, b, limits = _connected(_extension(tree, kind), stated, index)
+            axes = _ranges(limits, override="constraints" in stated)
+            ends = _body(tree, parents, a), _body(tree, parents, b)
+            joint = _body_joint(axes, T, placed[index if "constraints" in stated else b], ends, f"from {kind}")
+        except (LookupError, TypeError, ValueError, AttributeError):
+            broken += 1
+            continue
+        free += joint is None
+        if joint is not None:
+            above = joint.type is JointType.FIXED and joint.b in _upwards(parents, index)
+            yield joint.seen_from(joint.b) if above else joint  # what is welded has the name of the upper body
     if free:
         folder.warn(f"{free} physics joints that move along several axes, or none that is limited, are left out")
     if broken:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -111,8 +112,8 @@ def _roots(tree: dict[str, Any], folder: Folder) -> list[int]:
         children = {c for node in nodes for c in node.get("children", [])}
         return [k for k in range(len(nodes)) if k not in children]
 
-    def with_mesh(scene: dict[str, Any]) -> bool:
-        waiting, seen = list(scene.get("nodes", [])), set()
+    def with_mesh(scene: dict[str, Any], beside: set[int]) -> bool:
+        waiting, seen = list(scene.get("nodes", [])), set(beside)
         while waiting:
             index = waiting.pop()
             if index in seen or not 0 <= index < len(nodes):
@@ -125,10 +126,20 @@ def _roots(tree: dict[str, Any], folder: Folder) -> list[int]:
 
     default = tree.get("scene", 0)
     order = [default, *(k for k in range(len(scenes)) if k != default)]
-    filled = [k for k in order if isinstance(k, int) and 0 <= k < len(scenes) and with_mesh(scenes[k])]
-    if len(filled) > 1:
-        folder.warn(f"{len(filled) - 1} other scene{'s are' if len(filled) > 2 else ' is'} left out; scene {filled[0]} is read")
+    filled = [k for k in order if isinstance(k, int) and 0 <= k < len(scenes) and with_mesh(scenes[k], set())]
+    others = sum(with_mesh(scenes[k], _colliders(nodes)) for k in filled[1:])
+    if others:
+        folder.warn(f"{others} other scene{'s are' if others > 1 else ' is'} left out; scene {filled[0]} is read")
     return scenes[filled[0]].get("nodes", []) if filled else []
+
+
+def _colliders(nodes: Sequence[dict[str, Any]]) -> set[int]:
+    """Return the nodes that others refer to for their collision shape."""
+    found = set()
+    for node in nodes:
+        with suppress(LookupError, TypeError, ValueError):
+            found.add(int(node["extensions"]["KHR_physics_rigid_bodies"]["collider"]["geometry"]["node"]))
+    return found
 
 
 def _visible(tree: dict[str, Any], placed: dict[int, PlacedNode], names: Sequence[str], folder: Folder) -> list[int]:
