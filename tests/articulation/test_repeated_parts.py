@@ -142,6 +142,18 @@ def test_a_hinge_that_opens_to_no_side_is_compared_with_no_other() -> None:
     assert estimate._clear_of_others(context, rims[0], tuple(rims)) is rims[0]
 
 
+@pytest.mark.parametrize(("apart", "same"), [(0.0, True), (0.029, True), (0.031, False)])
+def test_hinge_lines_within_one_and_a_half_thicknesses_are_at_one_rim(apart: float, same: bool) -> None:
+    mesh, segmentation = built(pair("both"))
+    whole = object_shape(mesh, labels=segmentation.face_part)
+    _, _, _, question = next(iter(estimate.part_motions(whole, segmentation)))
+    here = question.candidates[0]
+    across = np.cross(here.motion.axis, [0.3, 0.5, 0.8])
+    moved = here.motion.origin + apart * across / np.linalg.norm(across)
+    there = replace(here, motion=replace(here.motion, origin=moved))
+    assert estimate._at_one_rim(here, there, 0.02) is same
+
+
 X, Y, Z = np.eye(3)
 NAMES = ("prismatic", "balance", "vertical", "outward", "above")
 

@@ -65,6 +65,13 @@ def test_of_equal_pieces_those_with_most_of_their_contact_merge_first() -> None:
     assert first[2] == {0, 1, 2, 3}
 
 
+def test_contacts_of_all_pieces_of_a_group_count_together() -> None:
+    """Two boards, one group, touch one cube with .5 m2 each, and one of them another cube with .5 m2."""
+    boards = box((1, 0, 0), (2, 1, 0.5)), box((1, 0, 0.5), (2, 1, 1))
+    mesh = mesh_of([box((0, 0, 0), (1, 1, 1)), *boards, box((2, 0, -0.5), (3, 1, 0.5))])[0]
+    assert merged_groups(find_contacts(object_shape(mesh)), np.array([0, 1, 1, 2]))[0] == [0, 1]
+
+
 def test_all_groups_of_a_component_are_merged_into_one() -> None:
     for lengths in ((1, 1), (1, 2, 3), (0.5, 2, 0.7, 1, 3)):
         found = merges(*row(*lengths))

@@ -168,6 +168,9 @@ def test_the_rectangle_that_a_desk_fills_is_its_pedestal() -> None:
     assert found is not None
     assert np.concatenate(found) == pytest.approx([0, 0, 0.3, 1], abs=0.05)
     assert filled(desk, np.array([[0.1, 0.2], [0.7, 0.7]])) is None
+    found = filled(desk, np.array([[0.0, 0.0], [0.2, 0.7]]))  # from the lowest corner on
+    assert found is not None
+    assert np.concatenate(found) == pytest.approx([0, 0, 0.3, 1], abs=0.05)
 
 
 def test_a_pane_is_part_of_the_rectangle_that_its_frame_fills() -> None:
