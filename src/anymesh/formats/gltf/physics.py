@@ -12,8 +12,9 @@ from typing import Any, assert_never
 import numpy as np
 
 from anymesh.export.glb import INDICES, VERTICES, GlbBuffer
-from anymesh.export.model import Base, Driven, ExportLink, Model, drives
+from anymesh.export.model import ExportLink, Model, drives
 from anymesh.export.notation import principal, quaternion, turning_x_to
+from anymesh.export.options import Base, Driven
 from anymesh.formats.gltf.joints import KHR, OMI, OMI_BODY
 from anymesh.names import legal_names
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Shape
@@ -63,7 +64,7 @@ class _Physics:
             "inertiaDiagonal": [float(f"{m:.9g}") for m in moments],  # 0 would be infinite
             "inertiaOrientation": _xyzw(axes),
         }
-        moves = body.link.joint is not None or self._model.base is Base.FREE
+        moves = body.link.joint is not None or self._model.how.base is Base.FREE
         own = {OMI_BODY: {"motion": {"type": "dynamic" if moves else "static"} | motion}}
         self._nodes[number]["extensions"] = ({KHR: {"motion": motion}} if moves else {}) | own
         apart = self._filter(body.name)
@@ -136,7 +137,7 @@ class _Physics:
         kind = "linear" if joint.type is JointType.PRISMATIC else "angular"
         start = {"type": kind, "mode": "force", "axis": 0, "velocityTarget": 0.0}
         forces = [start | {"damping": _plain(self._model.resistances[joint.name].damping)}]
-        if self._model.driven is Driven.POSITION:
+        if self._model.how.drives is Driven.POSITION:
             drive = self._drives[joint.name]
             gains = {"stiffness": _plain(drive.stiffness), "damping": _plain(drive.damping), "maxForce": _plain(drive.effort)}
             forces.append(start | {"positionTarget": 0.0} | gains)
