@@ -11,8 +11,9 @@ from assets import cabinet, slanted
 from models import CONFIG, desk, model_of, with_meshes
 from scipy.spatial.transform import Rotation
 
-from anymesh.export.formats import Format, write_formats
-from anymesh.export.model import Base, Driven, Exclusion, Model
+from anymesh.export.formats import write_formats
+from anymesh.export.model import Exclusion, Model
+from anymesh.export.options import Base, Driven, Format
 from anymesh.loading import load_mesh
 from anymesh.types import JointType
 
