@@ -1,92 +1,19 @@
-"""Content of each format, read independently of the writers: yourdfpy, MuJoCo, OpenUSD; SDFormat and GLB here."""
+"""Content of each format, read independently of the writers: yourdfpy, MuJoCo, OpenUSD; SDFormat here, and GLB beside."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable
-from dataclasses import dataclass, field
 from pathlib import Path
 from xml.etree import ElementTree
 
 import mujoco
 import numpy as np
-import trimesh
 import yourdfpy
+from glb_reader import read_glb
+from neutral import KINDS, Body, Read, box, chain, cloud, cylinder, frame, motion, obj_points
 from pxr import Gf, Usd, UsdGeom, UsdPhysics
 from scipy.spatial.transform import Rotation
 
 from anymesh.export.notation import DRAKE
-
-Poses = Callable[[dict[str, float]], dict[str, np.ndarray]]  # joint positions -> link frames in the asset frame
-KINDS = {"revolute": "turn", "continuous": "turn", "prismatic": "slide", "fixed": "none"}
-
-
-@dataclass
-class Body:
-    """mass, center in the link frame, tensor about it along the link frame's axes; collision: supports in the link frame."""
-
-    mass: float
-    center: np.ndarray
-    tensor: np.ndarray
-    supports: list[Callable[[np.ndarray], float]] = field(default_factory=list)
-
-
-@dataclass
-class Read:
-    """Content of a file. joints: name -> values; absent keys are those that the format cannot express."""
-
-    joints: dict[str, dict]
-    bodies: dict[str, Body]
-    poses: Poses
-    fixed: bool | None
-
-
-def frame(place=(0, 0, 0), rotation=np.eye(3)) -> np.ndarray:  # noqa: B008 - not changed
-    T = np.eye(4)
-    T[:3, :3], T[:3, 3] = rotation, place
-    return T
-
-
-def motion(kind: str, axis: np.ndarray, q: float) -> np.ndarray:
-    if kind == "slide":
-        return frame(np.asarray(axis) * q)
-    return frame(rotation=Rotation.from_rotvec(np.asarray(axis) * q).as_matrix()) if kind == "turn" else np.eye(4)
-
-
-def cloud(points: np.ndarray) -> Callable[[np.ndarray], float]:
-    return lambda d: float((points @ d).max())
-
-
-def box(T: np.ndarray, size: np.ndarray) -> Callable[[np.ndarray], float]:
-    corners = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]) * np.asarray(size) / 2
-    return cloud(corners @ T[:3, :3].T + T[:3, 3])
-
-
-def cylinder(T: np.ndarray, radius: float, length: float) -> Callable[[np.ndarray], float]:
-    def support(d: np.ndarray) -> float:
-        along = float(d @ T[:3, 2])
-        return float(d @ T[:3, 3]) + abs(along) * length / 2 + radius * np.sqrt(max(0.0, 1 - along**2))
-
-    return support
-
-
-def obj_points(path: Path) -> np.ndarray:
-    return np.array([line.split()[1:4] for line in path.read_text().splitlines() if line.startswith("v ")], float)
-
-
-def chain(joints: dict[str, dict], root: str, local: Callable[[dict, float], np.ndarray]) -> Poses:
-    """Return poses down a tree of joints; `local` maps parent frame to child frame at a position."""
-
-    def poses(positions: dict[str, float]) -> dict[str, np.ndarray]:
-        found, waiting = {root: np.eye(4)}, dict(joints)
-        while waiting:
-            for name, j in list(waiting.items()):
-                if j["parent"] in found:
-                    found[j["child"]] = found[j["parent"]] @ local(j, positions.get(name, 0.0))
-                    del waiting[name]
-        return found
-
-    return poses
 
 
 def _sdf_pose(element: ElementTree.Element) -> np.ndarray:
@@ -339,77 +266,6 @@ def read_mjcf(folder: Path, name: str) -> Read:
         return {n: frame(data.body(n).xpos, data.body(n).xmat.reshape(3, 3)) for n in names[1:]}
 
     return Read(joints, bodies, poses, all(model.jnt_type != mujoco.mjtJoint.mjJNT_FREE))
-
-
-def read_glb(folder: Path, name: str) -> Read:
-    raw = (folder / f"{name}.glb").read_bytes()
-    doc = json.loads(raw[20 : 20 + int.from_bytes(raw[12:16], "little")])
-    nodes, joints = doc["nodes"], {}
-    for node in nodes[1:]:
-        for child in (nodes[i] for i in node.get("children", []) if "joint" in nodes[i].get("extras", {})):
-            said = child["extras"]["joint"]
-            joints[said["name"]] = {**said, "parent": node["name"], "child": child["name"]}
-            joints[said["name"]]["rest"] = frame(child.get("translation", (0, 0, 0)))
-            if said["type"] == "fixed":
-                del joints[said["name"]]["limits"]
-    for stated in doc.get("extensions", {}).get("KHR_physics_rigid_bodies", {}).get("physicsJoints", []):
-        for drive in stated.get("drives", []):
-            driven = "positionTarget" in drive
-            gains = {"drive": (drive["stiffness"], drive["damping"], drive["maxForce"])} if driven else drive
-            joints[stated["name"]] |= {key: gains[key] for key in ("drive", "damping") if key in gains}
-            joints[stated["name"]] |= {"effort": drive["maxForce"]} if driven else {}
-    scene = trimesh.load(folder / f"{name}.glb")  # independent reader of the tree at rest
-    up = frame(rotation=Rotation.from_quat(nodes[0]["rotation"]).as_matrix())
-    move = chain(joints, nodes[1]["name"], lambda j, q: j["rest"] @ motion(KINDS[j["type"]], j["axis"], q))
-    for link, T in move({}).items():
-        np.testing.assert_allclose(scene.graph.get(link)[0], up @ T, atol=1e-6)
-    bodies, fixed = _glb_bodies(doc, raw[28 + int.from_bytes(raw[12:16], "little") :])
-    return Read(joints, bodies, move, fixed)
-
-
-def _glb_placed(node: dict) -> np.ndarray:
-    rotation = Rotation.from_quat(node.get("rotation", (0, 0, 0, 1))).as_matrix()
-    return frame(node.get("translation", (0, 0, 0)), rotation)
-
-
-def _glb_bodies(doc: dict, data: bytes) -> tuple[dict[str, Body], bool]:
-    """Return the bodies of both physics extensions, which must agree, and whether the first is static."""
-    nodes, bodies = doc["nodes"], {}
-    shapes = doc["extensions"].get("KHR_implicit_shapes", {}).get("shapes", [])
-    for node in nodes:
-        said = node.get("extensions", {})
-        if "motion" not in said.get("OMI_physics_body", {}):
-            continue
-        motion = said["OMI_physics_body"]["motion"]
-        theirs = said.get("KHR_physics_rigid_bodies", {}).get("motion")
-        assert theirs == (None if motion["type"] == "static" else {k: v for k, v in motion.items() if k != "type"})
-        R = Rotation.from_quat(motion["inertiaOrientation"]).as_matrix()
-        tensor = (R * np.array(motion["inertiaDiagonal"])) @ R.T
-        body = bodies[node["name"]] = Body(motion["mass"], np.array(motion["centerOfMass"]), tensor)
-        for child in (nodes[k] for k in node["children"]):
-            if "collider" not in child.get("extensions", {}).get("KHR_physics_rigid_bodies", {}):
-                continue
-            geometry = child["extensions"]["KHR_physics_rigid_bodies"]["collider"]["geometry"]
-            own = child["extensions"]["OMI_physics_body"]["collider"]["shape"]
-            own = doc["extensions"]["OMI_physics_shape"]["shapes"][own]
-            T = _glb_placed(child)
-            if "node" in geometry:
-                mesh = nodes[geometry["node"]]["mesh"]
-                assert geometry["convexHull"]
-                assert own == {"type": "convex", "convex": {"mesh": mesh}}
-                a = doc["accessors"][doc["meshes"][mesh]["primitives"][0]["attributes"]["POSITION"]]
-                start = doc["bufferViews"][a["bufferView"]]["byteOffset"]
-                points = np.frombuffer(data, "<f4", 3 * a["count"], start).reshape(-1, 3).astype(float)
-                body.supports.append(cloud(points @ T[:3, :3].T + T[:3, 3]))
-                continue
-            shape = shapes[geometry["shape"]]
-            assert own == shape
-            if shape["type"] == "box":
-                body.supports.append(box(T, shape["box"]["size"]))
-            else:
-                turned = T @ frame(rotation=Rotation.from_euler("x", -90, degrees=True).as_matrix())  # Y is the axis
-                body.supports.append(cylinder(turned, shape["cylinder"]["radiusTop"], shape["cylinder"]["height"]))
-    return bodies, "motion" not in nodes[1]["extensions"].get("KHR_physics_rigid_bodies", {})
 
 
 READERS = {"urdf": read_urdf, "mjcf": read_mjcf, "usd": read_usd, "sdf": read_sdf, "glb": read_glb}

@@ -135,11 +135,11 @@ def _roots(tree: dict[str, Any], folder: Folder) -> list[int]:
 
 def _colliders(nodes: Sequence[dict[str, Any]]) -> set[int]:
     """Return the nodes that others refer to for their collision shape."""
-    found = set()
+    referred = set()
     for node in nodes:
         with suppress(LookupError, TypeError, ValueError):
-            found.add(int(node["extensions"]["KHR_physics_rigid_bodies"]["collider"]["geometry"]["node"]))
-    return found
+            referred.add(int(node["extensions"]["KHR_physics_rigid_bodies"]["collider"]["geometry"]["node"]))
+    return referred
 
 
 def _visible(tree: dict[str, Any], placed: dict[int, PlacedNode], names: Sequence[str], folder: Folder) -> list[int]:
