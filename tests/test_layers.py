@@ -23,7 +23,7 @@ CORE = [
     {"cli"},
 ]
 TOOLS = [
-    {"stated"},
+    {"stated", "mechanisms"},
     {"formats", "openusd"},
     {"prompted"},
     {"finishing"},

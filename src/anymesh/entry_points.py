@@ -41,6 +41,10 @@ WRITE_USD = "openusd.writer_:write_usd"
 LOAD_USD = "openusd.writer_:load_usd"
 GLTF_PHYSICS = "formats.gltf.physics:add_physics"
 
+# Springs, catches and detents of joints.
+CHOOSE_MECHANISMS = "mechanisms.choosing:choose_mechanisms"
+PARSE_MECHANISMS = "mechanisms.choosing:parse_mechanisms"
+
 # Scenes of several objects.
 SCENE_WARNING = "applications.scenes.objects:scene_warning"
 ARTICULATE_SCENE = "applications.scenes.command_line:articulate_scene"

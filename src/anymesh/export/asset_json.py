@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from dataclasses import asdict
 from importlib.resources import files
 from typing import Any
 
@@ -12,6 +13,8 @@ import numpy as np
 import anymesh
 from anymesh.export.formats import main_file
 from anymesh.export.model import ExportLink, Model
+from anymesh.export.options import Format
+from anymesh.physics.mechanism import Mechanism
 from anymesh.physics.resistance import Resistance
 from anymesh.types import Exchange, Joint, Mesh, Source
 
@@ -30,7 +33,7 @@ def asset_record(model: Model) -> dict[str, Any]:
         **model.how.record(),
         "files": {str(kind): main_file(kind, asset.name) for kind in model.how.formats},
         "parts": [_part(asset.mesh, body, asset.source_face) for body in model.bodies],
-        "joints": [_joint(joint, model.resistances.get(joint.name)) for joint in asset.joints],
+        "joints": [_joint(model, joint) for joint in asset.joints],
         "no_contact": [{"links": [e.a, e.b], "reason": e.why} for e in model.exclusions],
         "answerer": asset.answerer,
         "usage": usage(asset.exchanges),
@@ -92,7 +95,8 @@ def _part(mesh: Mesh, body: ExportLink, source_face: np.ndarray | None) -> dict[
     }
 
 
-def _joint(joint: Joint, resistance: Resistance | None) -> dict[str, Any]:
+def _joint(model: Model, joint: Joint) -> dict[str, Any]:
+    resistance, mechanism = model.resistances.get(joint.name), model.mechanisms.get(joint.name)
     return {
         "name": joint.name,
         "type": str(joint.type),
@@ -102,6 +106,7 @@ def _joint(joint: Joint, resistance: Resistance | None) -> dict[str, Any]:
         "axis": [_round(v) for v in joint.axis],
         "limits": None if joint.limits is None else [_round(v) for v in joint.limits],
         **({} if resistance is None else _resistance(resistance)),
+        **({} if mechanism is None else {"mechanism": _mechanism(mechanism, model.how.formats)}),
         "confidence": _round(joint.confidence),
         "reason": joint.reason,
     }
@@ -124,6 +129,15 @@ def _resistance(r: Resistance) -> dict[str, Any]:
         },
         "resistance": r.source,
     }
+
+
+def _mechanism(m: Mechanism, formats: Sequence[Format]) -> dict[str, Any]:
+    """Return a mechanism, with the formats that hold it; numbers that are 0 are left out."""
+    numbers = {name: value for name, value in asdict(m).items() if name not in ("kind", "reason")}
+    catches = bool(m.slope or m.torque)
+    held = {Format.MJCF} if catches else {*Format} - {Format.URDF if m.stiffness else Format.GLB}
+    values = {name: _round(value) for name, value in numbers.items() if value or (name == "reference" and m.stiffness)}
+    return {"kind": str(m.kind), **values, "formats": [str(f) for f in formats if f in held], "reason": m.reason}
 
 
 def _round(value: float) -> float:

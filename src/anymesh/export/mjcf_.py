@@ -22,6 +22,8 @@ from anymesh.export.model import FOLDER, Drive, ExportConfig, ExportLink, Model,
 from anymesh.export.notation import moments, number, quaternion, vector
 from anymesh.export.options import Base, Driven
 from anymesh.mujoco_ import load_mujoco
+from anymesh.names import legal_names
+from anymesh.physics.mechanism import Mechanism
 from anymesh.physics.resistance import Resistance
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Material, Mesh, Shape
 from anymesh.types.exchange import PNG
@@ -30,6 +32,13 @@ PIECES = f"{FOLDER}/mjcf"  # separate folder: `door_2.obj` in it is the second m
 VISUAL, COLLISION = "visual", "collision"
 MJCF_SLOTS = ("base_color", "normal", "emissive")
 BLENDED = 0.99  # opacity below which MuJoCo blends, so that the alpha of a picture counts
+FIRM = {  # else hinges that friction holds creep by a degree per second, and springs press parts into their stops
+    "solreflimit": "0.004 1",
+    "solimplimit": "0.99 0.999 0.001",
+    "solreffriction": "0.004 1",
+    "solimpfriction": "0.999 0.999 0.001",
+}
+CATCHES = 2  # group of the actuators that are catches and detents, which no command moves
 DRIVES = 1  # group of the actuators: `actuatorgroupdisable="1"` makes the asset passive
 
 
@@ -252,12 +261,13 @@ def with_digits(text: str, model: Model, motors: Mapping[str, Drive]) -> str:
     joints = {element.get("name"): element for element in root.iter("joint")}
     for joint in model.asset.joints:
         if joint.name in joints:
-            _joint(joints[joint.name], joint, model.resistances[joint.name])
+            _joint(joints[joint.name], joint, model.resistances[joint.name], model.mechanisms.get(joint.name))
     for element in root.iter("texture"):
         element.attrib.pop("colorspace", None)  # inferred at compile time; older versions do not know the attribute
     actuators = root.find("actuator")
     if actuators is not None:
         _actuators(actuators, model, motors)
+        _catches(actuators, model)
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="unicode") + "\n"
 
@@ -273,7 +283,7 @@ def _inertial(element: ElementTree.Element, body: ExportLink) -> None:
     inertial.set("fullinertia", " ".join(entries[key] for key in ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")))
 
 
-def _joint(element: ElementTree.Element, joint: Joint, resistance: Resistance) -> None:
+def _joint(element: ElementTree.Element, joint: Joint, resistance: Resistance, mechanism: Mechanism | None) -> None:
     element.set("axis", vector(joint.axis / np.linalg.norm(joint.axis)))
     element.set("damping", number(resistance.damping))
     element.set("frictionloss", number(resistance.friction))
@@ -282,6 +292,10 @@ def _joint(element: ElementTree.Element, joint: Joint, resistance: Resistance) -
     element.set("actuatorfrcrange", vector((-resistance.effort, resistance.effort)))
     if joint.limits is not None:
         element.set("range", vector(joint.limits))
+    if mechanism is not None:
+        element.attrib.update(FIRM)
+        if mechanism.stiffness:
+            element.attrib.update(stiffness=number(mechanism.stiffness), springref=number(mechanism.reference))
 
 
 def _geoms(element: ElementTree.Element, body: ExportLink) -> None:
@@ -319,3 +333,17 @@ def _actuators(actuators: ElementTree.Element, model: Model, motors: Mapping[str
         element.tag = "motor" if passive else "position"
         element.attrib.clear()
         element.attrib.update(words)
+
+
+def _catches(actuators: ElementTree.Element, model: Model) -> None:
+    """Add catches and detents: forces of the joint's position alone. MuJoCo knows cogging, of motors that nothing drives."""
+    joints = [joint.name for joint in model.asset.joints]
+    names = legal_names([*joints, *(f"{name}_{m.kind}" for name, m in model.mechanisms.items())])[len(joints) :]
+    for name, (joint, m) in zip(names, model.mechanisms.items(), strict=True):
+        words = {"name": name, "joint": joint, "group": str(CATCHES)}
+        if m.slope:
+            words |= {"gainprm": "0", "biastype": "affine", "biasprm": vector((-m.slope * m.at, m.slope, 0.0))}
+            ElementTree.SubElement(actuators, "general", words, forcerange=vector((m.least, m.most)), forcelimited="true")
+        if m.torque:
+            words |= {"motorconst": "1e-9", "resistance": "1e9", "cogging": vector((m.torque, float(m.steps), np.pi))}
+            ElementTree.SubElement(actuators, "dcmotor", words)

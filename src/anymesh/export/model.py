@@ -13,12 +13,14 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Int
 
+from anymesh.entry_points import CHOOSE_MECHANISMS, resolve
 from anymesh.export.flat_looks import losses, tiled, tinted, with_materials
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.options import Driven, ExportOptions
 from anymesh.geometry.surface import plain_triangles
 from anymesh.physics.collision import CollisionConfig, collision_shapes
 from anymesh.physics.inertia import Inertia, InertiaConfig, Substance, link_inertia, substance_of
+from anymesh.physics.mechanism import Mechanism
 from anymesh.physics.resistance import Resistance, resistances
 from anymesh.runtime import Deadline
 from anymesh.types import Asset, Hull, Joint, Mesh, Shape
@@ -91,6 +93,7 @@ class Model:
     resistances: Mapping[str, Resistance]
     how: ExportOptions = field(default_factory=ExportOptions)
     exclusions: tuple[Exclusion, ...] = ()
+    mechanisms: Mapping[str, Mechanism] = field(default_factory=dict)
 
     @property
     def links(self) -> Sequence[Link]:
@@ -161,8 +164,9 @@ def build_model(
     )
     excluded = [Exclusion(a, b, OVERLAP) for a, b in collision.overlapping]
     excluded += [Exclusion(a, b, TIGHT) for a, b in collision.tight]
-    resisting = resistances(asset, {body.name: body.inertia for body in bodies})
-    return Model(asset, bodies, resisting, how, tuple(excluded))
+    inertias = {body.name: body.inertia for body in bodies}
+    chosen, resisting = resolve(CHOOSE_MECHANISMS)(asset, inertias, resistances(asset, inertias), how.mechanisms)
+    return Model(asset, bodies, resisting, how, tuple(excluded), chosen)
 
 
 def _made_of(mesh: Mesh, link: Link, kept: Int[np.ndarray, " K"]) -> list[Substance | None]:

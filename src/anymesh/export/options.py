@@ -7,6 +7,7 @@ from dataclasses import dataclass, fields, replace
 from enum import StrEnum
 from typing import Any
 
+from anymesh.entry_points import PARSE_MECHANISMS, resolve
 from anymesh.errors import OptionError
 
 
@@ -50,12 +51,16 @@ def parse_formats(text: str) -> tuple[Format, ...]:
 
 @dataclass(frozen=True)
 class ExportOptions:
-    """How an asset is written. hulls: maximum number of collision shapes per link, None for no limit."""
+    """How an asset is written.
+
+    hulls: maximum number of collision shapes per link, None for no limit; mechanisms: auto, off, all, or LABEL=KIND,...
+    """
 
     base: Base = Base.FIXED
     formats: tuple[Format, ...] = DEFAULT
     drives: Driven = Driven.PASSIVE
     hulls: int | None = None
+    mechanisms: str = "auto"
 
     @classmethod
     def parse(cls, given: Mapping[str, Any], *, before: Mapping[str, Any] | None = None) -> ExportOptions:
@@ -88,6 +93,9 @@ def _value(name: str, given: Any) -> Any:
     """Return the value of an option."""
     if name == "formats":
         return parse_formats(given)
+    if name == "mechanisms":
+        resolve(PARSE_MECHANISMS)(str(given))
+        return str(given)
     if name in CHOICES:
         if given not in list(CHOICES[name]):
             raise OptionError(f"--{name}: found {given!r}; valid are {', '.join(CHOICES[name])}")

@@ -14,7 +14,6 @@ from anymesh.export.model import ExportConfig, ExportLink, Model
 from anymesh.export.notation import document, moments, number, rpy, vector
 from anymesh.export.options import Base
 from anymesh.names import legal_names
-from anymesh.physics.resistance import Resistance
 from anymesh.types import Box, Cylinder, Hull, Joint, Mesh, Shape
 
 VERSION = "1.9"
@@ -59,7 +58,7 @@ def sdf_text(model: Model) -> str:
         _leaf(fixed, "parent", "world")
         _leaf(fixed, "child", model.bodies[0].name)
     for joint in asset.joints:
-        _add_joint(element, joint, names[joint.name], model.resistances.get(joint.name))
+        _add_joint(element, joint, names[joint.name], model)
     return document(root)
 
 
@@ -130,8 +129,9 @@ def _add_shape(geometry: ElementTree.Element, shape: Shape, path: str | None) ->
             assert_never(shape)
 
 
-def _add_joint(model: ElementTree.Element, joint: Joint, name: str, resistance: Resistance | None) -> None:
-    element = ElementTree.SubElement(model, "joint", name=name, type=str(joint.type))
+def _add_joint(top: ElementTree.Element, joint: Joint, name: str, model: Model) -> None:
+    resistance, mechanism = model.resistances.get(joint.name), model.mechanisms.get(joint.name)
+    element = ElementTree.SubElement(top, "joint", name=name, type=str(joint.type))
     _leaf(element, "parent", joint.parent)
     _leaf(element, "child", joint.child)
     if resistance is None:  # fixed
@@ -147,6 +147,9 @@ def _add_joint(model: ElementTree.Element, joint: Joint, name: str, resistance: 
     dynamics = ElementTree.SubElement(axis, "dynamics")
     _leaf(dynamics, "damping", number(resistance.damping))
     _leaf(dynamics, "friction", number(resistance.friction))
+    if mechanism is not None and mechanism.stiffness:
+        _leaf(dynamics, "spring_reference", number(mechanism.reference))
+        _leaf(dynamics, "spring_stiffness", number(mechanism.stiffness))
 
 
 def _pose(place: np.ndarray, rotation: np.ndarray) -> str:

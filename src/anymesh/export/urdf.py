@@ -36,6 +36,11 @@ def urdf_text(model: Model) -> str:
         _add_link(robot, body, _appearance(asset.mesh, body.link, names))
     for joint in asset.joints:
         _add_joint(robot, joint, origins, model.resistances.get(joint.name))
+    for name, m in model.mechanisms.items():
+        if m.stiffness:  # Gazebo alone reads it
+            gazebo = ElementTree.SubElement(robot, "gazebo", reference=name)
+            ElementTree.SubElement(gazebo, "springStiffness").text = number(m.stiffness)
+            ElementTree.SubElement(gazebo, "springReference").text = number(m.reference)
     if model.how.drives is Driven.POSITION:
         _add_drives(robot, model)
     return document(robot)

@@ -19,6 +19,7 @@ from anymesh.export.model import FOLDER, Drive, ExportConfig, ExportLink, Model,
 from anymesh.export.notation import principal, quaternion, turning_x_to
 from anymesh.export.options import Base
 from anymesh.names import legal_names
+from anymesh.physics.mechanism import Mechanism
 from anymesh.physics.resistance import Resistance
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Material, Mesh, Shape, Texture
 from anymesh.types.mesh import TEXTURE_SLOTS, to_linear
@@ -188,6 +189,8 @@ def _add_joint(pxr: Any, stage: Any, top: str, model: Model, joint: Joint, motor
     drive.CreateStiffnessAttr(motor.stiffness * per_unit)
     drive.CreateDampingAttr(motor.damping * per_unit)
     _add_resistance(pxr, added.GetPrim(), model.resistances[joint.name], kind, per_unit)
+    if joint.name in model.mechanisms:
+        _add_mechanism(pxr, added.GetPrim(), model.mechanisms[joint.name], per_unit)
 
 
 def _add_resistance(pxr: Any, prim: Any, r: Resistance, kind: str, per_unit: float) -> None:
@@ -207,6 +210,35 @@ def _add_resistance(pxr: Any, prim: Any, r: Resistance, kind: str, per_unit: flo
     prim.AddAppliedSchema("NewtonJointAPI")
     for name, value in values.items():
         prim.CreateAttribute(name, pxr.Sdf.ValueTypeNames.Float, custom=False).Set(float(value))
+
+
+def _add_mechanism(pxr: Any, prim: Any, m: Mechanism, per_unit: float) -> None:
+    """Add a spring as PhysX has it, a fixed tendon of one joint, and as MuJoCo and Newton have it.
+
+    A drive is no spring: it is commanded, and Newton moves a target outside the limits, as a preload needs, to their middle.
+    """
+    kinds = pxr.Sdf.ValueTypeNames
+    # without these, hinges creep that friction holds
+    firm = {"mjc:solreffriction": [0.004, 1.0], "mjc:solimpfriction": [0.999, 0.999, 0.001, 0.5, 2.0]}
+    values: list[tuple[str, Any, Any]] = [
+        (name, kinds.DoubleArray, value) for name, value in firm.items()
+    ]  # else hinges creep that friction holds
+    if m.stiffness:
+        tendon, axis = "physxTendon:spring", "transX" if per_unit == 1 else "rotX"
+        values += [
+            (f"{tendon}:stiffness", kinds.Float, m.stiffness),
+            (f"{tendon}:restLength", kinds.Float, m.reference),
+            (f"{tendon}:gearing", kinds.FloatArray, [per_unit]),
+            (f"{tendon}:forceCoefficient", kinds.FloatArray, [1.0]),
+            (f"{tendon}:jointAxis", kinds.TokenArray, [axis]),
+            ("mjc:stiffness", kinds.Double, m.stiffness),
+            ("mjc:springref", kinds.Double, m.reference / per_unit),
+        ]
+        prim.AddAppliedSchema("PhysxTendonAxisAPI:spring")
+        prim.AddAppliedSchema("PhysxTendonAxisRootAPI:spring")
+    prim.AddAppliedSchema("MjcJointAPI")
+    for name, kind, value in values:
+        prim.CreateAttribute(name, kind, custom=False).Set(value)
 
 
 class UsdMaterials:

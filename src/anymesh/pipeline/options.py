@@ -205,6 +205,9 @@ class FormatOptions:
         None, "passive (usual), or position: joints follow a commanded position, initially 0.", kind=str
     )
     hulls: int | None = _option(None, "Maximum number of collision shapes per link, 0 for no limit.", metavar="N", kind=int)
+    mechanisms: str | None = _option(
+        None, "auto (usual: the sure ones), off, all, or LABEL=KIND,...: springs, catches and detents of joints.", kind=str
+    )
 
 
 class Writing(TypedDict, total=False):
@@ -214,6 +217,7 @@ class Writing(TypedDict, total=False):
     formats: str | None
     drives: str | None
     hulls: int | None
+    mechanisms: str | None
 
 
 class MakingOptions(Answering, Writing):

@@ -133,10 +133,13 @@ class _Physics:
             self._top[kind]["physicsJoints"].append({key: value for key, value in stated.items() if value})
 
     def _forces(self, joint: Joint) -> list[dict[str, Any]]:
-        """Return damping, as a drive to speed zero, and the joint's drive; some engines keep the last."""
+        """Return damping and a spring, as a drive, and the joint's drive; some engines keep the last."""
         kind = "linear" if joint.type is JointType.PRISMATIC else "angular"
         start = {"type": kind, "mode": "force", "axis": 0, "velocityTarget": 0.0}
         forces = [start | {"damping": _plain(self._model.resistances[joint.name].damping)}]
+        m = self._model.mechanisms.get(joint.name)
+        if m is not None and m.stiffness:
+            forces[0] |= {"stiffness": _plain(m.stiffness), "positionTarget": _plain(m.reference)}
         if self._model.how.drives is Driven.POSITION:
             drive = self._drives[joint.name]
             gains = {"stiffness": _plain(drive.stiffness), "damping": _plain(drive.damping), "maxForce": _plain(drive.effort)}

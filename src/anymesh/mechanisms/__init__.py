@@ -1,0 +1,1 @@
+"""Mechanisms of joints: springs, catches and detents, chosen by kind."""
