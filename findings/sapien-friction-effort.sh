@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Guess: SAPIEN's URDF loader reads friction, damping and effort of a joint alike.
-# Truth: damping arrives; every joint has a friction of 0.05, whatever the file says, and no limit of effort.
+# Guess: SAPIEN's URDF loader reads friction, damping, effort and velocity of a joint alike.
+# Truth: damping arrives; every joint has a friction of 0.05 and a velocity limit of 100, whatever the file says, and no limit of
+#   effort.
 # Version: sapien 3.0.3
 # Source: found by running; joints can be set after loading (set_friction, set_drive_properties with a force limit).
 # Who cares: users of SAPIEN and ManiSkill who expect a stiff drawer to be stiff, or a weak motor to be weak.
@@ -29,8 +30,10 @@ import sapien
 scene = sapien.Scene([sapien.physx.PhysxCpuSystem()])
 (slide,) = scene.create_urdf_loader().load("robot.urdf").active_joints
 found = {"damping": slide.damping, "friction": slide.friction, "effort": slide.force_limit}
-print("sapien", sapien.__version__, "file: damping 0.5, friction 3, effort 7")
+found["velocity"] = float(slide.max_velocity[0])
+print("sapien", sapien.__version__, "file: damping 0.5, friction 3, effort 7, velocity 2")
 print("  read:", ", ".join(f"{name} {value:.3g}" for name, value in found.items()))
-if abs(found["damping"] - 0.5) > 1e-6 or abs(found["friction"] - 0.05) > 1e-6 or found["effort"] < 1e30:
+as_told = abs(found["damping"] - 0.5) < 1e-6 and abs(found["friction"] - 0.05) < 1e-6
+if not as_told or found["effort"] < 1e30 or found["velocity"] != 100:
     raise SystemExit("changed: see above")
 PY

@@ -45,18 +45,20 @@ class World:
             bare = Path(folder) / path.name
             bare.write_text(without_visuals(path), encoding="utf-8")
             try:
-                self.body = loader.load(str(bare))
+                bodies, _ = loader.load_multiple(str(bare))
             except Exception as error:  # it passes on many types of errors of its parsers
                 raise InputError(f"SAPIEN cannot load {path}: {type(error).__name__}: {error}") from error
-        for link in self.body.links:
+        self.body: Any = next(iter(bodies), None)  # one link alone is none of SAPIEN's articulations
+        links = () if self.body is None else self.body.links
+        for link in links:
             link.disable_gravity = True
-        self.active = list(self.body.active_joints)
+        self.active = () if self.body is None else tuple(self.body.active_joints)
         self.limits = {j.name: _limits(j) for j in self.active}
         self.damping = [j.damping for j in self.active]  # of the file, in SAPIEN a drive without stiffness
         for joint in self.active:
             motor = motors[joint.name]
             joint.set_drive_properties(motor.stiffness, motor.damping, motor.effort, "force")
-        self.links = {link.name: link for link in self.body.links}
+        self.links = {link.name: link for link in links}
 
     def reset(self, positions: Float[np.ndarray, " n"]) -> None:
         self.body.set_qpos(positions)
