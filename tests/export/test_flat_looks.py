@@ -77,7 +77,7 @@ class Written:
         return material.ComputeSurfaceSource()[0] if material else None
 
     def prim(self, link: str = "base") -> Any:
-        return self.stage.GetPrimAtPath(f"/box/links/{link}/visual")
+        return self.stage.GetPrimAtPath(f"/box/links/{link}/{link}_visual")
 
     def picture(self, slot: str) -> Any:
         """Return the shader of a picture in USD."""

@@ -294,7 +294,7 @@ def test_usd(written):
             return Shown(count, pixels(file.read()), tuple(to_srgb(tuple(texture.GetInput("scale").Get())[:3])))
 
     for link, wanted in expected(model).items():
-        mesh = stage.GetPrimAtPath(f"/{model.asset.name}/links/{link}/visual")
+        mesh = stage.GetPrimAtPath(f"/{model.asset.name}/links/{link}/{link}_visual")
         subsets = UsdGeom.Subset.GetGeomSubsets(UsdGeom.Imageable(mesh))
         faces = len(UsdGeom.Mesh(mesh).GetFaceVertexCountsAttr().Get())
         shown = [look(s.GetPrim(), len(s.GetIndicesAttr().Get())) for s in subsets] or [look(mesh, faces)]
