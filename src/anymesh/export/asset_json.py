@@ -137,6 +137,7 @@ def _mechanism(m: Mechanism, formats: Sequence[Format]) -> dict[str, Any]:
     catches = bool(m.slope or m.torque)
     held = {Format.MJCF} if catches else {*Format} - {Format.URDF if m.stiffness else Format.GLB}
     values = {name: _round(value) for name, value in numbers.items() if value or (name == "reference" and m.stiffness)}
+    values |= {"steps": m.steps} if m.steps else {}
     return {"kind": str(m.kind), **values, "formats": [str(f) for f in formats if f in held], "reason": m.reason}
 
 

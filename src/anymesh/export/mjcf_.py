@@ -34,9 +34,9 @@ MJCF_SLOTS = ("base_color", "normal", "emissive")
 BLENDED = 0.99  # opacity below which MuJoCo blends, so that the alpha of a picture counts
 FIRM = {  # else hinges that friction holds creep by a degree per second, and springs press parts into their stops
     "solreflimit": "0.004 1",
-    "solimplimit": "0.99 0.999 0.001",
+    "solimplimit": "0.9999 0.9999 0.001",
     "solreffriction": "0.004 1",
-    "solimpfriction": "0.999 0.999 0.001",
+    "solimpfriction": "0.9999 0.9999 0.001",
 }
 CATCHES = 2  # group of the actuators that are catches and detents, which no command moves
 DRIVES = 1  # group of the actuators: `actuatorgroupdisable="1"` makes the asset passive

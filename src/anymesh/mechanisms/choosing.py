@@ -22,6 +22,7 @@ MARGIN = 1.3  # friction of a hinge that holds, over what it must hold
 EASY = 10.0  # [N at the handle] maximum friction of a hinge that holds without a spring
 PRELOAD, CLOSING = float(np.deg2rad(20)), 1.6  # [rad] of a closing spring when closed; [rad/s] natural frequency with its door
 REACH, RAMP = 0.03, 0.02  # [m at the handle] of a latch, and the end of it over which its force fades
+SNAPPING = 0.2  # [s] maximum damping of a toggle, over its force at its range
 STEPS = 12  # of a turn
 
 
@@ -205,7 +206,8 @@ class _Maker:
             if rest < held / 2:
                 m, held = replace(m, stiffness=k, reference=float(-offset / k)), rest
         r = self._rubbing(MARGIN * held, np.inf)
-        return replace(m, force=r.friction / self.lever), r
+        opens = -1.0 if self.low + self.high < 0 else 1.0
+        return replace(m, force=r.pull.typical - opens * m.stiffness * m.reference / self.lever), r
 
     def _rubbing(self, least: float, most: float) -> Resistance:
         """Return the resistance with friction between bounds, and the pull that follows."""
@@ -219,14 +221,15 @@ class _Maker:
 
     def _latched(self, m: Mechanism, force: float) -> tuple[Mechanism, Resistance]:
         width = min(RAMP / self.lever, self.span / 4)
-        held = min(self._pressing(force), STABLE * self.inertia * width)
+        held = max(min(self._pressing(force), STABLE * self.inertia * width), 2 * self.r.friction)
         m = replace(m, at=self.low + width * REACH / RAMP, slope=held / width, least=-held)
         return replace(m, force=(held + self._opening()) / self.lever), self.r
 
     def _toggled(self, m: Mechanism, force: float) -> tuple[Mechanism, Resistance]:
         most = max(self._pressing(force), 2 * self.r.friction)
         m = replace(m, at=(self.low + self.high) / 2, slope=8 * most / self.span, least=-most, most=most)
-        return replace(m, force=(most + self.r.friction) / self.lever), self.r
+        r = replace(self.r, damping=min(self.r.damping, SNAPPING * most / self.span))
+        return replace(m, force=(most + r.friction) / self.lever), r
 
     def _stepped(self, m: Mechanism, force: float) -> tuple[Mechanism, Resistance]:
         torque = min(force, 2 * self.r.friction)

@@ -179,7 +179,7 @@ def _add_mechanism(pxr: Any, prim: Any, m: Mechanism, per_unit: float) -> None:
     """
     kinds = pxr.Sdf.ValueTypeNames
     # without these, hinges creep that friction holds
-    firm = {"mjc:solreffriction": [0.004, 1.0], "mjc:solimpfriction": [0.999, 0.999, 0.001, 0.5, 2.0]}
+    firm = {"mjc:solreffriction": [0.004, 1.0], "mjc:solimpfriction": [0.9999, 0.9999, 0.001, 0.5, 2.0]}
     values: list[tuple[str, Any, Any]] = [
         (name, kinds.DoubleArray, value) for name, value in firm.items()
     ]  # else hinges creep that friction holds
