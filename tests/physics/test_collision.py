@@ -335,3 +335,16 @@ def test_lengths_are_small_shares_of_the_object_in_a_known_order() -> None:
     assert 0 < c.wall_most < 0.01
     assert len(c.gaps) == len(c.pieces) == 2
     assert c.pieces[0] < c.pieces[1]
+
+
+def test_a_link_that_touches_its_parent_on_its_way_is_tight_and_one_that_leaves_it_is_not() -> None:
+    """A dial turns on a plate, a lid opens from it; engines that test a link against its parent would brake the dial."""
+    asset = asset_of(
+        box((0, 0, 0), (1, 1, 0.1)), box((0.1, 0.4, 0.1), (0.3, 0.6, 0.2)), box((0.5, 0, 0.1), (1, 1, 0.15)),
+        joints=(
+            joint("turn", "continuous", "part_0", "part_1", (0.2, 0.5, 0.1), (0, 0, 1), None),
+            joint("lift", "revolute", "part_0", "part_2", (0.5, 0.5, 0.1), (0, -1, 0), (0.0, 1.5)),
+        ),
+    )  # fmt: skip
+    shapes = collision_shapes(asset, {k.name: k.triangles for k in split_links(asset)}, origins_of(asset))
+    assert shapes.tight == (("part_0", "part_1"),)

@@ -27,7 +27,7 @@ from anymesh.types import Asset, Hull, Joint, Mesh, Shape
 
 FOLDER = "meshes"
 OVERLAP = "their surfaces overlap at rest"
-TIGHT = "their collision shapes touch where the surfaces do not"
+TIGHT = "their collision shapes touch where the surfaces do not, or while one moves"
 WITHIN = 0.02  # of a joint's range: maximum steady-state error of a drive under its load
 
 

@@ -13,7 +13,8 @@ from jaxtyping import Float
 from anymesh.geometry.kinematics import carried_links, joint_transform, link_transforms
 from anymesh.geometry.simplify_ import simplify
 from anymesh.isolation import ChildPool, shared_pool
-from anymesh.physics.clear import ComponentShapes, ContactScene, LinkSurface, clear
+from anymesh.physics.clear import ComponentShapes, ContactScene, LinkSurface, clear, cross
+from anymesh.physics.contacts_ import ContactBench
 from anymesh.physics.convex import as_hull, engine_shape, fitted, hull_of, thinned
 from anymesh.physics.decompose import FACES, Component, Decomposer, Fallback, Resolution, smallest_box, split_components
 from anymesh.physics.openings import Openings, merged_hulls, openings_of
@@ -22,6 +23,7 @@ from anymesh.types import Asset, Joint, JointType, Shape
 
 MAX_CROSSING_FACES = 50_000  # faces of a link for tests of crossing surfaces
 MAX_POSES, MIN_POSES = 2000, 3  # sampled poses: maximum in all, minimum per joint
+RUBBING_POSES = 73  # of each joint, for touches between the sampled poses
 MIN_KEPT = 0.88  # share of the radius of openings; a link that keeps less is warned about
 MIN_COMPONENT_SIZE_RATIO = 0.3  # of the first gap: smaller components get no shape beside larger ones
 
@@ -52,9 +54,9 @@ class Collision:
     """Collision shapes per link, in its frame.
 
     overlapping: pairs of links whose surfaces cross at rest; false_before: number of pairs of shapes that touched at a sampled
-    pose although the surfaces do not, before trimming and refinement; tight: pairs of links that still have false contacts;
-    warnings: per link, deviations from the intended method, and why; openings: if shapes are limited, the mean share of the
-    radius of a link's openings that they leave free, for links with openings.
+    pose although the surfaces do not, before trimming and refinement; tight: pairs of links that still have false contacts, or
+    touch their parent on their way; warnings: per link, deviations from the intended method, and why; openings: if shapes are
+    limited, the mean share of the radius of a link's openings that they leave free, for links with openings.
     """
 
     shapes: Mapping[str, tuple[Shape, ...]]
@@ -136,7 +138,25 @@ def collision_shapes(
         for link, share in sorted(kept.items())
         if share < MIN_KEPT
     )
-    return Collision(link_shapes, scene.overlapping, done.before, done.left, (*warnings, *limits, *deadline.warnings()), kept)
+    rubs = set[tuple[str, str]]() if late() else _rubbing(asset, origins, link_shapes, scene)
+    tight = tuple(sorted({*done.left, *rubs} - {*scene.overlapping}))
+    return Collision(link_shapes, scene.overlapping, done.before, tight, (*warnings, *limits, *deadline.warnings()), kept)
+
+
+def _rubbing(
+    asset: Asset, origins: Mapping[str, np.ndarray], shapes: Mapping[str, tuple[Shape, ...]], scene: ContactScene
+) -> set[tuple[str, str]]:
+    """Return pairs of a link and its parent that touch on the way, also between sampled poses, while the surfaces do not."""
+    pairs = set()
+    for joint in (j for j in asset.joints if j.type is not JointType.FIXED):
+        a, b = sorted((joint.parent, joint.child))
+        bench = ContactBench({name: shapes[name] for name in (a, b)}, margin=scene.contact)
+        way = joint_poses(asset, origins, joint, RUBBING_POSES)[1:]  # rest is no place on the way
+        depths = [max((c.depth for c in bench.contacts(pose, -scene.contact)), default=-np.inf) for pose in way]
+        worst = way[int(np.argmax(depths))]
+        real = max(depths) > scene.crossing and cross(scene.surfaces[a], worst[a], scene.surfaces[b], worst[b], scene.crossing)
+        pairs |= set() if real or max(depths) == -np.inf else {(a, b)}
+    return pairs
 
 
 def _link_openings(parts: Sequence[Component], gap: float) -> Openings:

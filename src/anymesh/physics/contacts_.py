@@ -32,9 +32,14 @@ class Contact:
 
 
 class ContactBench:
-    """The shapes of all links, at any poses. All pairs of links may touch except those in `excluded`."""
+    """The shapes of all links, at any poses. All pairs of links may touch except those in `excluded`.
 
-    def __init__(self, shapes: Mapping[str, Sequence[Shape]], excluded: Sequence[tuple[str, str]] = ()) -> None:
+    margin: distance from which shapes count as touching, with a negative depth [m].
+    """
+
+    def __init__(
+        self, shapes: Mapping[str, Sequence[Shape]], excluded: Sequence[tuple[str, str]] = (), margin: float = 0.0
+    ) -> None:
         mujoco = load_mujoco()
         spec = mujoco.MjSpec()
         spec.memory = 1 << 28
@@ -47,6 +52,8 @@ class ContactBench:
             for number, shape in enumerate(some):
                 _add(mujoco, spec, body, f"{link} {number}", shape)
                 self._owner.append((link, number))
+        for geom in spec.geoms:
+            geom.margin = margin
         for a, b in excluded:
             spec.add_exclude(bodyname1=a, bodyname2=b)
         self._mujoco, self._model = mujoco, spec.compile()

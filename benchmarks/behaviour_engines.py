@@ -1,0 +1,428 @@
+"""One engine of `benchmarks.behaviour`, in a process and an environment of its own: how joints answer a hand, by position.
+
+python benchmarks/behaviour_engines.py ENGINE JOBS.json ANSWER.json
+
+Each engine reads the file that its users read, as it is; only what the engine does not take from the file is set by hand:
+
+- MuJoCo: the MJCF, nothing set.
+- Newton: the MJCF with `SolverMuJoCo`, whose attributes are registered before it is read.
+- SAPIEN: the URDF; a drive without stiffness whose force limit is the file's friction, and damping as a force of each step.
+- Drake: the URDF; an actuator per joint whose effort limit is the file's friction, with a velocity gain and no position gain.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import tempfile
+import traceback
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any, Protocol
+
+import numpy as np
+
+from anymesh.checking.engines.robot import Robot, read_urdf
+from anymesh.checking.engines.sapien_ import without_visuals
+
+DT = 0.004  # [s] step
+BRAKE = 1e5  # gain of the brakes that stand for dry friction, per N or N m of friction [s/m or s/rad]
+HELD = 1e6  # [N or N m] friction of a joint that is held
+REST_S, PULL_S, TILT_S, PUSH_S, CALM_S, WATCH_S = 0.5, 1.0, 4.0, 1.0, 2.0, 1.0  # [s]
+MOVED_M, MOVED_RAD = 0.002, 0.02  # motion of the handle, or of a joint that states a torque, that counts as moving
+HALVINGS = 8
+SLOPE = np.deg2rad(1.0)
+GRAVITY = 9.81
+FAR_M, FAR_RAD = 0.05, 0.3  # a push that is let go after this motion
+Positions = dict[str, float]
+
+
+class World(Protocol):
+    """An asset in an engine: its root is fixed, or free above a plane if the height of one is given."""
+
+    def reset(self, positions: Positions, held: frozenset[str]) -> None:
+        """Set the joints, at rest; joints that are not named are at 0. held: joints that do not move from now on."""
+
+    def step(self, link: str = "", force: np.ndarray | None = None, torque: np.ndarray | None = None) -> None:
+        """Advance by DT with a force at the link's handle and a torque about it [N, N m, axes of the world]."""
+
+    def positions(self) -> Positions: ...
+
+    def root(self) -> np.ndarray:
+        """Return the position of the root [m]."""
+
+
+class Mujoco:
+    def __init__(
+        self, folder: Path, robot: Robot, gravity: np.ndarray, handles: dict[str, np.ndarray], ground: float | None = None
+    ) -> None:
+        import mujoco
+
+        self.mujoco, self.handles = mujoco, handles
+        spec = mujoco.MjSpec.from_file(str(folder / f"{robot.name}.xml"))
+        if ground is not None:
+            spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=(0, 0, 1), pos=(0, 0, ground))
+        self.model = spec.compile()
+        self.model.opt.gravity[:], self.model.opt.timestep = gravity, DT
+        self.data, self.friction = mujoco.MjData(self.model), self.model.dof_frictionloss.copy()
+        self.top = self.model.body(robot.roots[0]).id
+        one = [k for k in range(self.model.njnt) if self.model.jnt_type[k] != mujoco.mjtJoint.mjJNT_FREE]
+        self.names = {self.model.joint(k).name: k for k in one}
+
+    def reset(self, positions: Positions, held: frozenset[str]) -> None:
+        self.mujoco.mj_resetData(self.model, self.data)
+        for name, at in positions.items():
+            self.data.joint(name).qpos = at
+        for name, k in self.names.items():
+            dof = self.model.jnt_dofadr[k]
+            self.model.dof_frictionloss[dof] = HELD if name in held else self.friction[dof]
+
+    def step(self, link: str = "", force: np.ndarray | None = None, torque: np.ndarray | None = None) -> None:
+        self.data.qfrc_applied[:] = 0
+        if link:
+            zero = np.zeros(3)
+            force, torque = zero if force is None else force, zero if torque is None else torque
+            self.mujoco.mj_applyFT(
+                self.model, self.data, force, torque, self.handles[link], self.model.body(link).id, self.data.qfrc_applied
+            )
+        self.mujoco.mj_step(self.model, self.data)
+
+    def positions(self) -> Positions:
+        return {name: float(self.data.qpos[self.model.jnt_qposadr[k]]) for name, k in self.names.items()}
+
+    def root(self) -> np.ndarray:
+        return self.data.xpos[self.top].copy()
+
+
+class Sapien:
+    def __init__(
+        self, folder: Path, robot: Robot, gravity: np.ndarray, handles: dict[str, np.ndarray], ground: float | None = None
+    ) -> None:
+        import sapien
+
+        config = sapien.physx.get_scene_config()
+        config.gravity = gravity
+        sapien.physx.set_scene_config(config)
+        physics = sapien.physx.PhysxCpuSystem()
+        self.scene = sapien.Scene([physics])
+        physics.timestep = DT
+        loader = self.scene.create_urdf_loader()
+        loader.fix_root_link = ground is None
+        if ground is not None:
+            self.scene.add_ground(ground, render=False)
+        with tempfile.TemporaryDirectory() as bare:
+            file = Path(bare) / robot.path.name
+            file.write_text(without_visuals(robot.path), encoding="utf-8")
+            self.body = loader.load(str(file))
+        self.links = {link.name: link for link in self.body.links}
+        self.joints = list(self.body.active_joints)
+        stated = {j.name: j for j in robot.moving}
+        self.stated = [stated[j.name] for j in self.joints]
+        self.damping = np.array([j.damping for j in self.stated])
+        self.handles = handles
+
+    def reset(self, positions: Positions, held: frozenset[str]) -> None:
+        at = np.array([positions.get(j.name, 0.0) for j in self.joints])
+        for joint, stated, q in zip(self.joints, self.stated, at, strict=True):
+            joint.set_friction(0.0)
+            if joint.name in held:
+                joint.set_drive_properties(HELD, HELD)
+                joint.set_drive_target(float(q))
+            else:
+                joint.set_drive_properties(0.0, BRAKE * max(stated.friction, 1e-9), stated.friction, "force")
+        self.body.set_qpos(at)
+        self.body.set_qvel(0 * at)
+
+    def step(self, link: str = "", force: np.ndarray | None = None, torque: np.ndarray | None = None) -> None:
+        self.body.set_qf(-self.damping * self.body.get_qvel())
+        if link and force is not None:
+            self.links[link].add_force_at_point(force, self.handles[link])
+        if link and torque is not None:
+            self.links[link].add_force_torque(np.zeros(3), torque)
+        self.scene.step()
+
+    def positions(self) -> Positions:
+        return dict(zip((j.name for j in self.joints), map(float, self.body.get_qpos()), strict=True))
+
+    def root(self) -> np.ndarray:
+        return np.array(self.body.root.entity_pose.p, float)
+
+
+class Drake:
+    def __init__(
+        self, folder: Path, robot: Robot, gravity: np.ndarray, handles: dict[str, np.ndarray], ground: float | None = None
+    ) -> None:
+        import pydrake.all as drake
+
+        builder = drake.DiagramBuilder()
+        plant, _ = drake.AddMultibodyPlantSceneGraph(builder, time_step=DT)
+        (model,) = drake.Parser(plant).AddModels(str(robot.path))
+        self.top = plant.GetBodyByName(robot.roots[0], model)
+        if ground is None:
+            plant.WeldFrames(plant.world_frame(), self.top.body_frame())
+        else:
+            place = drake.RigidTransform(np.array([0, 0, ground]))
+            plant.RegisterCollisionGeometry(plant.world_body(), place, drake.HalfSpace(), "floor", drake.CoulombFriction(1, 1))
+        plant.mutable_gravity_field().set_gravity_vector(gravity)
+        for joint in robot.moving:
+            brake = plant.AddJointActuator(
+                f"{joint.name}_friction", plant.GetJointByName(joint.name), max(joint.friction, 1e-9)
+            )
+            brake.set_controller_gains(drake.PdControllerGains(p=0.0, d=BRAKE * max(joint.friction, 1e-9)))
+        plant.Finalize()
+        self.drake, self.plant, self.model, self.handles = drake, plant, model, handles
+        self.joints = {j.name: plant.GetJointByName(j.name) for j in robot.moving}
+        self.diagram = builder.Build()
+
+    def reset(self, positions: Positions, held: frozenset[str]) -> None:
+        self.simulator = self.drake.Simulator(self.diagram)
+        self.context = self.plant.GetMyMutableContextFromRoot(self.simulator.get_mutable_context())
+        for name, joint in self.joints.items():
+            self.plant.SetPositions(self.context, self._placed(joint, positions.get(name, 0.0)))
+        for name in held:
+            self.joints[name].Lock(self.context)
+        still = np.zeros(2 * self.plant.num_actuators(self.model))
+        self.plant.get_desired_state_input_port(self.model).FixValue(self.context, still)
+        self.simulator.Initialize()
+        self.time = 0.0
+
+    def _placed(self, joint: Any, at: float) -> np.ndarray:
+        q = self.plant.GetPositions(self.context).copy()
+        q[joint.position_start()] = at
+        return q
+
+    def step(self, link: str = "", force: np.ndarray | None = None, torque: np.ndarray | None = None) -> None:
+        forces = []
+        if link:
+            applied = self.drake.ExternallyAppliedSpatialForce()
+            body = self.plant.GetBodyByName(link, self.model)
+            applied.body_index = body.index()
+            pose = self.plant.EvalBodyPoseInWorld(self.context, body)
+            applied.p_BoBq_B = pose.inverse().multiply(self.handles[link])
+            zero = np.zeros(3)
+            applied.F_Bq_W = self.drake.SpatialForce(zero if torque is None else torque, zero if force is None else force)
+            forces = [applied]
+        self.plant.get_applied_spatial_force_input_port().FixValue(
+            self.context, self.drake.Value[list[self.drake.ExternallyAppliedSpatialForce]](forces)
+        )
+        self.time += DT
+        self.simulator.AdvanceTo(self.time)
+
+    def positions(self) -> Positions:
+        q = self.plant.GetPositions(self.context)
+        return {name: float(q[joint.position_start()]) for name, joint in self.joints.items()}
+
+    def root(self) -> np.ndarray:
+        return self.plant.EvalBodyPoseInWorld(self.context, self.top).translation()
+
+
+class Newton:
+    def __init__(
+        self, folder: Path, robot: Robot, gravity: np.ndarray, handles: dict[str, np.ndarray], ground: float | None = None
+    ) -> None:
+        import newton
+        import warp
+
+        warp.config.quiet = True
+        builder = newton.ModelBuilder(gravity=tuple(gravity.tolist()))
+        newton.solvers.SolverMuJoCo.register_custom_attributes(builder)
+        builder.add_mjcf(str(folder / f"{robot.name}.xml"), parse_visuals=False)
+        if ground is not None:
+            builder.add_ground_plane(ground)
+        self.last = [label.rsplit("/", 1)[-1] for label in builder.joint_label]
+        self.q = {n: builder.joint_q_start[k] for k, n in enumerate(self.last) if n in {j.name for j in robot.moving}}
+        self.dof = {n: builder.joint_qd_start[k] for k, n in enumerate(self.last) if n in self.q}
+        self.bodies = {label.rsplit("/", 1)[-1]: k for k, label in enumerate(builder.body_label)}
+        self.newton, self.model, self.handles = newton, builder.finalize(device="cpu"), handles
+        self.top, self.free = self.bodies[robot.roots[0]], ground is not None
+        self.solver = newton.solvers.SolverMuJoCo(self.model, use_mujoco_cpu=True)
+        self.control, self.friction = self.model.control(), self.model.joint_friction.numpy().copy()
+        self.center = self.model.body_com.numpy()
+
+    def reset(self, positions: Positions, held: frozenset[str]) -> None:
+        self.now, self.next = self.model.state(), self.model.state()
+        q = np.zeros(self.now.joint_q.shape, np.float32)
+        for name, at in positions.items():
+            q[self.q[name]] = at
+        if self.free:
+            q[6] = 1.0  # the root's quaternion (x, y, z, w)
+        friction = self.friction.copy()
+        for name in held:
+            friction[self.dof[name]] = HELD
+        self.model.joint_friction.assign(friction)
+        self.solver.notify_model_changed(self.newton.ModelFlags.JOINT_DOF_PROPERTIES)
+        for state in (self.now, self.next):
+            state.joint_q.assign(q)
+            state.joint_qd.zero_()
+            self.newton.eval_fk(self.model, state.joint_q, state.joint_qd, state)
+
+    def step(self, link: str = "", force: np.ndarray | None = None, torque: np.ndarray | None = None) -> None:
+        wrench = np.zeros(self.now.body_f.numpy().shape, np.float32)
+        if link:
+            k = self.bodies[link]
+            row = self.now.body_q.numpy()[k].astype(float)
+            u, w = row[3:6], row[6]
+            c = self.center[k].astype(float)
+            center = row[:3] + c + 2 * np.cross(u, np.cross(u, c) + w * c)
+            turn = np.zeros(3) if torque is None else torque
+            push = np.zeros(3) if force is None else force
+            wrench[k] = np.r_[push, turn + np.cross(self.handles[link] - center, push)]
+        self.now.body_f.assign(wrench)
+        self.solver.step(self.now, self.next, self.control, None, DT)
+        self.now, self.next = self.next, self.now
+
+    def positions(self) -> Positions:
+        q = self.now.joint_q.numpy()
+        return {name: float(q[k]) for name, k in self.q.items()}
+
+    def root(self) -> np.ndarray:
+        return self.now.body_q.numpy()[self.top][:3].astype(float)
+
+
+ENGINES = {"mujoco": Mujoco, "sapien": Sapien, "drake": Drake, "newton": Newton}
+
+
+class Hand:
+    """Measures the joints of one asset in one engine. joints: records of asset.json with `opened`, joints that must be open."""
+
+    def __init__(self, engine: str, folder: Path, robot: Robot, joints: list[dict[str, Any]]) -> None:
+        self.engine, self.folder, self.robot, self.joints = ENGINES[engine], folder, robot, {j["name"]: j for j in joints}
+        self.handles = {j["child"]: np.array(j["pull"]["at"]) for j in joints}
+        self.world: World = self.engine(folder, robot, np.array([0, 0, -GRAVITY]), self.handles)
+
+    def step(self, joint: dict[str, Any], amount: float) -> None:
+        """Advance with a pull of an amount [N or N m] in the stated direction."""
+        vector = amount * np.array(joint["pull"]["direction"])
+        if joint["pull"]["unit"] == "N":
+            self.world.step(joint["child"], force=vector)
+        else:
+            self.world.step(joint["child"], torque=vector)
+
+    def motion(self, joint: dict[str, Any], change: float) -> float:
+        """Return the motion of the handle, relative to what counts as moving."""
+        if joint["pull"]["unit"] != "N" or joint["type"] != "prismatic":
+            arm = np.linalg.norm(np.cross(joint["axis"], np.subtract(joint["pull"]["at"], joint["origin"])))
+            return change / MOVED_RAD if joint["pull"]["unit"] != "N" else change * max(float(arm), 1e-3) / MOVED_M
+        return change / MOVED_M
+
+    def opened(self, joint: dict[str, Any]) -> Positions:
+        """Return the positions of the joints that must be open for this one to move."""
+        return {o: self.joints[o]["limits"][1] if self.joints[o]["limits"] else 0.0 for o in joint["opened"]}
+
+    def begins(self, joint: dict[str, Any]) -> dict[str, Any]:
+        """Find the least pull that moves the handle within PULL_S from rest, by halving between two pulls."""
+        name, pull = joint["name"], joint["pull"]
+        others = frozenset(self.joints) - {name}
+        self.world.reset(self.opened(joint), others)
+        for _ in range(round(REST_S / DT)):
+            self.world.step()
+        rest = self.world.positions()
+        sank = self.motion(joint, abs(rest[name]))
+
+        def moves(amount: float) -> bool:
+            self.world.reset(rest, others)
+            for _ in range(round(PULL_S / DT)):
+                self.step(joint, amount)
+                if self.motion(joint, abs(self.world.positions()[name] - rest[name])) > 1:
+                    return True
+            return False
+
+        low, high = 0.5 * min(pull["least"], pull["typical"]), 2 * max(pull["most"], pull["typical"])
+        low = max(low, 0.0)
+        if moves(low):
+            return {"begins": low, "bound": "below", "sank": sank}
+        if not moves(high):
+            return {"begins": high, "bound": "above", "sank": sank}
+        for _ in range(HALVINGS):
+            middle = float(np.sqrt(low * high)) if low > 0 else high / 2
+            low, high = (low, middle) if moves(middle) else (middle, high)
+        return {"begins": float((low + high) / 2), "bound": "", "sank": sank}
+
+    def settles(self, joint: dict[str, Any]) -> dict[str, Any]:
+        """Push a joint open, let go, and watch whether it swings back and forth after CALM_S."""
+        name, pull = joint["name"], joint["pull"]
+        self.world.reset(self.opened(joint), frozenset(self.joints) - {name})
+        amount = 1.5 * max(pull["typical"], pull["most"], 1e-3)
+        far = FAR_RAD if joint["type"] != "prismatic" else FAR_M
+        for _ in range(round(PUSH_S / DT)):
+            self.step(joint, amount)
+            if abs(self.world.positions()[name]) > far:
+                break
+        at = []
+        for k in range(round((CALM_S + WATCH_S) / DT)):
+            self.world.step()
+            if k * DT >= CALM_S:
+                at.append(self.world.positions()[name])
+        return {"swing": self.motion(joint, _swing(np.array(at))), "ends": at[-1]}
+
+    def holds(self, joint: dict[str, Any], at: float) -> float:
+        """Return how far a joint moves within CALM_S from a position [rad or m]."""
+        self.world.reset(self.opened(joint) | {joint["name"]: at}, frozenset(self.joints) - {joint["name"]})
+        for _ in range(round(CALM_S / DT)):
+            self.world.step()
+        return self.world.positions()[joint["name"]] - at
+
+    def tilted(self) -> Positions:
+        """Return the largest motion of each handle on ground that slopes by one degree, of four directions."""
+        worst = dict.fromkeys(self.joints, 0.0)
+        for angle in np.arange(4) * np.pi / 2:
+            down = np.array([np.cos(angle) * np.sin(SLOPE), np.sin(angle) * np.sin(SLOPE), -np.cos(SLOPE)])
+            world: World = self.engine(self.folder, self.robot, GRAVITY * down, self.handles)
+            world.reset({}, frozenset())
+            for _ in range(round(TILT_S / DT)):
+                world.step()
+            for name, at in world.positions().items():
+                worst[name] = max(worst[name], self.motion(self.joints[name], abs(at)))
+        return worst
+
+
+def _swing(at: np.ndarray) -> float:
+    """Return the smaller way of the two, forth and back, of a path: 0 if it goes one way or stands."""
+    steps = np.diff(at)
+    return float(min(steps[steps > 0].sum(), -steps[steps < 0].sum()))
+
+
+def rolls(engine: str, job: dict[str, Any]) -> dict[str, Any]:
+    """Return how far a car rolls down a slope of 30 degrees in 2 s [m]. job: its folder, `ground`, and `down` the slope."""
+    folder = Path(job["folder"])
+    record = json.loads((folder / "asset.json").read_text(encoding="utf-8"))
+    slope = GRAVITY * (0.5 * np.array(job["down"]) + np.sqrt(0.75) * np.array([0, 0, -1]))
+    robot = read_urdf(folder / f"{record['name']}.urdf")
+    world: World = ENGINES[engine](folder, robot, slope, {}, job["ground"])
+    world.reset({}, frozenset())
+    world.step()
+    start = world.root()
+    for _ in range(round(2.0 / DT)):
+        world.step()
+    return {"rolled": float((world.root() - start) @ job["down"])}
+
+
+def measure(engine: str, job: dict[str, Any]) -> dict[str, Any]:
+    """Measure one asset. job: folder, joints as in asset.json, each with `opened`."""
+    folder = Path(job["folder"])
+    record = json.loads((folder / "asset.json").read_text(encoding="utf-8"))
+    robot = read_urdf(folder / f"{record['name']}.urdf")
+    hand = Hand(engine, folder, robot, job["joints"])
+    answer: dict[str, Any] = {"tilted": hand.tilted()}
+    for name, joint in hand.joints.items():
+        answer[name] = hand.begins(joint) | hand.settles(joint)
+        held = [np.deg2rad(60), *([] if joint["limits"] is None else [joint["limits"][1] / 2])]
+        answer[name]["holds"] = hand.holds(joint, float(min(held))) if joint["type"] == "revolute" else None
+    return answer
+
+
+def main() -> None:
+    engine, jobs, file = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
+    answers: dict[str, Any] = {"version": f"{engine} {version(engine)}"}
+    for job in json.loads(jobs.read_text(encoding="utf-8")):
+        try:
+            answers[job["name"]] = rolls(engine, job) if "down" in job else measure(engine, job)
+        except Exception:  # one asset's failure is a result
+            answers[job["name"]] = {"error": traceback.format_exc(limit=3)[-400:]}
+        file.with_suffix(".part").write_text(json.dumps(answers), encoding="utf-8")
+        print(engine, job["name"], flush=True)
+    file.write_text(json.dumps(answers), encoding="utf-8")
+
+
+if __name__ == "__main__":
+    main()
