@@ -30,7 +30,7 @@ import sapien
 scene = sapien.Scene([sapien.physx.PhysxCpuSystem()])
 (slide,) = scene.create_urdf_loader().load("robot.urdf").active_joints
 found = {"damping": slide.damping, "friction": slide.friction, "effort": slide.force_limit}
-found["velocity"] = float(slide.max_velocity[0])
+found["velocity"] = slide.max_velocity
 print("sapien", sapien.__version__, "file: damping 0.5, friction 3, effort 7, velocity 2")
 print("  read:", ", ".join(f"{name} {value:.3g}" for name, value in found.items()))
 as_told = abs(found["damping"] - 0.5) < 1e-6 and abs(found["friction"] - 0.05) < 1e-6
