@@ -1,0 +1,1 @@
+"""What simulators, viewers and validators hold of our files, compared with asset.json by number."""
