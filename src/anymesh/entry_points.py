@@ -36,9 +36,10 @@ DAE_FRAME = "formats.dae.document:dae_frame"
 LOAD_ZIPPED = "formats.zipped:load_zipped"
 REMEDY = "formats.reading:remedy"
 
-# The writer of USD, which has a package of its own, and the physics of glTF.
+# The writer of USD, which has a package of its own, the visuals of DAE, and the physics of glTF.
 WRITE_USD = "openusd.writer_:write_usd"
 LOAD_USD = "openusd.writer_:load_usd"
+WRITE_DAE = "formats.dae.writing:write_dae"
 GLTF_PHYSICS = "formats.gltf.physics:add_physics"
 
 # Springs, catches and detents of joints.

@@ -21,9 +21,9 @@ from anymesh.export import write_asset
 from anymesh.export.asset_json import schema
 from anymesh.export.formats import write_formats
 from anymesh.export.links import split_links, unique_rows
-from anymesh.export.options import DEFAULT, Base
+from anymesh.export.options import DEFAULT, Base, ExportOptions
 from anymesh.export.package import check_zip, write_package, write_zip
-from anymesh.types import Asset, Part, Segmentation
+from anymesh.types import Asset, Hull, Part, Segmentation
 
 SHARED = Path(__file__).parents[3] / "shared" / "check_contract.py"
 
@@ -103,6 +103,20 @@ def test_the_same_asset_gives_the_same_bytes(tmp_path):
         files = sorted(p for p in (tmp_path / run).rglob("*") if p.is_file())
         contents.append({p.relative_to(tmp_path / run): p.read_bytes() for p in files})
     assert contents[0] == contents[1]
+
+
+def test_visuals_are_dae_and_all_shapes_hulls_on_request(tmp_path):
+    how = ExportOptions.parse({"visuals": "dae", "shapes": "hulls"})
+    model = write_asset(cabinet(), tmp_path, how)
+    record = json.loads((tmp_path / "asset.json").read_text())
+    jsonschema.validate(record, schema())
+    assert (record["visuals"], record["shapes"]) == ("dae", "hulls")
+    assert ExportOptions.parse({}, before=record) == how
+    assert all(isinstance(shape, Hull) for body in model.bodies for shape in body.shapes)
+    assert {path for body in model.bodies for path in body.hull_paths()} <= {
+        f"meshes/{p.name}" for p in tmp_path.glob("meshes/*")
+    }
+    assert (tmp_path / "meshes" / "door.dae").exists()
 
 
 def test_odd_names_become_legal_everywhere(tmp_path):

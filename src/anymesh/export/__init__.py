@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from anymesh.entry_points import WRITE_TRANSCRIPT, resolve
+from anymesh.entry_points import WRITE_DAE, WRITE_TRANSCRIPT, resolve
 from anymesh.export.asset_json import TIMING_FILE, asset_record, json_text
 from anymesh.export.formats import load_libraries, write_formats
 from anymesh.export.meshes import write_meshes
 from anymesh.export.model import ExportConfig, Model, build_model
-from anymesh.export.options import Base, Driven, ExportOptions, Format, parse_formats
+from anymesh.export.options import Base, Driven, ExportOptions, Format, Visuals, parse_formats
 from anymesh.runtime import Deadline
 from anymesh.types import Asset
 
@@ -36,6 +36,8 @@ def write_asset(
     """
     model = build_model(asset, how, config=config, cache=cache, deadline=deadline)
     write_meshes(model, folder, config)
+    if how.visuals is Visuals.DAE:
+        resolve(WRITE_DAE)(model, folder, config)
     write_formats(model, folder, how.formats, config)
     if asset.exchanges:
         resolve(WRITE_TRANSCRIPT)(asset.exchanges, folder / TRANSCRIPT)

@@ -16,9 +16,10 @@ from jaxtyping import Int
 from anymesh.entry_points import CHOOSE_MECHANISMS, resolve
 from anymesh.export.flat_looks import losses, tiled, tinted, with_materials
 from anymesh.export.links import Link, split_links, with_legal_names
-from anymesh.export.options import Driven, ExportOptions
+from anymesh.export.options import Driven, ExportOptions, Shapes, Visuals
 from anymesh.geometry.surface import plain_triangles
 from anymesh.physics.collision import CollisionConfig, collision_shapes
+from anymesh.physics.convex import as_hull
 from anymesh.physics.inertia import Inertia, InertiaConfig, Substance, link_inertia, substance_of
 from anymesh.physics.mechanism import Mechanism
 from anymesh.physics.resistance import Resistance, resistances
@@ -47,9 +48,9 @@ class ExportLink:
     def name(self) -> str:
         return self.link.name
 
-    def visual_path(self) -> str:
+    def visual_path(self, kind: Visuals = Visuals.OBJ) -> str:
         """Return the path relative to the asset folder, with forward slashes."""
-        return f"{FOLDER}/{self.name}.obj"
+        return f"{FOLDER}/{self.name}.{kind}"
 
     def faces_path(self) -> str:
         """Return the path of the link's face indices in the source (an int64 .npy), relative to the asset folder."""
@@ -157,7 +158,7 @@ def build_model(
         ExportLink(
             link,
             link_inertia(triangles[link.name], config, _made_of(asset.mesh, link, plain[link.name][1])),
-            collision.shapes[link.name],
+            tuple(map(as_hull, collision.shapes[link.name])) if how.shapes is Shapes.HULLS else collision.shapes[link.name],
             collision.openings.get(link.name),
         )
         for link in links

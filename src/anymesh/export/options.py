@@ -25,6 +25,20 @@ class Driven(StrEnum):
     POSITION = "position"
 
 
+class Visuals(StrEnum):
+    """Format of the visual meshes that URDF and SDFormat refer to."""
+
+    OBJ = "obj"
+    DAE = "dae"
+
+
+class Shapes(StrEnum):
+    """Whether collision shapes may be boxes and cylinders, or are convex meshes alone."""
+
+    PRIMITIVES = "primitives"
+    HULLS = "hulls"
+
+
 class Format(StrEnum):
     """Names of the formats, as used in options."""
 
@@ -36,7 +50,9 @@ class Format(StrEnum):
 
 
 DEFAULT = (Format.URDF, Format.MJCF, Format.SDF, Format.GLB)
-CHOICES: Mapping[str, type[StrEnum]] = {"base": Base, "drives": Driven}  # options whose values are words
+CHOICES: Mapping[str, type[StrEnum]] = {  # options whose values are words
+    "base": Base, "drives": Driven, "visuals": Visuals, "shapes": Shapes,
+}  # fmt: skip
 
 
 def parse_formats(text: str) -> tuple[Format, ...]:
@@ -61,6 +77,8 @@ class ExportOptions:
     drives: Driven = Driven.PASSIVE
     hulls: int | None = None
     mechanisms: str = "auto"
+    visuals: Visuals = Visuals.OBJ
+    shapes: Shapes = Shapes.PRIMITIVES
 
     @classmethod
     def parse(cls, given: Mapping[str, Any], *, before: Mapping[str, Any] | None = None) -> ExportOptions:
@@ -80,9 +98,9 @@ class ExportOptions:
         return cls.parse({**kept, "formats": ",".join(formats)})
 
     def record(self) -> dict[str, Any]:
-        """Return the values for asset.json but the formats, which its files show; others than words only if not the default."""
+        """Return the values for asset.json but the formats, which its files show; most only if they are not the default."""
         values = {f.name: (getattr(self, f.name), f.default) for f in fields(self) if f.name != "formats"}
-        return {k: str(v) if k in CHOICES else v for k, (v, usual) in values.items() if k in CHOICES or v != usual}
+        return {k: str(v) if k in CHOICES else v for k, (v, usual) in values.items() if k in ("base", "drives") or v != usual}
 
     def with_formats(self, others: tuple[Format, ...]) -> ExportOptions:
         """Return the options with further formats."""

@@ -25,7 +25,7 @@ find_package(ament_cmake REQUIRED)
 install(DIRECTORY urdf meshes DESTINATION share/${{PROJECT_NAME}})
 ament_package()
 """
-SUFFIXES = {".obj", ".mtl", ".png", ".jpg"}  # files used by a URDF's meshes; face indices are left out
+SUFFIXES = {".obj", ".mtl", ".dae", ".png", ".jpg"}  # files used by a URDF's meshes; face indices are left out
 EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date that a zip can hold
 PLAIN_FILE = 0o100644 << 16  # a file readable by all and writable by its owner
 

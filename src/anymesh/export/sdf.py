@@ -50,7 +50,8 @@ def sdf_text(model: Model) -> str:
     _leaf(element, "self_collide", "true" if _only_neighbours_excluded(model) else "false")
     origins = {link.name: link.origin for link in model.links}
     for body in model.bodies:
-        _add_link(element, asset.mesh, body, origins)
+        link = _add_link(element, body, origins)
+        _add_visual(link, asset.mesh, body, body.visual_path(model.how.visuals))
     names = joint_names(model)
     if model.how.base is Base.FIXED:
         fixed = ElementTree.SubElement(element, "joint", name=legal_names([*origins, *names.values(), "fixed_base"])[-1])
@@ -84,7 +85,7 @@ def _leaf(parent: ElementTree.Element, tag: str, text: str) -> ElementTree.Eleme
     return element
 
 
-def _add_link(model: ElementTree.Element, mesh: Mesh, body: ExportLink, origins: Mapping[str, np.ndarray]) -> None:
+def _add_link(model: ElementTree.Element, body: ExportLink, origins: Mapping[str, np.ndarray]) -> ElementTree.Element:
     element = ElementTree.SubElement(model, "link", name=body.name)
     joint = body.link.joint
     if joint is not None:
@@ -96,18 +97,18 @@ def _add_link(model: ElementTree.Element, mesh: Mesh, body: ExportLink, origins:
     tensor = ElementTree.SubElement(inertial, "inertia")
     for key, value in moments(body.inertia.tensor).items():
         _leaf(tensor, key, value)
-    _add_visual(element, mesh, body)
     for index, (shape, path) in enumerate(zip(body.shapes, body.hull_paths(), strict=True)):
         collision = ElementTree.SubElement(element, "collision", name=f"collision_{index}")
         if not isinstance(shape, Hull):
             _leaf(collision, "pose", _pose(shape.center, shape.rotation))
         _add_shape(ElementTree.SubElement(collision, "geometry"), shape, path)
+    return element
 
 
-def _add_visual(link: ElementTree.Element, mesh: Mesh, body: ExportLink) -> None:
-    """Add the visual OBJ with the materials of its MTL, or a colour if it has none."""
+def _add_visual(link: ElementTree.Element, mesh: Mesh, body: ExportLink, path: str) -> None:
+    """Add the visual mesh with its own materials, or a colour if it has none."""
     visual = ElementTree.SubElement(link, "visual", name="visual")
-    _leaf(ElementTree.SubElement(ElementTree.SubElement(visual, "geometry"), "mesh"), "uri", body.visual_path())
+    _leaf(ElementTree.SubElement(ElementTree.SubElement(visual, "geometry"), "mesh"), "uri", path)
     if all(painted(mesh, p) for p in body.link.primitives):
         color = " ".join(f"{c:.6g}" for c in display_color(mesh, widest(body.link)))
         material = ElementTree.SubElement(visual, "material")

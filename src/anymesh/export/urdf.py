@@ -12,7 +12,7 @@ from anymesh.export.links import Link
 from anymesh.export.meshes import display_color, material_names, painted, widest
 from anymesh.export.model import ExportLink, Model, drives
 from anymesh.export.notation import DRAKE, document, moments, number, rpy, vector
-from anymesh.export.options import Driven
+from anymesh.export.options import Driven, Visuals
 from anymesh.physics.resistance import Resistance
 from anymesh.types import Box, Cylinder, Hull, Joint, Mesh, Shape
 
@@ -29,11 +29,12 @@ def urdf_text(model: Model) -> str:
     model = model.tiled
     asset = model.asset
     robot = ElementTree.Element("robot", name=asset.name)
-    ElementTree.SubElement(ElementTree.SubElement(robot, "mujoco"), "compiler", MUJOCO)
+    seen = {} if model.how.visuals is Visuals.OBJ else {"discardvisual": "true"}  # MuJoCo does not read others
+    ElementTree.SubElement(ElementTree.SubElement(robot, "mujoco"), "compiler", MUJOCO | seen)
     names = material_names(asset.mesh.materials)
     origins = {link.name: link.origin for link in model.links}
     for body in model.bodies:
-        _add_link(robot, body, _appearance(asset.mesh, body.link, names))
+        _add_link(robot, body, body.visual_path(model.how.visuals), _appearance(asset.mesh, body.link, names))
     for joint in asset.joints:
         _add_joint(robot, joint, origins, model.resistances.get(joint.name))
     for name, m in model.mechanisms.items():
@@ -54,7 +55,7 @@ def _appearance(mesh: Mesh, link: Link, names: Sequence[str]) -> tuple[str, tupl
     return names[most.material], display_color(mesh, most)
 
 
-def _add_link(robot: ElementTree.Element, body: ExportLink, look: tuple[str, tuple[float, ...]]) -> None:
+def _add_link(robot: ElementTree.Element, body: ExportLink, visual_path: str, look: tuple[str, tuple[float, ...]]) -> None:
     sub = ElementTree.SubElement
     element = sub(robot, "link", name=body.name)
     inertial = sub(element, "inertial")
@@ -63,7 +64,7 @@ def _add_link(robot: ElementTree.Element, body: ExportLink, look: tuple[str, tup
     sub(inertial, "inertia", moments(body.inertia.tensor))
     visual = sub(element, "visual")
     sub(visual, "origin", xyz="0 0 0", rpy="0 0 0")
-    sub(sub(visual, "geometry"), "mesh", filename=body.visual_path())
+    sub(sub(visual, "geometry"), "mesh", filename=visual_path)
     name, color = look
     sub(sub(visual, "material", name=name), "color", rgba=" ".join(f"{c:.6g}" for c in color))
     for shape, path in zip(body.shapes, body.hull_paths(), strict=True):

@@ -104,7 +104,7 @@ def rgba(values: np.ndarray) -> UInt8[np.ndarray, "n 4"]:
     return values if values.shape[1] == 4 else np.c_[values[:, :3], np.full(len(values), 255, np.uint8)]
 
 
-def unit(normals: np.ndarray) -> Float32[np.ndarray, "n 3"] | None:
+def unit(normals: np.ndarray) -> Float32[np.ndarray, "*n 3"] | None:
     """Return normals of length 1, zero where there is none or it is not finite; None if all are so."""
     normals = np.asarray(normals, np.float64)
     length = np.linalg.norm(normals, axis=-1, keepdims=True)

@@ -208,6 +208,10 @@ class FormatOptions:
     mechanisms: str | None = _option(
         None, "auto (usual: the sure ones), off, all, or LABEL=KIND,...: springs, catches and detents of joints.", kind=str
     )
+    visuals: str | None = _option(None, "Visual meshes of URDF and SDF: obj (usual) or dae, which web viewers read.", kind=str)
+    shapes: str | None = _option(
+        None, "Collision shapes: primitives (usual), or hulls: boxes and cylinders as convex meshes too, for MJX.", kind=str
+    )
 
 
 class Writing(TypedDict, total=False):
@@ -218,6 +222,8 @@ class Writing(TypedDict, total=False):
     drives: str | None
     hulls: int | None
     mechanisms: str | None
+    visuals: str | None
+    shapes: str | None
 
 
 class MakingOptions(Answering, Writing):
