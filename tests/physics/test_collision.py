@@ -91,12 +91,27 @@ def test_links_overlap_if_they_penetrate_by_three_thousandths_of_the_diagonal(
     upper = box((0.4, 0.05, 1 - share * size), (0.6, 0.3, 2))  # beside the diagonals of the top
     slide = joint("slide", "prismatic", "part_0", "part_1", (0, 0, 0), (0, 0, 1), (0.0, 0.1 * scale))
     pieces = [(v * scale, f) for v, f in (box((0, 0, 0), (1, 1, 1)), upper)]
-    found = made(asset_of(*pieces, joints=[slide]))
+    found = made(asset_of(*pieces, joints=[slide]), rest_gap=0.0)
     assert found.overlapping == ((("part_0", "part_1"),) if overlap else ())
     assert found.false_before == (0 if overlap else 1)
     assert found.tight == ()
     total = sum(float(np.ptp(as_hull(s).vertices[:, 2])) for some in found.shapes.values() for s in some)
     assert total == pytest.approx((2 + (share * size if overlap else 0)) * scale, abs=1e-3 * scale)
+
+
+@pytest.mark.parametrize(("scale", "gap"), [(0.1, 0.002 * 0.1 * np.sqrt(6)), (1.0, 0.002)])
+@pytest.mark.parametrize("deep", [-0.0001, 0.0, 0.2])
+def test_at_rest_shapes_keep_a_gap_whatever_their_surfaces_do(scale: float, gap: float, deep: float) -> None:
+    upper = box((0.4, 0.05, 1 - deep), (0.6, 0.3, 2))
+    slide = joint("slide", "prismatic", "part_0", "part_1", (0, 0, 0), (0, 0, 1), (0.0, 0.1 * scale))
+    asset = asset_of(*((v * scale, f) for v, f in (box((0, 0, 0), (1, 1, 1)), upper)), joints=[slide])
+    found = made(asset)
+    assert found.overlapping == ((("part_0", "part_1"),) if deep > 0 else ())
+    (low,), (high,) = (found.shapes[name] for name in ("part_0", "part_1"))
+    assert isinstance(low, Box)
+    assert isinstance(high, Box)
+    between = as_hull(high).vertices[:, 2].min() - as_hull(low).vertices[:, 2].max()
+    assert 0.99 * gap < between < 1.15 * gap
 
 
 def test_a_link_without_surface_gets_the_smallest_box() -> None:
@@ -346,5 +361,6 @@ def test_a_link_that_touches_its_parent_on_its_way_is_tight_and_one_that_leaves_
             joint("lift", "revolute", "part_0", "part_2", (0.5, 0.5, 0.1), (0, -1, 0), (0.0, 1.5)),
         ),
     )  # fmt: skip
-    shapes = collision_shapes(asset, {k.name: k.triangles for k in split_links(asset)}, origins_of(asset))
-    assert shapes.tight == (("part_0", "part_1"),)
+    surfaces, origins = {k.name: k.triangles for k in split_links(asset)}, origins_of(asset)
+    assert collision_shapes(asset, surfaces, origins, CollisionConfig(rest_gap=0.0)).tight == (("part_0", "part_1"),)
+    assert collision_shapes(asset, surfaces, origins).tight == ()  # the gap at rest keeps it free

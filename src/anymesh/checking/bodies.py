@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from hashlib import blake2b
 
 import numpy as np
@@ -10,7 +10,8 @@ from jaxtyping import Bool, Float
 from scipy.spatial import ConvexHull, QhullError
 
 from anymesh.checking.content import Content, joined, rigid_groups, siblings
-from anymesh.checking.engines.robot import Inertial, RobotLink
+from anymesh.checking.engines.rest_ import Rest
+from anymesh.checking.engines.robot import Inertial, Robot, RobotLink
 from anymesh.checking.report import Finding, failure, warning
 from anymesh.geometry.distance_ import distance_to_triangles, winding_number
 from anymesh.geometry.simplify_ import simplify
@@ -28,6 +29,7 @@ FAR = 0.5  # share of its diagonal; a centre of mass further out is a failure
 LIGHTEST, HEAVIEST = 0.5, 22_600.0  # [kg/m3] of the link's box: a frame of thin sheet; osmium
 SMALL, LARGE = 0.15, 1.1  # root mean square distance from the centre of mass, over the distance of the furthest corner
 COLLISION = "collision"
+STILL_RAD, STILL_M, SHOWN = np.radians(0.5), 1e-3, 4  # motion that contacts at rest may cause; joints named in a finding
 OVERLAP = 0.01  # share of the object's diagonal; engines push apart links that overlap by more at rest
 GRID = 16  # points per side of the grid on which cavities are searched
 HOLLOW = 0.1  # minimum share of empty space in the convex hull of the visuals for a cavity
@@ -155,8 +157,8 @@ def _placeholder(content: Content, given: list[tuple[RobotLink, Inertial]]) -> I
         )
 
 
-def check_collision(content: Content, contacts: Mapping[tuple[str, str], float] | None) -> Iterator[Finding]:
-    """Check collision shapes. contacts: depth of each pair of links in contact at rest [m], None if unknown."""
+def check_collision(content: Content, rest: Rest | None, *, ours: bool) -> Iterator[Finding]:
+    """Check collision shapes. rest: depths and motion at rest, None if unknown; ours: whether this package wrote the asset."""
     robot = content.robot
     groups = rigid_groups(robot)
     for joint in robot.moving:
@@ -173,13 +175,20 @@ def check_collision(content: Content, contacts: Mapping[tuple[str, str], float] 
         if key not in known:
             known[key] = [*_closed_openings(content, link.name)]
         yield from (warning(COLLISION, link.name, text) for text in known[key])
-    adjacent = joined(robot)
-    for (a, b), depth in (contacts or {}).items():
+    if rest is not None:
+        yield from _resting(content, rest, ours)
+
+
+def _resting(content: Content, rest: Rest, ours: bool) -> Iterator[Finding]:
+    """Yield which links penetrate each other at rest, and which joints their contacts move."""
+    robot, adjacent = content.robot, joined(content.robot)
+    names = {link.name for link in robot.links}
+    for (a, b), depth in rest.depths.items():
         pair = frozenset((a, b))
         if depth <= OVERLAP * content.diagonal or pair in robot.excluded:
             continue
         problem = f"at rest it penetrates {a!r} by {depth:.3g} m (convex collision shapes)"
-        if pair in adjacent or len(pair & set(groups)) < 2:
+        if pair in adjacent or not pair <= names:
             yield warning(COLLISION, b, f"{problem}; engines that test contacts between joined links push them apart")
         elif not siblings(robot, a, b):
             yield warning(COLLISION, b, f"{problem}; where several joints place links, another posture may be free of it")
@@ -187,6 +196,31 @@ def check_collision(content: Content, contacts: Mapping[tuple[str, str], float] 
             yield failure(
                 COLLISION, b, f"{problem}; they are pushed apart, at most {OVERLAP * content.diagonal:.2g} m is valid"
             )
+    pushed = []
+    for joint in robot.moving:
+        moved = rest.moved.get(joint.name, 0.0)
+        if moved <= (STILL_M if joint.type == "prismatic" else STILL_RAD):
+            continue
+        carried = robot.carried(joint.child)
+        met = [p for p in rest.depths if (p[0] in carried) != (p[1] in carried) and frozenset(p) not in robot.excluded]
+        by = max(met, key=lambda p: rest.depths[p], default=None)
+        pushed.append(f"{joint.name!r} by {_amount(joint.type, moved)}" + (f" ({by[0]!r} and {by[1]!r} touch)" if by else ""))
+    if pushed:
+        shown = f"{', '.join(pushed[:SHOWN])}{f' and {len(pushed) - SHOWN} more' if len(pushed) > SHOWN else ''}"
+        problem = f"at rest, contacts move {shown} in 2 s without gravity; valid are at most 0.5 degrees or 1 mm"
+        yield (failure if ours else warning)(COLLISION, "", problem)
+
+
+def still(robot: Robot, rest: Rest) -> str:
+    """Describe the furthest that contacts move a joint of each kind at rest."""
+    slides = {j.name for j in robot.moving if j.type == "prismatic"}
+    turned = max((moved for name, moved in rest.moved.items() if name not in slides), default=0.0)
+    slid = max((moved for name, moved in rest.moved.items() if name in slides), default=0.0)
+    return f"contacts at rest move joints by at most {_amount('', turned)} and {_amount('prismatic', slid)} in 2 s"
+
+
+def _amount(kind: str, moved: float) -> str:
+    return f"{1000 * moved:.3g} mm" if kind == "prismatic" else f"{np.degrees(moved):.3g} degrees"
 
 
 def _closed_openings(content: Content, link: str) -> Iterator[str]:

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from anymesh.checking.bodies import check_collision, check_inertia
+from anymesh.checking.bodies import check_collision, check_inertia, still
 from anymesh.checking.content import Content, read_content
 from anymesh.checking.engines import check_engine
 from anymesh.checking.engines.driving import SweepReport
 from anymesh.checking.engines.locate import MJCF, find_description, kind_of
 from anymesh.checking.engines.mjcf_ import read_mjcf
-from anymesh.checking.engines.mujoco_ import rest_contacts
+from anymesh.checking.engines.rest_ import Rest, at_rest
 from anymesh.checking.engines.robot import Robot, read_urdf
 from anymesh.checking.joints import check_damping, check_direction, check_joints, check_motion
 from anymesh.checking.report import CheckReport, Finding, Severity, failure
@@ -65,8 +65,10 @@ def _still(content: Content) -> Iterator[Finding]:
     yield from _or_ok("scale", [*check_scale(content)], f"the diagonal is {content.diagonal:.3g} m")
     yield from _or_ok("joints", joints, f"{len(robot.moving)} joints move, with axes, limits, effort and velocity")
     yield from _or_ok("inertia", [*check_inertia(content)], _masses(robot))
-    collision = [*check_collision(content, _contacts(robot))]
-    fine = "moving links have collision shapes, cavities and round openings are open, nothing overlaps at rest"
+    rest = _rest(robot)
+    collision = [*check_collision(content, rest, ours=ours)]
+    fine = "moving links have collision shapes, cavities and round openings are open"
+    fine += "" if rest is None else f", {still(robot, rest)}"
     yield from _or_ok("collision", collision, fine)
     yield from _or_ok("texture", [*check_texture(content, ours=ours)], "materials and pictures are there")
     if straight:
@@ -82,9 +84,9 @@ def _masses(robot: Robot) -> str:
     return f"{len(masses)} links have a total mass of {sum(masses):.3g} kg, with valid inertias"
 
 
-def _contacts(robot: Robot) -> dict[tuple[str, str], float] | None:
-    """Return the contact depths at rest; None without MuJoCo, or if it rejects the file, which the motion check reports."""
+def _rest(robot: Robot) -> Rest | None:
+    """Return what MuJoCo does at rest; None without it, or if it rejects the file, which the motion check reports."""
     try:
-        return rest_contacts(robot.path)
+        return at_rest(robot.path)
     except (InputError, MissingExtraError):
         return None

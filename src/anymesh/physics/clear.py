@@ -23,7 +23,9 @@ from anymesh.types import Shape
 from anymesh.types.triangles import box_corners, normals_and_areas, transformed, unshared
 
 MAX_PLANED_RATIO = 0.15  # maximum share of a shape that is trimmed before its component is refined instead
-MAX_PLANED_RATIO_LAST = 0.7  # maximum share that is trimmed at the finest resolution
+MAX_PLANED_RATIO_LAST = 0.7  # maximum share that is trimmed at the finest resolution, and of shapes that overlap at rest
+REST_ROUNDS = 4  # rounds of trimming at rest
+MIN_GAP_RATIO = 0.95  # share of the gap at rest below which shapes are trimmed
 
 
 class LinkSurface:
@@ -116,12 +118,13 @@ class Faults:
 
 @dataclass(frozen=True, eq=False)
 class ContactScene:
-    """Surfaces per link in link frames, poses (the first one is rest), and depth thresholds [m]."""
+    """Surfaces per link in link frames, poses (the first one is rest), depth thresholds, and the gap of shapes at rest [m]."""
 
     surfaces: dict[str, LinkSurface]
     poses: Sequence[Pose]
     contact: float
     crossing: float
+    gap: float = 0.0
 
     @cached_property
     def overlapping(self) -> tuple[tuple[str, str], ...]:
@@ -146,10 +149,7 @@ class ContactScene:
         self, pieces: Sequence[ComponentShapes], at: Sequence[int] | None = None, late: Callable[[], bool] = lambda: False
     ) -> Faults:
         """Find the false contacts at some poses, None for all; poses after the deadline are left out."""
-        owner = {
-            link: [(k, n) for k, p in enumerate(pieces) if p.link == link for n in range(len(p.shapes))]
-            for link in self.surfaces
-        }
+        owner = self._owners(pieces)
         bench = ContactBench({link: [pieces[k].shapes[n] for k, n in some] for link, some in owner.items()}, self.overlapping)
         worst: dict[tuple[tuple[int, int], tuple[int, int]], Fault] = {}
         poses = []
@@ -167,6 +167,24 @@ class ContactScene:
                 if key not in worst or c.depth > worst[key].depth:
                     worst[key] = Fault(*key, c.depth, c.normal, self.poses[number])
         return Faults(sorted(worst.values(), key=lambda f: (-f.depth, f.first, f.second)), tuple(poses))
+
+    def _owners(self, pieces: Sequence[ComponentShapes]) -> dict[str, list[tuple[int, int]]]:
+        """Return (index of the component, index of its shape) of the shapes of each link."""
+        return {
+            link: [(k, n) for k, p in enumerate(pieces) if p.link == link for n in range(len(p.shapes))]
+            for link in self.surfaces
+        }
+
+    def near_at_rest(self, pieces: Sequence[ComponentShapes]) -> list[Fault]:
+        """Find the shapes of different links that are nearer than the gap at rest, nearest first, whatever the surfaces do."""
+        owner = self._owners(pieces)
+        bench = ContactBench({link: [pieces[k].shapes[n] for k, n in some] for link, some in owner.items()}, margin=self.gap)
+        near = bench.contacts(self.poses[0], self.contact - self.gap)
+        faults = [
+            Fault(owner[c.first[0]][c.first[1]], owner[c.second[0]][c.second[1]], c.depth, c.normal, self.poses[0])
+            for c in near
+        ]
+        return sorted(faults, key=lambda f: (-f.depth, f.first, f.second))
 
 
 @dataclass(frozen=True, eq=False)
@@ -190,7 +208,8 @@ def clear(
     """Remove false contacts by trimming shapes, or by refining components up to the last of `levels`.
 
     Shapes are trimmed if they lose little. Since shapes only shrink, each round checks the poses that had false contacts. Once
-    these are free, all poses are checked again.
+    these are free, all poses are checked again. At last, shapes that are too near at rest are trimmed, also where the surfaces
+    overlap, since a URDF excludes no contact.
 
     late: returns whether the deadline has passed, after which false contacts stay.
     """
@@ -212,6 +231,11 @@ def clear(
         if late():  # not all poses were checked, so earlier false contacts may remain
             break
         faults = again
+    for _ in range(REST_ROUNDS if scene.gap > 0 and not late() else 0):
+        apart = _apart(components, scene.near_at_rest(components), scene)
+        if apart is None:
+            break
+        components = apart
     links = [(components[f.first[0]].link, components[f.second[0]].link) for f in faults.found]
     return Cleared(components, before, tuple(sorted({(min(pair), max(pair)) for pair in links})))
 
@@ -241,6 +265,29 @@ def _planed(
         else:
             shapes[sides[side][0]][sides[side][1]] = cuts[side][1]
     return [replace(p, shapes=tuple(some)) for p, some in zip(components, shapes, strict=True)], costly
+
+
+def _apart(components: list[ComponentShapes], near: Sequence[Fault], scene: ContactScene) -> list[ComponentShapes] | None:
+    """Trim shapes that are too near each other at rest, those that touch by more than the others; None if nothing changes.
+
+    A box or cylinder that touches nothing stays one.
+    """
+    shapes = [list(p.shapes) for p in components]
+    changed = False
+    for fault in near:
+        sides = [(k, n, fault.pose[components[k].link], shapes[k][n]) for k, n in (fault.first, fault.second)]
+        normals = (fault.normal, -fault.normal)
+        reach = [float((placed_hull(s, T) @ n).max()) for (_, _, T, s), n in zip(sides, normals, strict=True)]
+        if (overlap := sum(reach)) <= -MIN_GAP_RATIO * scene.gap:  # separated by an earlier cut
+            continue
+        cuts = [_cut(s, T, n, overlap + scene.gap) for (_, _, T, s), n in zip(sides, normals, strict=True)]
+        touch = overlap > (1 - MIN_GAP_RATIO) * scene.gap
+        kept = [k for k in (0, 1) if touch or type(cuts[k][1]) is type(sides[k][3])]
+        side = min(kept, key=lambda k: cuts[k][0], default=None)
+        if side is None or cuts[side][0] > (MAX_PLANED_RATIO_LAST if touch else MAX_PLANED_RATIO):
+            continue
+        shapes[sides[side][0]][sides[side][1]], changed = cuts[side][1], True
+    return [replace(p, shapes=tuple(some)) for p, some in zip(components, shapes, strict=True)] if changed else None
 
 
 def placed_hull(shape: Shape, T: np.ndarray) -> np.ndarray:

@@ -42,6 +42,8 @@ class CollisionConfig:
     wall_most: float = 0.005  # [m]
     contact: float = 1e-4  # penetration from which shapes touch; engines push them apart
     crossing: float = 0.003  # penetration from which surfaces really collide; sweeps tolerate the same
+    rest_gap: float = 0.002  # between shapes of different links at rest, at most `rest_gap_most`; PyBullet grows hulls by 1 mm
+    rest_gap_most: float = 0.002  # [m]
     poses: int = 17  # poses of each joint over its range
     rounds: int = 10  # rounds of trimming and refinement
     seconds: float = 20.0  # [s] processor time for one division of one component; then the next method is tried
@@ -113,7 +115,11 @@ def collision_shapes(
         first = shapes_of([c for _, c in parts], [0] * len(parts))
     pieces = [ComponentShapes(link, c, 0, shapes) for (link, c), shapes in zip(parts, first, strict=True)]
     scene = ContactScene(
-        surfaces.result(), sampled_poses(asset, origins, config.poses), config.contact * size, config.crossing * size
+        surfaces.result(),
+        sampled_poses(asset, origins, config.poses),
+        config.contact * size,
+        config.crossing * size,
+        min(config.rest_gap * size, config.rest_gap_most),
     )
     done = clear(scene, pieces, shapes_of, levels=len(config.gaps), rounds=config.rounds, late=late)
     kept: dict[str, float] = {}

@@ -1,7 +1,7 @@
 """The engines by name, in processes of their own, and the loop that drives a joint in each of them."""
 
 import sys
-from dataclasses import asdict, replace
+from dataclasses import asdict
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -15,8 +15,9 @@ from anymesh.checking.engines import ENGINES, sweep_in
 from anymesh.checking.engines.driving import drive, from_record, motors_of, readable
 from anymesh.checking.engines.locate import find_file
 from anymesh.checking.engines.mjcf_ import read_mjcf
-from anymesh.checking.engines.mujoco_ import rest_contacts, sweep_joints
+from anymesh.checking.engines.mujoco_ import sweep_joints
 from anymesh.checking.engines.pushing import STEP
+from anymesh.checking.engines.rest_ import at_rest
 from anymesh.checking.engines.robot import Geometry, read_urdf, shape_triangles
 from anymesh.errors import InputError, MissingExtraError, OptionError
 from anymesh.export import write_asset
@@ -214,11 +215,13 @@ def test_friction_beyond_the_effort_is_stuck(tmp_path):
 
 
 def test_links_that_overlap_at_rest_are_named(tmp_path):
-    asset = blocked(0.25)
-    vertices = asset.mesh.vertices.copy()
-    vertices[16:] -= (0.4, 0, 0)
-    report = swept(replace(asset, mesh=replace(asset.mesh, vertices=vertices)), tmp_path)
-    assert ("slider", "post", "overlap at rest") in report.excluded
+    path = tmp_path / "boxes.xml"
+    bodies = "".join(
+        f'<body name="{name}" pos="0 {y} 0"><joint name="{name}_slide" type="slide"/><geom type="box" size=".1 .1 .1"/></body>'
+        for name, y in (("slider", 0), ("post", 0.15))
+    )
+    path.write_text(f"<mujoco><worldbody>{bodies}</worldbody></mujoco>")
+    assert ("slider", "post", "overlap at rest") in sweep_joints(path, steps=2).excluded
 
 
 def test_a_file_that_mujoco_refuses(tmp_path):
@@ -359,7 +362,29 @@ def test_package_paths_are_found_above(tmp_path):
     assert find_file("package://pack/meshes/b.obj", tmp_path / "pack" / "urdf") is None
 
 
-def test_contacts_at_rest_are_between_all_links_with_their_depth(tmp_path):
-    assert not rest_contacts(chest(tmp_path))
-    pushed = chest(tmp_path, ('<origin xyz="0.3 0 0.6" />', '<origin xyz="0.3 0.03 0.6" />'))
-    assert rest_contacts(pushed) == {("case", "drawer"): pytest.approx(0.02, abs=1e-3)}
+def test_contacts_at_rest_push_the_links_that_penetrate(tmp_path):
+    good = at_rest(chest(tmp_path))
+    assert not good.depths
+    assert set(good.moved.values()) == {0.0}
+    pushed = at_rest(chest(tmp_path, ('<origin xyz="0.3 0 0.6" />', '<origin xyz="0.3 0.03 0.6" />')))
+    assert pushed.depths == {("case", "drawer"): pytest.approx(0.02, abs=1e-3)}
+    assert pushed.moved["slide"] > 0.01
+
+
+TWO_BOXES = """<mujoco><contact>{exclude}</contact><worldbody><body name="case"><geom type="box" size=".1 .1 .1"/>
+<body name="drawer" pos="0 .19 0"><joint name="slide" type="slide" axis="0 1 0" range="0 .3" {spring}/>
+<geom type="box" size=".09 .1 .09" /></body></body></worldbody></mujoco>"""
+
+
+@pytest.mark.parametrize(
+    ("exclude", "spring", "moves"),
+    [
+        ("", "", True),  # its parent is fixed to the world
+        ('<exclude body1="case" body2="drawer"/>', "", False),
+        ('<exclude body1="case" body2="drawer"/>', 'stiffness="10" springref=".2"', False),  # no contact moves it
+    ],
+)
+def test_an_mjcf_rests_as_it_is_written(tmp_path, exclude, spring, moves):
+    path = tmp_path / "boxes.xml"
+    path.write_text(TWO_BOXES.format(exclude=exclude, spring=spring))
+    assert (at_rest(path).moved["slide"] > 1e-3) == moves

@@ -33,7 +33,6 @@ LEGS = (1.0, 1.0, -1.0, -1.0)  # sequence of motor targets: +1 upper limit, -1 l
 ENDLESS = 8.0  # ratio to half a turn, or to the asset, from which a range means that there is none (some write 1e16)
 TRIES = 5  # positions of another joint that may be in the way
 Coupling = tuple[str, str, np.ndarray]  # a joint, its leader ("" for none), and coefficients of a polynomial
-LIGHT = 1e-9  # [kg, kg m2] for links without inertia in the file, where only the rest pose is used
 
 
 @dataclass(frozen=True, eq=False)
@@ -375,24 +374,3 @@ def _faults(bench: MujocoBench, sweep: JointSweep, blew_up: bool) -> tuple[str, 
     if sweep.penetration is not None and sweep.penetration > DEEP * bench.extent:
         faults.append(f"on its way it penetrates {sweep.against!r} by {sweep.penetration:.4g} m")
     return (*faults, *place_faults(sweep.off, bench.extent))
-
-
-def rest_contacts(path: Path) -> dict[tuple[str, str], float]:
-    """Return the deepest penetration [m] of each pair of links in contact.
-
-    Pairs connected by a joint are included, pairs excluded by the file are not. Raise InputError if MuJoCo cannot load the
-    file, MissingExtraError without MuJoCo.
-    """
-    mujoco = load_mujoco()
-    with load_errors(mujoco, path):
-        spec = read_spec(mujoco, Path(path))
-        spec.compiler.fusestatic = False
-        spec.compiler.discardvisual = False
-        spec.compiler.boundmass = spec.compiler.boundinertia = LIGHT
-        spec.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
-        without_ground(spec, mujoco)
-        name_elements(spec)
-        model = spec.compile()
-    data = mujoco.MjData(model)
-    mujoco.mj_forward(model, data)
-    return {(model.body(a).name, model.body(b).name): depth for (a, b), depth in sorted(depths(model, data).items())}
