@@ -15,6 +15,7 @@ from anymesh.checking.engines.locate import find_description
 from anymesh.errors import AnymeshError
 from benchmarks import table_head, table_row
 
+HOMES = {"physx": "ovphysx"}  # names of interpreters that are not those of the engines
 SLOW = ("newton", "genesis")  # engines that compile for minutes
 
 
@@ -28,13 +29,13 @@ def drive(folders: Sequence[Path], few: Sequence[Path], work: Path, homes: Mappi
             record = place / f"{folder.name}.json"
             if record.is_file():
                 continue
-            begin = time.perf_counter()
+            begin, python = time.perf_counter(), homes.get(HOMES.get(engine, engine), sys.executable)
             try:
                 done = sweep_in(
                     engine,
                     find_description(folder),
                     apart=True,
-                    python=homes.get("ovphysx" if engine == "physx" else engine, sys.executable),
+                    python=python,
                 )
                 faults = [f"{j.name}: {fault}" for j in done.joints for fault in j.faults]
                 said = {
