@@ -133,12 +133,12 @@ def report(consumers: Sequence[Named], work: Path) -> str:
         lines += [f"### {c.title}: {c.version}", ""]
         lines += [f"- {name} fails: {why[:300]}" for name, why in c.failed.items()]
         lines += [f"- not held: {', '.join(f'{k} ({n})' for k, n in lost.items())}"] if lost else []
-        groups: dict[tuple[str, str, str], list[str]] = {}
+        groups: dict[tuple[str, str], list[str]] = {}
         for name, v in wrong:
-            groups.setdefault((v.property, v.wanted, str(v.held)), []).append(f"{name}/{v.of}")
-        for (kind, wanted, held), where in groups.items():
+            groups.setdefault((v.property, str(v.held)), []).append(f"{v.wanted} ({name}/{v.of})")
+        for (kind, held), where in groups.items():
             some = ", ".join(where[:4]) + (f" and {len(where) - 4} more" if len(where) > 4 else "")
-            lines.append(f"- {kind}: {held} instead of {wanted}: {some}")
+            lines.append(f"- {kind}: {held} instead of {some}")
         found = Counter(fault for faults in c.faults.values() for fault in faults)
         lines += [f"- fault in {n} examples: {fault}" for fault, n in found.most_common(20)]
         lines += [f"- said in {n} examples: {text[:200]}" for text, n in c.said.most_common(20)]

@@ -66,13 +66,16 @@ def test_an_animation_tells_motion_and_limits(most: float, limits: list[float] |
     parent = turned(0.7, axis=np.array([1.0, 0.0, 0.0]))  # the parent's frame is not the asset's
     amounts = [*np.linspace(0, most, 13), *np.linspace(most, 0, 13)]
     local = [np.linalg.inv(parent) @ turned(amount) for amount in amounts]
-    found = swept(parent, local, slides=False)
+    found = swept(parent, local, slides=False, axis=AXIS)
     np.testing.assert_allclose(found["moved"], turned(found["amount"]), atol=1e-9)
     assert found["amount"] > 0.5
     assert found["limits"] == (limits if limits is None else pytest.approx(limits))
 
 
-def test_a_slide_that_mostly_closes_is_known_by_its_larger_excursion() -> None:
+@pytest.mark.parametrize(("axis", "limits"), [([1, 0, 0], [-0.4, 0.1]), ([-1, 0, 0], [-0.1, 0.4])])
+def test_the_stated_axis_tells_which_way_an_animation_is_positive(axis: list[int], limits: list[float]) -> None:
     poses = [np.eye(4) for _ in range(3)]
     poses[1][0, 3], poses[2][0, 3] = 0.1, -0.4
-    assert swept(np.eye(4), poses, slides=True)["limits"] == pytest.approx([-0.1, 0.4])
+    found = swept(np.eye(4), poses, slides=True, axis=axis)
+    assert found["limits"] == pytest.approx(limits)
+    assert found["moved"][0][3] == pytest.approx(found["amount"] * axis[0])

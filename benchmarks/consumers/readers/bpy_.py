@@ -51,8 +51,8 @@ def read(asset: Asset, variant: str) -> dict:
         record = joints[extras["name"]] = {"type": extras["type"], "parent": parent, "child": child}
         if joint["type"] != "fixed":
             moves = [np.linalg.inv(at[parent]) @ at[child] for at in seen]
-            record |= swept(rest[parent], moves, joint["type"] == "prismatic")
-    said = [f"draws {hulls} collision shapes"] if hulls else []
+            record |= swept(rest[parent], moves, joint["type"] == "prismatic", list(extras["axis"]))
+    said = ["draws collision shapes"] if hulls else []
     return {"version": f"Blender {bpy.app.version_string}", "said": said, "joints": joints, "links": links}
 
 

@@ -89,29 +89,30 @@ def motion(rest: np.ndarray, moved: np.ndarray, amount: float) -> dict:
     return {"moved": (moved @ np.linalg.inv(rest)).tolist(), "amount": float(amount)}
 
 
-def swept(parent: np.ndarray, poses: list[np.ndarray], slides: bool) -> dict:
+def swept(parent: np.ndarray, poses: list[np.ndarray], slides: bool, axis: object) -> dict:
     """Return the record of an animated joint: its motion at the largest excursion, and the limits that the animation reaches.
 
-    parent: pose of the parent at rest; poses: of the child in the parent, the first at rest. A joint that passes half a turn is
-    continuous. Which way is positive is not in an animation: the larger excursion is.
+    parent: pose of the parent at rest; poses: of the child in the parent, the first at rest; axis: tells which way is positive,
+    which is not in an animation. A joint that passes a whole turn is continuous.
     """
     moves = [parent @ pose @ np.linalg.inv(poses[0]) @ np.linalg.inv(parent) for pose in poses]
     if slides:
         shifts = np.array([T[:3, 3] for T in moves])
         way = shifts[np.argmax((shifts**2).sum(1))]
         amounts = shifts @ way / max(np.linalg.norm(way), 1e-12)
-        best = int(np.argmax(amounts))
-        return {"moved": moves[best].tolist(), "amount": amounts[best], "limits": [amounts.min(), amounts.max()]}
-    steps = [np.linalg.inv(a) @ b for a, b in pairwise(moves)]
-    turns = np.array([[T[2, 1] - T[1, 2], T[0, 2] - T[2, 0], T[1, 0] - T[0, 1]] for T in steps]) / 2
-    way = turns[np.argmax((turns**2).sum(1))]
-    angles = np.arctan2(turns @ way / max(np.linalg.norm(way), 1e-12), [(np.trace(T[:3, :3]) - 1) / 2 for T in steps])
-    amounts = np.concatenate([[0.0], np.cumsum(angles)])
-    amounts = amounts if amounts.max() >= -amounts.min() else -amounts
-    small = int(np.argmin(np.abs(amounts - min(1.0, amounts.max()))))  # far enough to tell, and less than half a turn
-    endless = amounts.max() - amounts.min() > 2 * np.pi - 0.1
+    else:
+        steps = [np.linalg.inv(a) @ b for a, b in pairwise(moves)]
+        turns = np.array([[T[2, 1] - T[1, 2], T[0, 2] - T[2, 0], T[1, 0] - T[0, 1]] for T in steps]) / 2
+        way = turns[np.argmax((turns**2).sum(1))]
+        cosines = [(np.trace(T[:3, :3]) - 1) / 2 for T in steps]
+        angles = np.arctan2(turns @ way / max(np.linalg.norm(way), 1e-12), cosines)
+        amounts = np.concatenate([[0.0], np.cumsum(angles)])
+    amounts = amounts if way @ np.asarray(axis, float) > 0 else -amounts
+    far = np.abs(amounts)
+    best = int(np.argmax(np.where(far < 3, far, 0)))  # of a turn, less than half
+    endless = not slides and amounts.max() - amounts.min() > 2 * np.pi - 0.1
     limits = None if endless else [amounts.min(), amounts.max()]
-    return {"moved": moves[small].tolist(), "amount": amounts[small], "limits": limits}
+    return {"moved": moves[best].tolist(), "amount": amounts[best], "limits": limits}
 
 
 def finite(lower: float, upper: float, most: float = 1e6) -> list[float] | None:

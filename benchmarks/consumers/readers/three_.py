@@ -33,7 +33,7 @@ def read(asset: Asset, variant: str) -> dict:
     for name, link in got["links"].items():
         links[name] |= {"box": link["box"]} if "box" in link else {}
     said = [text for text in got["said"] if "texture" not in text]  # Node draws no pictures
-    said += [f"draws {got['hulls']} collision shapes"] if got["hulls"] else []
+    said += ["draws collision shapes"] if got["hulls"] else []
     joints = {}
     for name, joint in got.get("joints", {}).items():
         record = joints[name] = {key: joint[key] for key in ("type", "parent", "child")}
@@ -48,7 +48,7 @@ def read(asset: Asset, variant: str) -> dict:
         record = joints[extras["name"]] = {"type": extras["type"], "parent": parent, "child": child}
         if joint["type"] != "fixed":
             moves = [np.linalg.inv(matrix(at[parent])) @ matrix(at[child]) for at in got["poses"]]
-            record |= swept(rest[parent], moves, joint["type"] == "prismatic")
+            record |= swept(rest[parent], moves, joint["type"] == "prismatic", extras["axis"])
     return {"version": got["version"], "said": said, "joints": joints, "links": links}
 
 
