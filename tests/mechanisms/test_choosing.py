@@ -1,5 +1,6 @@
 """Mechanisms do in MuJoCo what asset.json says of them."""
 
+import importlib
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -18,6 +19,7 @@ from anymesh.export.options import Base, Driven, ExportOptions, Format
 from anymesh.export.sdf import sdf_text
 from anymesh.export.urdf import urdf_text
 from anymesh.mechanisms.choosing import choose_mechanisms, parse_mechanisms
+from anymesh.openusd.writer_ import write_usd
 
 UP, ALONG = (0, 0, 1), (0, -1, 0)  # an upright hinge; one at the back that lets a lid open upwards
 PANEL = ((0.0, 0.01, 0.3), (0.4, 0.03, 0.9))  # of a door whose hinge is at the origin
@@ -180,3 +182,17 @@ def test_the_formats_that_hold_a_mechanism_have_it() -> None:
     assert f"<springReference>{written['reference']:.10g}</springReference>" in urdf_text(spring)
     assert asset_record(catch)["joints"][0]["mechanism"]["formats"] == ["mjcf"]
     assert "spring" not in sdf_text(catch) + urdf_text(catch)
+
+
+def test_a_spring_in_usd_leaves_the_drive_alone(tmp_path: Path) -> None:
+    model = chosen("door", "revolute", PANEL, "door=close")
+    write_usd(model, with_meshes(model, tmp_path), CONFIG)
+    stage = importlib.import_module("pxr.Usd").Stage.Open(str(tmp_path / "thing.usdc"))
+    prim = stage.GetPrimAtPath("/thing/joints/moves")
+    m = model.mechanisms["moves"]
+    values = {name: prim.GetAttribute(name).Get() for name in prim.GetAuthoredPropertyNames()}
+    assert values["physxTendon:spring:stiffness"] == pytest.approx(values["mjc:stiffness"]) == pytest.approx(m.stiffness)
+    gearing, rest = values["physxTendon:spring:gearing"][0], values["physxTendon:spring:restLength"]
+    assert rest / gearing == pytest.approx(values["mjc:springref"])
+    assert rest == pytest.approx(m.reference)
+    assert values["drive:angular:physics:stiffness"] == 0

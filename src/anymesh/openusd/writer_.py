@@ -198,4 +198,5 @@ def _add_mechanism(pxr: Any, prim: Any, m: Mechanism, per_unit: float) -> None:
         prim.AddAppliedSchema("PhysxTendonAxisRootAPI:spring")
     prim.AddAppliedSchema("MjcJointAPI")
     for name, kind, value in values:
-        prim.CreateAttribute(name, kind, custom=False).Set(value)
+        fixed = pxr.Sdf.VariabilityUniform if name.startswith("mjc:") or "Axis" in name else pxr.Sdf.VariabilityVarying
+        prim.CreateAttribute(name, kind, custom=False, variability=fixed).Set(value)
