@@ -42,8 +42,9 @@ LOAD_USD = "openusd.writer_:load_usd"
 WRITE_DAE = "formats.dae.writing:write_dae"
 GLTF_PHYSICS = "formats.gltf.physics:add_physics"
 
-# Springs, catches and detents of joints.
+# Resistance, springs, catches and detents of joints.
 CHOOSE_MECHANISMS = "mechanisms.choosing:choose_mechanisms"
+RESISTANCES = "mechanisms.resisting:resistances"
 PARSE_MECHANISMS = "mechanisms.choosing:parse_mechanisms"
 
 # Scenes of several objects.

@@ -16,8 +16,8 @@ from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.meshes import write_meshes
 from anymesh.export.model import Exclusion, ExportConfig, ExportLink, Model
 from anymesh.export.options import Base, Driven, ExportOptions
+from anymesh.mechanisms.resisting import resistances
 from anymesh.physics.inertia import link_inertia
-from anymesh.physics.resistance import resistances
 from anymesh.types import Asset, Box, Cylinder, Hull, Material, Part, Segmentation, Shape, Texture
 from anymesh.types.mesh import TEXTURE_SLOTS
 

@@ -17,6 +17,7 @@ from anymesh.export.model import Exclusion, drives
 from anymesh.export.notation import principal, quaternion, rpy, turning_x_to
 from anymesh.export.options import DEFAULT, Base, Driven, ExportOptions, Format, parse_formats
 from anymesh.export.sdf import joint_names
+from anymesh.physics.resistance import ResistanceLevel
 from anymesh.types import Box, Cylinder, JointType
 
 ASSETS = {"cabinet": cabinet, "slanted": slanted, "desk": desk}
@@ -212,14 +213,15 @@ def test_a_missing_package_is_one_error_that_says_how_it_is_had(kind, package, t
 
 
 def test_the_options_of_an_asset_are_those_that_it_was_written_with() -> None:
-    asset = {"files": {"usd": "a.usda", "mjcf": "a.xml"}, "base": "free", "drives": "position", "hulls": 7}
-    kept = ExportOptions(Base.FREE, (Format.MJCF, Format.USD), Driven.POSITION, 7)
+    options = {"base": "free", "drives": "position", "hulls": 7, "resistance": "stiff"}
+    asset = {"files": {"usd": "a.usda", "mjcf": "a.xml"}, **options}
+    kept = ExportOptions(Base.FREE, (Format.MJCF, Format.USD), Driven.POSITION, 7, ResistanceLevel.STIFF)
     assert ExportOptions.parse({}, before=asset) == kept
-    assert ExportOptions.parse(dict.fromkeys(("base", "formats", "drives", "hulls")), before=asset) == kept
-    assert kept.record() == {"base": "free", "drives": "position", "hulls": 7}
-    given = ExportOptions.parse({"drives": "passive", "formats": "glb", "hulls": 0}, before=asset)
+    assert ExportOptions.parse(dict.fromkeys(("base", "formats", "drives", "hulls", "resistance")), before=asset) == kept
+    assert kept.record() == options
+    given = ExportOptions.parse({"drives": "passive", "formats": "glb", "hulls": 0, "resistance": "typical"}, before=asset)
     assert given == ExportOptions(Base.FREE, (Format.GLB,))
-    assert given.record() == {"base": "free", "drives": "passive"}
+    assert given.record() == {"base": "free", "drives": "passive", "resistance": "typical"}
     assert ExportOptions.parse({}, before={}) == ExportOptions()
 
 

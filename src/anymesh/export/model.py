@@ -13,7 +13,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.entry_points import CHOOSE_MECHANISMS, resolve
+from anymesh.entry_points import CHOOSE_MECHANISMS, RESISTANCES, resolve
 from anymesh.export.flat_looks import losses, tiled, tinted, with_materials
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.options import Driven, ExportOptions, Shapes, Visuals
@@ -22,7 +22,7 @@ from anymesh.physics.collision import CollisionConfig, collision_shapes
 from anymesh.physics.convex import as_hull
 from anymesh.physics.inertia import Inertia, InertiaConfig, Substance, link_inertia, substance_of
 from anymesh.physics.mechanism import Mechanism
-from anymesh.physics.resistance import Resistance, resistances
+from anymesh.physics.resistance import Resistance, crossing
 from anymesh.runtime import Deadline
 from anymesh.types import Asset, Hull, Joint, Mesh, Shape
 
@@ -166,7 +166,8 @@ def build_model(
     excluded = [Exclusion(a, b, OVERLAP) for a, b in collision.overlapping]
     excluded += [Exclusion(a, b, TIGHT) for a, b in collision.tight]
     inertias = {body.name: body.inertia for body in bodies}
-    chosen, resisting = resolve(CHOOSE_MECHANISMS)(asset, inertias, resistances(asset, inertias), how.mechanisms)
+    usual = resolve(RESISTANCES)(asset, inertias, how.resistance)
+    chosen, resisting = resolve(CHOOSE_MECHANISMS)(asset, inertias, usual, how.mechanisms)
     return Model(asset, bodies, resisting, how, tuple(excluded), chosen)
 
 
@@ -189,7 +190,7 @@ class Drive:
 def drives(model: Model) -> Mapping[str, Drive]:
     """Return a drive for each moving joint, by name. A passive one has neither stiffness nor damping.
 
-    Damping over stiffness is the time in which the joint crosses its range at its velocity, which limits the speed of a drive.
+    Damping over stiffness is the time in which the joint crosses its range at its velocity, at least .1 s.
     The stiffness keeps the error due to friction and weight within a share of the range. It is at least that of critical
     damping, so that no drive oscillates or overshoots.
     """
@@ -200,6 +201,6 @@ def drives(model: Model) -> Mapping[str, Drive]:
 
 def _drive(joint: Joint, r: Resistance) -> Drive:
     span = 2 * np.pi if joint.limits is None else joint.limits[1] - joint.limits[0]
-    seconds = span / r.velocity
-    stiffness = max(4 * r.inertia / seconds**2, (r.friction + r.load) / (WITHIN * span))
+    seconds = crossing(joint, r.velocity)
+    stiffness = max(4 * (r.inertia + r.armature) / seconds**2, (r.friction + r.load) / (WITHIN * span))
     return Drive(float(stiffness), float(stiffness * seconds), r.effort)

@@ -9,6 +9,7 @@ from typing import Any
 
 from anymesh.entry_points import PARSE_MECHANISMS, resolve
 from anymesh.errors import OptionError
+from anymesh.physics.resistance import ResistanceLevel
 
 
 class Base(StrEnum):
@@ -51,7 +52,7 @@ class Format(StrEnum):
 
 DEFAULT = (Format.URDF, Format.MJCF, Format.SDF, Format.GLB)
 CHOICES: Mapping[str, type[StrEnum]] = {  # options whose values are words
-    "base": Base, "drives": Driven, "visuals": Visuals, "shapes": Shapes,
+    "base": Base, "drives": Driven, "visuals": Visuals, "shapes": Shapes, "resistance": ResistanceLevel,
 }  # fmt: skip
 
 
@@ -76,6 +77,7 @@ class ExportOptions:
     formats: tuple[Format, ...] = DEFAULT
     drives: Driven = Driven.PASSIVE
     hulls: int | None = None
+    resistance: ResistanceLevel = ResistanceLevel.TYPICAL
     mechanisms: str = "auto"
     visuals: Visuals = Visuals.OBJ
     shapes: Shapes = Shapes.PRIMITIVES
@@ -100,7 +102,8 @@ class ExportOptions:
     def record(self) -> dict[str, Any]:
         """Return the values for asset.json but the formats, which its files show; most only if they are not the default."""
         values = {f.name: (getattr(self, f.name), f.default) for f in fields(self) if f.name != "formats"}
-        return {k: str(v) if k in CHOICES else v for k, (v, usual) in values.items() if k in ("base", "drives") or v != usual}
+        stated = {k: v for k, (v, usual) in values.items() if k in ("base", "drives", "resistance") or v != usual}
+        return {k: str(v) if k in CHOICES else v for k, v in stated.items()}
 
     def with_formats(self, others: tuple[Format, ...]) -> ExportOptions:
         """Return the options with further formats."""

@@ -1,1 +1,1 @@
-"""Mechanisms of joints: springs, catches and detents, chosen by kind."""
+"""What joints resist with: friction, damping and limits, and springs, catches and detents, chosen by kind."""

@@ -11,8 +11,9 @@ from scipy.spatial import KDTree
 from anymesh.config import FACING_COSINE
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.topology import label_connected
-from anymesh.geometry.triangle_set import MAX_PROTRUSION_RATIO, TriangleSet, points_above, shares_above
+from anymesh.geometry.triangle_set import MAX_PROTRUSION_RATIO, TriangleSet, body_obb, points_above, shares_above
 from anymesh.types import Handle
+from anymesh.types.triangles import normals_and_areas
 
 MIN_TAB_GAP_RATIO = 0.01  # of the tolerance length: a tab that is closer to the parent is a hinge barrel
 MAX_HANDLE_GROUPS = 2  # maximum number of separate protrusions of one handle
@@ -23,6 +24,7 @@ MIN_HANDLE_ASPECT = 0.2  # minimum height of a handle over its smaller width
 MIN_HANDLE_HEIGHT_RATIO = 0.012  # minimum height of a handle over the part's diagonal
 MAX_COVERED_SHARE = 0.45  # maximum share of the part's surface in a handle on its face
 GROUPED_POINTS = 500  # sample points of a protrusion that are divided into groups
+MAX_HANDLE_FACES = 20_000  # of a part and its parent, for a handle to be looked for
 GAP_POINTS = 200  # sample points of a protrusion whose distance to the parent is measured
 
 
@@ -48,6 +50,26 @@ def find_handle(
     core: box of the part without protrusions; scale: reference length of tolerances [m].
     """
     return _face_handle(part, core, parent, scale, opening_direction) or _tab(part, core, parent, scale, opening_direction)
+
+
+def handle_point(
+    part: Float[np.ndarray, "F 3 3"], parent: Float[np.ndarray, "G 3 3"], direction: Float[np.ndarray, " 3"]
+) -> Float[np.ndarray, " 3"] | None:
+    """Return the point of a part's handle on its outer face [m], None if it has none or is too fine to look for one.
+
+    part, parent: triangles [m]; direction: in which the face opens, of any length.
+    """
+    length = float(np.linalg.norm(direction))
+    if max(len(part), len(parent)) > MAX_HANDLE_FACES or length < 1e-9:
+        return None
+    own, other = (TriangleSet(t, normals_and_areas(t)[0], np.zeros(len(t), bool), np.arange(len(t))) for t in (part, parent))
+    core, out = body_obb(own), direction / length
+    handle = find_handle(own, core, other, core.diagonal, out)
+    if handle is None:
+        return None
+    k, face, local = outward_axis(core, out), face_axes(core, out), np.zeros(3)
+    local[k], local[face] = np.sign(core.axes[k] @ out) * core.half[k], np.array(handle.across) * core.half[face]
+    return core.world(local[None])[0]
 
 
 @dataclass(frozen=True, eq=False)

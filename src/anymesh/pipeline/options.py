@@ -205,6 +205,9 @@ class FormatOptions:
         None, "passive (usual), or position: joints follow a commanded position, initially 0.", kind=str
     )
     hulls: int | None = _option(None, "Maximum number of collision shapes per link, 0 for no limit.", metavar="N", kind=int)
+    resistance: str | None = _option(
+        None, "light, typical (usual) or stiff: how strongly joints resist, within the range of their kind.", kind=str
+    )
     mechanisms: str | None = _option(
         None, "auto (usual: the sure ones), off, all, or LABEL=KIND,...: springs, catches and detents of joints.", kind=str
     )
@@ -221,6 +224,7 @@ class Writing(TypedDict, total=False):
     formats: str | None
     drives: str | None
     hulls: int | None
+    resistance: str | None
     mechanisms: str | None
     visuals: str | None
     shapes: str | None
