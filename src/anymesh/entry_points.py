@@ -38,6 +38,8 @@ REMEDY = "formats.reading:remedy"
 
 # The writer of USD, which has a package of its own, the visuals of DAE, and the physics of glTF.
 WRITE_USD = "openusd.writer_:write_usd"
+WRITE_USDZ = "openusd.writer_:write_usdz"
+WRITE_SIMREADY = "openusd.simready_:write_simready"
 LOAD_USD = "openusd.writer_:load_usd"
 WRITE_DAE = "formats.dae.writing:write_dae"
 GLTF_PHYSICS = "formats.gltf.physics:add_physics"

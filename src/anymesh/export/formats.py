@@ -6,11 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
-from anymesh.entry_points import GLTF_PHYSICS, LOAD_USD, WRITE_USD, resolve
+from anymesh.entry_points import GLTF_PHYSICS, LOAD_USD, WRITE_SIMREADY, WRITE_USD, WRITE_USDZ, resolve
 from anymesh.export.glb import glb_bytes
 from anymesh.export.mjcf_ import write_mjcf
 from anymesh.export.model import ExportConfig, Model
-from anymesh.export.options import Format
+from anymesh.export.options import Format, Profile
 from anymesh.export.sdf import write_sdf
 from anymesh.export.urdf import urdf_text
 
@@ -25,6 +25,7 @@ def main_file(kind: Format, name: str) -> str:
         Format.USD: f"{name}.usdc",
         Format.SDF: "model.sdf",
         Format.GLB: f"{name}.glb",
+        Format.USDZ: f"{name}.usdz",
     }[kind]
 
 
@@ -33,7 +34,7 @@ def load_libraries(formats: Sequence[Format]) -> None:
 
     Raise MissingExtraError for one whose extra is not installed.
     """
-    if Format.USD in formats:
+    if Format.USD in formats or Format.USDZ in formats:
         resolve(LOAD_USD)()
 
 
@@ -41,6 +42,8 @@ def write_formats(model: Model, folder: Path, formats: Sequence[Format], config:
     """Write each format into an asset folder with its meshes/. Raise MissingExtraError for one whose extra is not installed."""
     for kind in formats:
         WRITERS[kind](model, folder, config)
+    if model.how.profile is Profile.SIMREADY:
+        resolve(WRITE_SIMREADY)(model, folder, config)
 
 
 def _write_urdf(model: Model, folder: Path, config: ExportConfig) -> None:
@@ -50,6 +53,10 @@ def _write_urdf(model: Model, folder: Path, config: ExportConfig) -> None:
 def _write_glb(model: Model, folder: Path, config: ExportConfig) -> None:
     glb = glb_bytes(model.asset, model.links, config, partial(resolve(GLTF_PHYSICS), model))
     (folder / main_file(Format.GLB, model.asset.name)).write_bytes(glb)
+
+
+def _write_usdz(model: Model, folder: Path, config: ExportConfig) -> None:
+    resolve(WRITE_USDZ)(model, folder, config)
 
 
 def _write_usd(model: Model, folder: Path, config: ExportConfig) -> None:
@@ -62,4 +69,5 @@ WRITERS: Mapping[Format, Writer] = {
     Format.USD: _write_usd,
     Format.SDF: write_sdf,
     Format.GLB: _write_glb,
+    Format.USDZ: _write_usdz,
 }

@@ -48,11 +48,20 @@ class Format(StrEnum):
     USD = "usd"  # requires the extra
     SDF = "sdf"
     GLB = "glb"
+    USDZ = "usdz"  # requires the same extra
+
+
+class Profile(StrEnum):
+    """What is written beside the formats: nothing, or the asset in the form of NVIDIA's SimReady."""
+
+    NONE = "none"
+    SIMREADY = "simready"
 
 
 DEFAULT = (Format.URDF, Format.MJCF, Format.SDF, Format.GLB)
 CHOICES: Mapping[str, type[StrEnum]] = {  # options whose values are words
     "base": Base, "drives": Driven, "visuals": Visuals, "shapes": Shapes, "resistance": ResistanceLevel,
+    "profile": Profile,
 }  # fmt: skip
 
 
@@ -81,6 +90,7 @@ class ExportOptions:
     mechanisms: str = "auto"
     visuals: Visuals = Visuals.OBJ
     shapes: Shapes = Shapes.PRIMITIVES
+    profile: Profile = Profile.NONE
 
     @classmethod
     def parse(cls, given: Mapping[str, Any], *, before: Mapping[str, Any] | None = None) -> ExportOptions:
@@ -91,7 +101,8 @@ class ExportOptions:
         """
         how = cls() if before is None else cls._of(before)
         values = {k: _value(k, given[k]) for k in (f.name for f in fields(cls)) if given.get(k) is not None}
-        return replace(how, **values)
+        how = replace(how, **values)
+        return how.with_formats((Format.USD,)) if how.profile is Profile.SIMREADY else how
 
     @classmethod
     def _of(cls, record: Mapping[str, Any]) -> ExportOptions:

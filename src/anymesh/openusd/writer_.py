@@ -5,8 +5,11 @@ A link is one mesh, called after it, its materials are UsdPreviewSurface, its co
 
 from __future__ import annotations
 
+import struct
+import zipfile
 from collections.abc import Mapping
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from types import ModuleType
 from typing import Any
 
@@ -17,6 +20,7 @@ from anymesh.export.meshes import texture_files, visible, write_textures
 from anymesh.export.model import FOLDER, Drive, ExportConfig, ExportLink, Model, drives
 from anymesh.export.notation import principal, turning_x_to
 from anymesh.export.options import Base
+from anymesh.export.package import EPOCH, PLAIN_FILE
 from anymesh.names import legal_names
 from anymesh.openusd.geometry_ import add_shape, add_visual, place, quat, vec
 from anymesh.openusd.materials_ import UsdMaterials
@@ -24,6 +28,9 @@ from anymesh.physics.mechanism import Mechanism
 from anymesh.physics.resistance import Resistance
 from anymesh.types import Hull, Joint, JointType
 from anymesh.types.mesh import TEXTURE_SLOTS
+
+# A USDZ is a zip without compression whose files begin at multiples of 64 bytes; the header of each is padded to that.
+ALIGNED, HEADER, EXTRA, PADDING = 64, 30, 4, 0x1986
 
 
 def load_usd() -> ModuleType:
@@ -45,15 +52,40 @@ def load_usd() -> ModuleType:
 def write_usd(model: Model, folder: Path, config: ExportConfig) -> None:
     """Write <name>.usdc into an asset folder, and the textures that it refers to into its meshes/.
 
-    Links are siblings under /<name>/links, each at its origin; joints are under /<name>/joints, materials under
-    /<name>/materials.
+    Raise MissingExtraError without OpenUSD.
+    """
+    stage = usd_stage(model.tinted, config, folder, FOLDER)
+    stage.GetRootLayer().Export(str(folder / f"{model.asset.name}.usdc"))
+
+
+def write_usdz(model: Model, folder: Path, config: ExportConfig) -> None:
+    """Write <name>.usdz into an asset folder: the same stage with its textures, in one file.
 
     Raise MissingExtraError without OpenUSD.
     """
-    pxr, model = load_usd(), model.tinted
-    (folder / FOLDER).mkdir(exist_ok=True)
+    name = model.asset.name
+    with TemporaryDirectory(dir=folder) as made, (folder / f"{name}.usdz").open("wb") as sink:
+        place = Path(made)
+        write_usd(model, place, config)
+        with zipfile.ZipFile(sink, "w", zipfile.ZIP_STORED) as archive:
+            for file in (place / f"{name}.usdc", *sorted((place / FOLDER).iterdir())):  # the stage is first, as specified
+                entry = zipfile.ZipInfo(file.relative_to(place).as_posix(), EPOCH)
+                entry.external_attr, entry.create_system = PLAIN_FILE, 3
+                gap = -(sink.tell() + HEADER + len(entry.filename) + EXTRA) % ALIGNED
+                entry.extra = struct.pack("<HH", PADDING, gap) + bytes(gap)
+                archive.writestr(entry, file.read_bytes())
+
+
+def usd_stage(model: Model, config: ExportConfig, folder: Path, pictures: str) -> Any:
+    """Return a stage of a tinted model, and write the textures that it refers to into the folder `pictures` of a folder.
+
+    Links are siblings under /<name>/links, each at its origin; joints are under /<name>/joints, materials under
+    /<name>/materials.
+    """
+    pxr = load_usd()
+    (folder / pictures).mkdir(parents=True, exist_ok=True)
     textures = texture_files(model.asset.mesh)
-    write_textures(model.asset.mesh, folder / FOLDER, TEXTURE_SLOTS, textures)
+    write_textures(model.asset.mesh, folder / pictures, TEXTURE_SLOTS, textures)
     stage = pxr.Usd.Stage.CreateInMemory()
     pxr.UsdGeom.SetStageUpAxis(stage, pxr.UsdGeom.Tokens.z)
     pxr.UsdGeom.SetStageMetersPerUnit(stage, 1.0)
@@ -64,7 +96,7 @@ def write_usd(model: Model, folder: Path, config: ExportConfig) -> None:
     pxr.UsdPhysics.ArticulationRootAPI.Apply(root)
     for scope in ("links", "joints", "materials"):
         pxr.UsdGeom.Scope.Define(stage, f"{top}/{scope}")
-    looks = UsdMaterials(pxr, stage, f"{top}/materials", model.asset.mesh, f"./{FOLDER}", textures)
+    looks = UsdMaterials(pxr, stage, f"{top}/materials", model.asset.mesh, f"./{pictures}", textures)
     for body in model.bodies:
         _add_body(pxr, stage, top, body, looks, config)
     _add_exclusions(pxr, stage, top, model)
@@ -74,7 +106,7 @@ def write_usd(model: Model, folder: Path, config: ExportConfig) -> None:
         _add_joint(pxr, stage, top, model, joint, motors)
     scene = legal_names([model.asset.name, "physics_scene"])[-1]
     pxr.UsdPhysics.Scene.Define(stage, f"/{scene}")  # beside the asset, so that a reference to it adds no second scene
-    stage.GetRootLayer().Export(str(folder / f"{model.asset.name}.usdc"))
+    return stage
 
 
 def _link(top: str, name: str) -> str:

@@ -199,7 +199,9 @@ class FormatOptions:
 
     base: str | None = _option(None, "fixed (usual) or free: whether the root link is fixed to the world.", kind=str)
     formats: str | None = _option(
-        None, "Comma-separated, of urdf, mjcf, usd, sdf, glb; usually all but usd, which needs its extra.", kind=str
+        None,
+        "Comma-separated, of urdf, mjcf, usd, sdf, glb, usdz; usually without usd and usdz, of an extra.",
+        kind=str,
     )
     drives: str | None = _option(
         None, "passive (usual), or position: joints follow a commanded position, initially 0.", kind=str
@@ -215,6 +217,9 @@ class FormatOptions:
     shapes: str | None = _option(
         None, "Collision shapes: primitives (usual), or hulls: boxes and cylinders as convex meshes too, for MJX.", kind=str
     )
+    profile: str | None = _option(
+        None, "none (usual), or simready: also USD in layers, as NVIDIA's SimReady asks for it, in DIR/simready.", kind=str
+    )
 
 
 class Writing(TypedDict, total=False):
@@ -228,6 +233,7 @@ class Writing(TypedDict, total=False):
     mechanisms: str | None
     visuals: str | None
     shapes: str | None
+    profile: str | None
 
 
 class MakingOptions(Answering, Writing):
