@@ -24,6 +24,7 @@ PRELOAD, CLOSING = float(np.deg2rad(20)), 1.6  # [rad] of a closing spring when 
 REACH, RAMP = 0.03, 0.02  # [m at the handle] of a latch, and the end of it over which its force fades
 SNAPPING = 0.2  # [s] maximum damping of a toggle, over its force at its range
 STEPS = 12  # of a turn
+MAX_REFERENCE = 4 * np.pi  # [rad] maximum preload of a spring that bears a weight
 
 
 @dataclass(frozen=True)
@@ -201,9 +202,9 @@ class _Maker:
         held = float(abs(self.load).max())
         if MARGIN * held > EASY * self.lever:
             slope, offset = np.polyfit(self.q, self.load, 1)
-            k = float(np.clip(slope, 1e-9, STABLE * self.inertia))
+            k = min(float(slope), STABLE * self.inertia)
             rest = float(abs(self.load - k * self.q - offset).max())
-            if rest < held / 2:
+            if rest < held / 2 and abs(offset) < MAX_REFERENCE * k:
                 m, held = replace(m, stiffness=k, reference=float(-offset / k)), rest
         r = self._rubbing(MARGIN * held, np.inf)
         opens = -1.0 if self.low + self.high < 0 else 1.0
