@@ -90,6 +90,10 @@ def test_a_lid_that_holds_stays(thick: float, degrees: float, tmp_path: Path) ->
     compiled, data = simulated(model, tmp_path)
     data.qpos[0] = np.deg2rad(degrees)
     assert np.rad2deg(after(compiled, data, 5.0)) == pytest.approx(degrees, abs=1.0)
+    mujoco.mj_resetData(compiled, data)
+    m = model.mechanisms["moves"]
+    found = breakaway(compiled, data, 2 * m.force * lever(model), np.deg2rad(0.02))
+    assert found / lever(model) == pytest.approx(m.force, rel=0.1)
 
 
 def test_a_latch_holds_up_to_its_force_and_snaps_shut(tmp_path: Path) -> None:
@@ -177,7 +181,7 @@ def test_the_choice_is_kept_in_asset_json() -> None:
 def test_the_formats_that_hold_a_mechanism_have_it() -> None:
     spring, catch = chosen("door", "revolute", PANEL, "door=close"), chosen("door", "revolute", PANEL, "door=latch")
     written = asset_record(spring)["joints"][0]["mechanism"]
-    assert written["formats"] == ["mjcf", "usd", "sdf", "glb"]
+    assert written["formats"] == ["mjcf", "usd", "sdf", "glb", "usdz"]
     assert f"<spring_stiffness>{written['stiffness']:.10g}</spring_stiffness>" in sdf_text(spring)
     assert f"<springReference>{written['reference']:.10g}</springReference>" in urdf_text(spring)
     assert asset_record(catch)["joints"][0]["mechanism"]["formats"] == ["mjcf"]
