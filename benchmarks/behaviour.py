@@ -29,6 +29,7 @@ from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepare
 from anymesh.export import Base, ExportOptions, Format, write_asset
 from anymesh.types import Asset, JointType, Part
 from benchmarks import EXAMPLES, REPORTS, ROOT, parser_of, table_head, table_row
+from benchmarks.behaviour_engines import starts
 
 EXAMPLE_KINDS = (
     "bucket", "cabinet", "drill", "fridge", "laptop", "microwave", "sliding_window", "storage_box", "stove", "tilted_drawer",
@@ -124,7 +125,7 @@ def ask(work: Path, engine: str, python: str, jobs: Sequence[Mapping[str, Any]])
     return json.loads(answer.read_text(encoding="utf-8"))
 
 
-def cell(pull: Mapping[str, Any], got: Mapping[str, Any] | None) -> str:
+def cell(pull: Mapping[str, float], got: Mapping[str, Any] | None) -> str:
     """Return what an engine measured; in bold outside the stated bounds."""
     if got is None:
         return "-"
@@ -132,7 +133,7 @@ def cell(pull: Mapping[str, Any], got: Mapping[str, Any] | None) -> str:
     return shown if inside(pull, got) else f"**{shown}**"
 
 
-def inside(pull: Mapping[str, Any], got: Mapping[str, Any]) -> bool:
+def inside(pull: Mapping[str, float], got: Mapping[str, Any]) -> bool:
     """Return whether a joint begins to move between its stated bounds; MEASURED is the accuracy of the measurement."""
     low, high = (float(pull[end]) for end in ("least", "most"))
     return not got["bound"] and low * (1 - MEASURED) <= got["begins"] <= high * (1 + MEASURED)
@@ -155,7 +156,7 @@ def rows(jobs: Sequence[Mapping[str, Any]], answers: Answers) -> Iterator[tuple[
 
 def stays(joint: Mapping[str, Any]) -> bool:
     """Return whether a joint is one that should stay closed on a slope: it has limits, and does not open by itself."""
-    return joint["limits"] is not None and joint["pull"]["typical"] > 0
+    return joint["limits"] is not None and starts(joint)["typical"] > 0
 
 
 def report(jobs: Sequence[Mapping[str, Any]], answers: Answers) -> str:
@@ -167,25 +168,24 @@ def report(jobs: Sequence[Mapping[str, Any]], answers: Answers) -> str:
     rolled = next((j for j in jobs if "down" in j), None)
     for engine, answer in answers.items():
         own = [(joint, got[engine]) for _, joint, got in table if engine in got]
-        near = sum(
-            not g["bound"] and abs(g["begins"] / j["pull"]["typical"] - 1) <= AGREE for j, g in own if j["pull"]["typical"]
-        )
+        near = sum(not g["bound"] and abs(g["begins"] - starts(j)["typical"]) <= AGREE * starts(j)["typical"] for j, g in own)
         closed = [g["tilt"] <= 1 for j, g in own if stays(j)]
         car_ = answer[rolled["name"]].get("rolled") if rolled else None
         rolls = "-" if rolled is None or car_ is None else f"{car_:.2f} of {rolled['free']:.2f} m"
-        good, swings = sum(inside(j["pull"], g) for j, g in own), sum(g["swing"] > SWING for _, g in own)
+        good, swings = sum(inside(starts(j), g) for j, g in own), sum(g["swing"] > SWING for _, g in own)
         lines.append(table_row((answer["version"], len(own), good, near, f"{sum(closed)} of {len(closed)}", swings, rolls)))
     both = [list(got.values()) for _, _, got in table if len(got) == len(answers)]
     lines += ["", f"All engines agree within 10 % on {sum(map(agree, both))} of {len(both)} joints.", ""]
     lines += [TABLE, ""]
     lines += table_head(("object", "joint", "kind", "unit", "least", "typical", "most", *answers, "agree", "tilt", "swing"))
     for kind, joint, got in table:
-        pull = joint["pull"]
+        pull = starts(joint)
         stated = (f"{pull[word]:.3g}" for word in ("least", "typical", "most"))
         worst = [max((g[word] for g in got.values()), default=0.0) for word in ("tilt", "swing")]
         cells = (cell(pull, got.get(engine)) for engine in answers)
         yes = "yes" if agree(list(got.values())) else "no"
-        named = (kind, joint["child"], joint["resistance"].split(":")[0], pull["unit"])
+        what = [joint["resistance"].split(":")[0], *([joint["mechanism"]["kind"]] if "mechanism" in joint else [])]
+        named = (kind, joint["child"], ", ".join(what), joint["pull"]["unit"])
         lines.append(table_row((*named, *stated, *cells, yes, *(f"{w:.1f}" for w in worst))))
     failed = [f"- {job['name']} in {e}: {a[job['name']]['error']}" for job in jobs for e, a in answers.items()
               if "error" in a[job["name"]]]  # fmt: skip

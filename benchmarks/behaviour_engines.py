@@ -6,8 +6,9 @@ Each engine reads the file that its users read, as it is; only what the engine d
 
 - MuJoCo: the MJCF, nothing set.
 - Newton: the MJCF with `SolverMuJoCo`, whose attributes are registered before it is read.
-- SAPIEN: the URDF; a drive without stiffness whose force limit is the file's friction, and damping as a force of each step.
-- Drake: the URDF; an actuator per joint whose effort limit is the file's friction, with a velocity gain and no position gain.
+- SAPIEN: the URDF; a drive without stiffness whose force limit is the file's friction; damping and springs as forces.
+- Drake: the URDF; an actuator per joint whose effort limit is the file's friction, with a velocity gain and no position gain;
+  springs as force elements.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ import json
 import sys
 import tempfile
 import traceback
+from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Protocol
@@ -37,6 +39,14 @@ FAR_M, FAR_RAD = 0.05, 0.3  # a push that is let go after this motion
 Positions = dict[str, float]
 
 
+@dataclass(frozen=True)
+class Stated:
+    """What asset.json states: handles by link [m], and springs by joint (stiffness, relaxed position), which a URDF lacks."""
+
+    handles: dict[str, np.ndarray]
+    springs: dict[str, tuple[float, float]]
+
+
 class World(Protocol):
     """An asset in an engine: its root is fixed, or free above a plane if the height of one is given."""
 
@@ -53,12 +63,10 @@ class World(Protocol):
 
 
 class Mujoco:
-    def __init__(
-        self, folder: Path, robot: Robot, gravity: np.ndarray, handles: dict[str, np.ndarray], ground: float | None = None
-    ) -> None:
+    def __init__(self, folder: Path, robot: Robot, gravity: np.ndarray, stated: Stated, ground: float | None = None) -> None:
         import mujoco
 
-        self.mujoco, self.handles = mujoco, handles
+        self.mujoco, self.handles = mujoco, stated.handles
         spec = mujoco.MjSpec.from_file(str(folder / f"{robot.name}.xml"))
         if ground is not None:
             spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=(0, 0, 1), pos=(0, 0, ground))
@@ -95,9 +103,7 @@ class Mujoco:
 
 
 class Sapien:
-    def __init__(
-        self, folder: Path, robot: Robot, gravity: np.ndarray, handles: dict[str, np.ndarray], ground: float | None = None
-    ) -> None:
+    def __init__(self, folder: Path, robot: Robot, gravity: np.ndarray, stated: Stated, ground: float | None = None) -> None:
         import sapien
 
         config = sapien.physx.get_scene_config()
@@ -116,25 +122,27 @@ class Sapien:
             self.body = loader.load(str(file))
         self.links = {link.name: link for link in self.body.links}
         self.joints = list(self.body.active_joints)
-        stated = {j.name: j for j in robot.moving}
-        self.stated = [stated[j.name] for j in self.joints]
-        self.damping = np.array([j.damping for j in self.stated])
-        self.handles = handles
+        by_name = {j.name: j for j in robot.moving}
+        self.files = [by_name[j.name] for j in self.joints]
+        self.damping = np.array([j.damping for j in self.files])
+        self.stiffness, self.relaxed = np.array([stated.springs.get(j.name, (0.0, 0.0)) for j in self.joints]).reshape(-1, 2).T
+        self.handles = stated.handles
 
     def reset(self, positions: Positions, held: frozenset[str]) -> None:
         at = np.array([positions.get(j.name, 0.0) for j in self.joints])
-        for joint, stated, q in zip(self.joints, self.stated, at, strict=True):
+        for joint, file, q in zip(self.joints, self.files, at, strict=True):
             joint.set_friction(0.0)
             if joint.name in held:
                 joint.set_drive_properties(HELD, HELD)
                 joint.set_drive_target(float(q))
             else:
-                joint.set_drive_properties(0.0, BRAKE * max(stated.friction, 1e-9), stated.friction, "force")
+                joint.set_drive_properties(0.0, BRAKE * max(file.friction, 1e-9), file.friction, "force")
         self.body.set_qpos(at)
         self.body.set_qvel(0 * at)
 
     def step(self, link: str = "", force: np.ndarray | None = None, torque: np.ndarray | None = None) -> None:
-        self.body.set_qf(-self.damping * self.body.get_qvel())
+        spring = self.stiffness * (self.relaxed - self.body.get_qpos())
+        self.body.set_qf(spring - self.damping * self.body.get_qvel())
         if link and force is not None:
             self.links[link].add_force_at_point(force, self.handles[link])
         if link and torque is not None:
@@ -149,9 +157,7 @@ class Sapien:
 
 
 class Drake:
-    def __init__(
-        self, folder: Path, robot: Robot, gravity: np.ndarray, handles: dict[str, np.ndarray], ground: float | None = None
-    ) -> None:
+    def __init__(self, folder: Path, robot: Robot, gravity: np.ndarray, stated: Stated, ground: float | None = None) -> None:
         import pydrake.all as drake
 
         builder = drake.DiagramBuilder()
@@ -169,8 +175,12 @@ class Drake:
                 f"{joint.name}_friction", plant.GetJointByName(joint.name), max(joint.friction, 1e-9)
             )
             brake.set_controller_gains(drake.PdControllerGains(p=0.0, d=BRAKE * max(joint.friction, 1e-9)))
+        for name, (stiffness, relaxed) in stated.springs.items():
+            joint = plant.GetJointByName(name)
+            spring = drake.RevoluteSpring if isinstance(joint, drake.RevoluteJoint) else drake.PrismaticSpring
+            plant.AddForceElement(spring(joint, relaxed, stiffness))
         plant.Finalize()
-        self.drake, self.plant, self.model, self.handles = drake, plant, model, handles
+        self.drake, self.plant, self.model, self.handles = drake, plant, model, stated.handles
         self.joints = {j.name: plant.GetJointByName(j.name) for j in robot.moving}
         self.diagram = builder.Build()
 
@@ -217,9 +227,7 @@ class Drake:
 
 
 class Newton:
-    def __init__(
-        self, folder: Path, robot: Robot, gravity: np.ndarray, handles: dict[str, np.ndarray], ground: float | None = None
-    ) -> None:
+    def __init__(self, folder: Path, robot: Robot, gravity: np.ndarray, stated: Stated, ground: float | None = None) -> None:
         import newton
         import warp
 
@@ -233,7 +241,7 @@ class Newton:
         self.q = {n: builder.joint_q_start[k] for k, n in enumerate(self.last) if n in {j.name for j in robot.moving}}
         self.dof = {n: builder.joint_qd_start[k] for k, n in enumerate(self.last) if n in self.q}
         self.bodies = {label.rsplit("/", 1)[-1]: k for k, label in enumerate(builder.body_label)}
-        self.newton, self.model, self.handles = newton, builder.finalize(device="cpu"), handles
+        self.newton, self.model, self.handles = newton, builder.finalize(device="cpu"), stated.handles
         self.top, self.free = self.bodies[robot.roots[0]], ground is not None
         self.solver = newton.solvers.SolverMuJoCo(self.model, use_mujoco_cpu=True)
         self.control, self.friction = self.model.control(), self.model.joint_friction.numpy().copy()
@@ -287,8 +295,8 @@ class Hand:
 
     def __init__(self, engine: str, folder: Path, robot: Robot, joints: list[dict[str, Any]]) -> None:
         self.engine, self.folder, self.robot, self.joints = ENGINES[engine], folder, robot, {j["name"]: j for j in joints}
-        self.handles = {j["child"]: np.array(j["pull"]["at"]) for j in joints}
-        self.world: World = self.engine(folder, robot, np.array([0, 0, -GRAVITY]), self.handles)
+        self.stated = Stated({j["child"]: np.array(j["pull"]["at"]) for j in joints}, springs_of(joints))
+        self.world: World = self.engine(folder, robot, np.array([0, 0, -GRAVITY]), self.stated)
 
     def step(self, joint: dict[str, Any], amount: float) -> None:
         """Advance with a pull of an amount [N or N m] in the stated direction."""
@@ -311,7 +319,7 @@ class Hand:
 
     def begins(self, joint: dict[str, Any]) -> dict[str, Any]:
         """Find the least pull that moves the handle within PULL_S from rest, by halving between two pulls."""
-        name, pull = joint["name"], joint["pull"]
+        name, pull = joint["name"], starts(joint)
         others = frozenset(self.joints) - {name}
         self.world.reset(self.opened(joint), others)
         for _ in range(round(REST_S / DT)):
@@ -340,7 +348,7 @@ class Hand:
 
     def settles(self, joint: dict[str, Any]) -> dict[str, Any]:
         """Push a joint open, let go, and watch whether it swings back and forth after CALM_S."""
-        name, pull = joint["name"], joint["pull"]
+        name, pull = joint["name"], starts(joint)
         self.world.reset(self.opened(joint), frozenset(self.joints) - {name})
         amount = 1.5 * max(pull["typical"], pull["most"], 1e-3)
         far = FAR_RAD if joint["type"] != "prismatic" else FAR_M
@@ -367,13 +375,26 @@ class Hand:
         worst = dict.fromkeys(self.joints, 0.0)
         for angle in np.arange(4) * np.pi / 2:
             down = np.array([np.cos(angle) * np.sin(SLOPE), np.sin(angle) * np.sin(SLOPE), -np.cos(SLOPE)])
-            world: World = self.engine(self.folder, self.robot, GRAVITY * down, self.handles)
+            world: World = self.engine(self.folder, self.robot, GRAVITY * down, self.stated)
             world.reset({}, frozenset())
             for _ in range(round(TILT_S / DT)):
                 world.step()
             for name, at in world.positions().items():
                 worst[name] = max(worst[name], self.motion(self.joints[name], abs(at)))
         return worst
+
+
+def springs_of(joints: list[dict[str, Any]]) -> dict[str, tuple[float, float]]:
+    """Return the springs of joints: stiffness [N/m or N m/rad] and the position at which they are relaxed [m or rad]."""
+    some = {j["name"]: j.get("mechanism", {}) for j in joints}
+    return {name: (m["stiffness"], m["reference"]) for name, m in some.items() if "stiffness" in m}
+
+
+def starts(joint: dict[str, Any]) -> dict[str, float]:
+    """Return what starts a joint by its asset.json, mechanism included: least, typical, most."""
+    pull = joint["pull"]
+    more = joint["mechanism"]["force"] - pull["typical"] if "mechanism" in joint else 0.0
+    return {word: pull[word] + more for word in ("least", "typical", "most")}
 
 
 def _swing(at: np.ndarray) -> float:
@@ -388,7 +409,7 @@ def rolls(engine: str, job: dict[str, Any]) -> dict[str, Any]:
     record = json.loads((folder / "asset.json").read_text(encoding="utf-8"))
     slope = GRAVITY * (0.5 * np.array(job["down"]) + np.sqrt(0.75) * np.array([0, 0, -1]))
     robot = read_urdf(folder / f"{record['name']}.urdf")
-    world: World = ENGINES[engine](folder, robot, slope, {}, job["ground"])
+    world: World = ENGINES[engine](folder, robot, slope, Stated({}, {}), job["ground"])
     world.reset({}, frozenset())
     world.step()
     start = world.root()
