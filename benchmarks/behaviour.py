@@ -45,7 +45,7 @@ SLOPE_DEG = 30.0
 AGREE = 0.1
 SWING = 1.0  # in 2 mm at the handle, or .02 rad: a larger swing back and forth after 2 s is an oscillation
 MEASURED = 0.05  # relative: accuracy of the measured pull
-FORMATS = (Format.URDF, Format.MJCF)
+FORMATS = (Format.URDF, Format.MJCF, Format.USD)
 HEAD = """# How joints answer a hand
 
 `python -m benchmarks.behaviour WORK --engine NAME=PYTHON ...`: {joints} joints of {kinds} objects, one per kind, written
@@ -151,7 +151,11 @@ def rows(jobs: Sequence[Mapping[str, Any]], answers: Answers) -> Iterator[tuple[
         some = {engine: a[job["name"]] for engine, a in answers.items() if "error" not in a[job["name"]]}
         for joint in job["joints"]:
             name = joint["name"]
-            yield job["name"], joint, {engine: a[name] | {"tilt": a["tilted"][name]} for engine, a in some.items()}
+            yield (
+                job["name"],
+                joint,
+                {engine: a[name] | ({"tilt": a["tilted"][name]} if "tilted" in a else {}) for engine, a in some.items()},
+            )
 
 
 def stays(joint: Mapping[str, Any]) -> bool:
@@ -169,10 +173,10 @@ def report(jobs: Sequence[Mapping[str, Any]], answers: Answers) -> str:
     for engine, answer in answers.items():
         own = [(joint, got[engine]) for _, joint, got in table if engine in got]
         near = sum(not g["bound"] and abs(g["begins"] - starts(j)["typical"]) <= AGREE * starts(j)["typical"] for j, g in own)
-        closed = [g["tilt"] <= 1 for j, g in own if stays(j)]
+        closed = [g["tilt"] <= 1 for j, g in own if stays(j) and "tilt" in g]
         car_ = answer[rolled["name"]].get("rolled") if rolled else None
         rolls = "-" if rolled is None or car_ is None else f"{car_:.2f} of {rolled['free']:.2f} m"
-        good, swings = sum(inside(starts(j), g) for j, g in own), sum(g["swing"] > SWING for _, g in own)
+        good, swings = sum(inside(starts(j), g) for j, g in own), sum(g.get("swing", 0.0) > SWING for _, g in own)
         lines.append(table_row((answer["version"], len(own), good, near, f"{sum(closed)} of {len(closed)}", swings, rolls)))
     both = [list(got.values()) for _, _, got in table if len(got) == len(answers)]
     lines += ["", f"All engines agree within 10 % on {sum(map(agree, both))} of {len(both)} joints.", ""]
@@ -181,7 +185,7 @@ def report(jobs: Sequence[Mapping[str, Any]], answers: Answers) -> str:
     for kind, joint, got in table:
         pull = starts(joint)
         stated = (f"{pull[word]:.3g}" for word in ("least", "typical", "most"))
-        worst = [max((g[word] for g in got.values()), default=0.0) for word in ("tilt", "swing")]
+        worst = [max((g[word] for g in got.values() if word in g), default=0.0) for word in ("tilt", "swing")]
         cells = (cell(pull, got.get(engine)) for engine in answers)
         yes = "yes" if agree(list(got.values())) else "no"
         what = [joint["resistance"].split(":")[0], *([joint["mechanism"]["kind"]] if "mechanism" in joint else [])]

@@ -7,6 +7,8 @@ Each engine reads the file that its users read, as it is; only what the engine d
 - MuJoCo: the MJCF, nothing set.
 - Newton: the MJCF with `SolverMuJoCo`, whose attributes are registered before it is read.
 - SAPIEN: the URDF; a drive without stiffness whose force limit is the file's friction; damping and springs as forces.
+- PhysX (`ovphysx`): the USD, nothing set. Forces act at joints, without gravity, whose share is added afterwards; slopes and
+  pushes are left out.
 - Drake: the URDF; an actuator per joint whose effort limit is the file's friction, with a velocity gain and no position gain;
   springs as force elements.
 """
@@ -24,6 +26,8 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from anymesh.checking.engines import physx_
+from anymesh.checking.engines.driving import Motor
 from anymesh.checking.engines.robot import Robot, read_urdf
 from anymesh.checking.engines.sapien_ import without_visuals
 
@@ -418,8 +422,45 @@ def rolls(engine: str, job: dict[str, Any]) -> dict[str, Any]:
     return {"rolled": float((world.root() - start) @ job["down"])}
 
 
+def of_physx(job: dict[str, Any]) -> dict[str, Any]:
+    """Return the pull that starts each joint in PhysX, from the force at the joint that moves it within half a second."""
+    folder = Path(job["folder"])
+    record = json.loads((folder / "asset.json").read_text(encoding="utf-8"))
+    robot = read_urdf(folder / f"{record['name']}.urdf")
+    world = physx_.World(robot.path, robot, dict.fromkeys((j.name for j in robot.moving), Motor(0.0, 0.0, 0.0, 1.0)))
+    answer = {}
+    for joint in job["joints"]:
+        at, pull, start = world.names.index(joint["name"]), joint["pull"], np.zeros(len(world.names))
+        for name in joint["opened"]:
+            start[world.names.index(name)] = next(j["limits"][1] for j in job["joints"] if j["name"] == name)
+        arm = np.cross(joint["axis"], np.subtract(pull["at"], joint["origin"]))
+        lever = max(float(np.linalg.norm(arm)), 1e-3) if pull["unit"] == "N" and joint["type"] != "prismatic" else 1.0
+        opens = -1.0 if joint["limits"] and sum(joint["limits"]) < 0 else 1.0
+        far = MOVED_M if joint["type"] == "prismatic" else MOVED_RAD if pull["unit"] != "N" else MOVED_M / lever
+
+        def moves(force: float, at: int = at, start: np.ndarray = start, far: float = far, sign: float = opens) -> bool:
+            world.reset(start)
+            forces = np.zeros(len(world.names))
+            forces[at] = sign * force
+            for _ in range(100):
+                world.push(forces)
+            return bool(abs(world.positions()[at] - start[at]) > far)
+
+        stated = starts(joint)
+        low, high = 0.3 * joint["friction"], 3 * joint["friction"] + 2 * lever * (stated["typical"] - pull["typical"])
+        bound = "below" if moves(low) else "" if moves(high) else "above"
+        for _ in range(0 if bound else HALVINGS):
+            middle = float(np.sqrt(low * high))
+            low, high = (low, middle) if moves(middle) else (middle, high)
+        begins = pull["typical"] + ((low if bound == "below" else high) - joint["friction"]) / lever
+        answer[joint["name"]] = {"begins": float(begins), "bound": bound}
+    return answer
+
+
 def measure(engine: str, job: dict[str, Any]) -> dict[str, Any]:
     """Measure one asset. job: folder, joints as in asset.json, each with `opened`."""
+    if engine == "ovphysx":
+        return of_physx(job)
     folder = Path(job["folder"])
     record = json.loads((folder / "asset.json").read_text(encoding="utf-8"))
     robot = read_urdf(folder / f"{record['name']}.urdf")
