@@ -19,7 +19,7 @@ import json
 import sys
 import tempfile
 import traceback
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any, Protocol
@@ -49,6 +49,7 @@ class Stated:
 
     handles: dict[str, np.ndarray]
     springs: dict[str, tuple[float, float]]
+    loose: bool = False  # whether joints have no dry friction, whatever is stated
 
 
 class World(Protocol):
@@ -76,7 +77,7 @@ class Mujoco:
             spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=(0, 0, 1), pos=(0, 0, ground))
         self.model = spec.compile()
         self.model.opt.gravity[:], self.model.opt.timestep = gravity, DT
-        self.data, self.friction = mujoco.MjData(self.model), self.model.dof_frictionloss.copy()
+        self.data, self.friction = mujoco.MjData(self.model), self.model.dof_frictionloss * (not stated.loose)
         self.top = self.model.body(robot.roots[0]).id
         one = [k for k in range(self.model.njnt) if self.model.jnt_type[k] != mujoco.mjtJoint.mjJNT_FREE]
         self.names = {self.model.joint(k).name: k for k in one}
@@ -126,7 +127,7 @@ class Sapien:
             self.body = loader.load(str(file))
         self.links = {link.name: link for link in self.body.links}
         self.joints = list(self.body.active_joints)
-        by_name = {j.name: j for j in robot.moving}
+        by_name = {j.name: replace(j, friction=0.0) if stated.loose else j for j in robot.moving}
         self.files = [by_name[j.name] for j in self.joints]
         self.damping = np.array([j.damping for j in self.files])
         self.stiffness, self.relaxed = np.array([stated.springs.get(j.name, (0.0, 0.0)) for j in self.joints]).reshape(-1, 2).T
@@ -175,10 +176,9 @@ class Drake:
             plant.RegisterCollisionGeometry(plant.world_body(), place, drake.HalfSpace(), "floor", drake.CoulombFriction(1, 1))
         plant.mutable_gravity_field().set_gravity_vector(gravity)
         for joint in robot.moving:
-            brake = plant.AddJointActuator(
-                f"{joint.name}_friction", plant.GetJointByName(joint.name), max(joint.friction, 1e-9)
-            )
-            brake.set_controller_gains(drake.PdControllerGains(p=0.0, d=BRAKE * max(joint.friction, 1e-9)))
+            friction = 1e-9 if stated.loose else max(joint.friction, 1e-9)
+            brake = plant.AddJointActuator(f"{joint.name}_friction", plant.GetJointByName(joint.name), friction)
+            brake.set_controller_gains(drake.PdControllerGains(p=0.0, d=BRAKE * friction))
         for name, (stiffness, relaxed) in stated.springs.items():
             joint = plant.GetJointByName(name)
             spring = drake.RevoluteSpring if isinstance(joint, drake.RevoluteJoint) else drake.PrismaticSpring
@@ -248,7 +248,7 @@ class Newton:
         self.newton, self.model, self.handles = newton, builder.finalize(device="cpu"), stated.handles
         self.top, self.free = self.bodies[robot.roots[0]], ground is not None
         self.solver = newton.solvers.SolverMuJoCo(self.model, use_mujoco_cpu=True)
-        self.control, self.friction = self.model.control(), self.model.joint_friction.numpy().copy()
+        self.control, self.friction = self.model.control(), self.model.joint_friction.numpy() * (not stated.loose)
         self.center = self.model.body_com.numpy()
 
     def reset(self, positions: Positions, held: frozenset[str]) -> None:
@@ -407,19 +407,25 @@ def _swing(at: np.ndarray) -> float:
     return float(min(steps[steps > 0].sum(), -steps[steps < 0].sum()))
 
 
-def rolls(engine: str, job: dict[str, Any]) -> dict[str, Any]:
-    """Return how far a car rolls down a slope of 30 degrees in 2 s [m]. job: its folder, `ground`, and `down` the slope."""
+def rolls(engine: str, job: dict[str, Any]) -> dict[str, float]:
+    """Return how far a car rolls down a slope of 30 degrees in 2 s, with and without dry friction of its joints [m].
+
+    job: its folder, `ground`, and `down` the slope.
+    """
     folder = Path(job["folder"])
     record = json.loads((folder / "asset.json").read_text(encoding="utf-8"))
     slope = GRAVITY * (0.5 * np.array(job["down"]) + np.sqrt(0.75) * np.array([0, 0, -1]))
     robot = read_urdf(folder / f"{record['name']}.urdf")
-    world: World = ENGINES[engine](folder, robot, slope, Stated({}, {}), job["ground"])
-    world.reset({}, frozenset())
-    world.step()
-    start = world.root()
-    for _ in range(round(2.0 / DT)):
+    found = {}
+    for word, loose in (("rolled", False), ("loose", True)):
+        world: World = ENGINES[engine](folder, robot, slope, Stated({}, {}, loose), job["ground"])
+        world.reset({}, frozenset())
         world.step()
-    return {"rolled": float((world.root() - start) @ job["down"])}
+        start = world.root()
+        for _ in range(round(2.0 / DT)):
+            world.step()
+        found[word] = float((world.root() - start) @ job["down"])
+    return found
 
 
 def of_physx(job: dict[str, Any]) -> dict[str, Any]:
