@@ -28,6 +28,7 @@ from anymesh.evaluation.datasets.urdf_ import flatten_urdf
 from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepared
 from anymesh.export import Base, ExportOptions, Format, write_asset
 from anymesh.export.model import Model
+from anymesh.physics.resistance import ResistanceLevel
 from anymesh.types import Asset, JointType, Part
 from benchmarks import EXAMPLES, REPORTS, ROOT, parser_of, table_head, table_row
 from benchmarks.behaviour_engines import starts
@@ -91,7 +92,9 @@ def written(work: Path, kinds: Sequence[str], level: str) -> list[dict[str, Any]
     for kind, truth in truths(work, kinds):
         folder = work / "assets" / kind
         folder.mkdir(parents=True, exist_ok=True)
-        write_asset(asset_of(truth), folder, ExportOptions(formats=FORMATS), cache=work / "shapes")
+        write_asset(
+            asset_of(truth), folder, ExportOptions(formats=FORMATS, resistance=ResistanceLevel(level)), cache=work / "shapes"
+        )
         record = json.loads((folder / "asset.json").read_text(encoding="utf-8"))
         sweep = sweep_joints(folder / f"{record['name']}.urdf", steps=40)
         opened = {j.name: list(j.opened) for j in sweep.joints}

@@ -32,7 +32,7 @@ PIECES = f"{FOLDER}/mjcf"  # separate folder: `door_2.obj` in it is the second m
 VISUAL, COLLISION = "visual", "collision"
 MJCF_SLOTS = ("base_color", "normal", "emissive")
 BLENDED = 0.99  # opacity below which MuJoCo blends, so that the alpha of a picture counts
-FIRM = {  # else hinges that friction holds creep by a degree per second, and springs press parts into their stops
+FIRM = {  # else what friction holds creeps, a knob by turns per second, and springs press parts into their stops
     "solreflimit": "0.004 1",
     "solimplimit": "0.9999 0.9999 0.001",
     "solreffriction": "0.004 1",
@@ -292,10 +292,9 @@ def _joint(element: ElementTree.Element, joint: Joint, resistance: Resistance, m
     element.set("actuatorfrcrange", vector((-resistance.effort, resistance.effort)))
     if joint.limits is not None:
         element.set("range", vector(joint.limits))
-    if mechanism is not None:
-        element.attrib.update(FIRM)
-        if mechanism.stiffness:
-            element.attrib.update(stiffness=number(mechanism.stiffness), springref=number(mechanism.reference))
+    element.attrib.update(FIRM)
+    if mechanism is not None and mechanism.stiffness:
+        element.attrib.update(stiffness=number(mechanism.stiffness), springref=number(mechanism.reference))
 
 
 def _geoms(element: ElementTree.Element, body: ExportLink) -> None:

@@ -212,7 +212,9 @@ class _Moved:
         joint, along = self.joint, self.opens * self.joint.axis
         middle = (self.corners.min(0) + self.corners.max(0)) / 2
         heights, touched = (self.corners - middle) @ along, self.kind.form == "touch"
-        far = self.corners[self.distances >= 0.98 * self.radius].mean(0)
+        rim = self.corners[self.distances >= 0.98 * self.radius]
+        arms = np.cross(joint.axis, rim - joint.origin)
+        far = rim[arms @ arms[0] >= 0.5 * arms[0] @ arms[0]].mean(0)  # of one side, else the middle of a rotor is its handle
         usual = middle + (heights.min() if touched else heights.max()) * along if self.slides else far
         if touched or self.torque:
             return middle if self.torque else usual
