@@ -20,7 +20,6 @@ from anymesh.types.mesh import TEXTURE_SLOTS, to_srgb
 from anymesh.types.triangles import CUBE_CORNERS, face_cross
 
 POINT = 1e-4  # [m] side of a link without any extent
-GREY = (0.7, 0.7, 0.7, 1.0)
 SUFFIXES = {"image/png": ".png", "image/jpeg": ".jpg"}
 MIN_AREA = 1e-12  # [m^2] minimum area of a visible primitive; MuJoCo refuses smaller meshes
 MIN_AREA_SHARE = 1e-9  # of the squared diagonal: the area of thinner needles is lost in float32
