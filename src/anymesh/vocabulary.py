@@ -74,6 +74,7 @@ FIXED = frozenset(
     "base body frame corpus housing case carcass chassis shell panel board wall side back top bottom floor shelf shelves leg "
     "foot feet stand support table plinth fixed static burner screw logo".split()
 )
+SMALLER = frozenset("toy model mini miniature dollhouse".split())  # of another size and material than the real object
 # a side of the object on their own; otherwise only a position: "drawer_top" is a drawer
 PLACES = frozenset("side back top bottom".split())
 _BY_NAME = {name: word for word in WORDS for name in word.names}

@@ -17,8 +17,9 @@ from anymesh.physics.decompose import (
     component_shapes,
     split_components,
 )
-from anymesh.physics.inertia import SUBSTANCES, Inertia, link_inertia, physical, raw_inertia, substance_of
+from anymesh.physics.inertia import Inertia, link_inertia, physical, raw_inertia
 from anymesh.physics.split import split_surface
+from anymesh.physics.substances import SUBSTANCES, substance_of
 from anymesh.types import Asset, Box, Cylinder, Hull, Part, Segmentation
 
 FINE = Resolution(gap=0.02, wall=0.002, max_pieces=24)

@@ -12,13 +12,14 @@ import numpy as np
 
 import anymesh
 from anymesh.export.formats import main_file
-from anymesh.export.model import ExportLink, Model
+from anymesh.export.model import ExportLink, Model, SubstanceShare
 from anymesh.export.options import Format
 from anymesh.physics.mechanism import Mechanism
 from anymesh.physics.resistance import Resistance
 from anymesh.types import Exchange, Joint, Mesh, Source
 
 SCHEMA_VERSION = "1.3"
+STATED = ("name", "density", "static_friction", "dynamic_friction", "restitution")  # of substances
 TIMING_FILE = "timing.json"  # separate, so that everything else is the same in every run
 
 
@@ -32,6 +33,8 @@ def asset_record(model: Model) -> dict[str, Any]:
         "source": source_record(asset.source),
         **model.how.record(),
         "files": {str(kind): main_file(kind, asset.name) for kind in model.how.formats},
+        "mass": _round(sum(body.inertia.mass for body in model.bodies)),
+        "mass_range": [_round(sum(b.inertia.mass * b.inertia.spread[k] for b in model.bodies)) for k in (0, 1)],
         "parts": [_part(asset.mesh, body, asset.source_face) for body in model.bodies],
         "joints": [_joint(model, joint) for joint in asset.joints],
         "no_contact": [{"links": [e.a, e.b], "reason": e.why} for e in model.exclusions],
@@ -85,6 +88,8 @@ def _part(mesh: Mesh, body: ExportLink, source_face: np.ndarray | None) -> dict[
         "parent": None if link.joint is None else link.joint.parent,
         "area": _round(mesh.face_areas[link.faces].sum()),
         "mass": _round(body.inertia.mass),
+        "mass_range": [_round(body.inertia.mass * factor) for factor in body.inertia.spread],
+        "substances": [_substance(share) for share in body.substances],
         "face_count": len(body.source_faces(source_face)),
         "faces": body.faces_path(),
         "new_faces": len(link.faces) - len(body.source_faces(source_face)),
@@ -93,6 +98,11 @@ def _part(mesh: Mesh, body: ExportLink, source_face: np.ndarray | None) -> dict[
         "confidence": _round(link.part.confidence),
         "reason": link.part.reason,
     }
+
+
+def _substance(share: SubstanceShare) -> dict[str, Any]:
+    known = {} if share.substance is None else {key: v for key, v in asdict(share.substance).items() if key in STATED}
+    return {"name": None, "source": share.source, "share": _round(share.share)} | known
 
 
 def _joint(model: Model, joint: Joint) -> dict[str, Any]:

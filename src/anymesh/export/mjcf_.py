@@ -165,8 +165,10 @@ def _add_geoms(
             geom.rgba = look.rgba
         else:
             geom.material = names[look.material]
-    for k, (shape, path) in enumerate(zip(body.shapes, body.hull_paths(), strict=True)):
+    for k, (shape, path, substance) in enumerate(body.collisions()):
         geom = frame.add_geom(spec.find_default(COLLISION), name=f"{body.name}_collision_{k}")
+        if substance is not None:
+            geom.friction[0] = substance.dynamic_friction
         _shape(mujoco, spec, geom, shape, path)
 
 

@@ -5,7 +5,7 @@ A drive is a spring and a damper towards a commanded position, with the same val
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -19,30 +19,45 @@ from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.options import Driven, ExportOptions, Shapes, Visuals
 from anymesh.geometry.surface import plain_triangles
 from anymesh.physics.collision import CollisionConfig, collision_shapes
-from anymesh.physics.convex import as_hull
-from anymesh.physics.inertia import Inertia, InertiaConfig, Substance, link_inertia, substance_of
+from anymesh.physics.convex import as_hull, planes
+from anymesh.physics.inertia import Inertia, InertiaConfig, MadeOf, link_inertia
 from anymesh.physics.mechanism import Mechanism
 from anymesh.physics.resistance import Resistance, crossing
+from anymesh.physics.substances import Substance, substance_of, usual_substance
 from anymesh.runtime import Deadline
 from anymesh.types import Asset, Hull, Joint, Mesh, Shape
+from anymesh.types.triangles import normals_and_areas
 
 FOLDER = "meshes"
+VOTERS = 5000  # maximum number of triangles that decide on the substances of shapes
 OVERLAP = "their surfaces overlap at rest"
 TIGHT = "their collision shapes touch where the surfaces do not, or while one moves"
 WITHIN = 0.02  # of a joint's range: maximum steady-state error of a drive under its load
+
+
+@dataclass(frozen=True)
+class SubstanceShare:
+    """What a share of a link's area is made of. source: "material" (by its name), "kind" (of part or object) or "default"."""
+
+    substance: Substance | None
+    source: str
+    share: float
 
 
 @dataclass(frozen=True, eq=False)
 class ExportLink:
     """A link with its physical properties.
 
-    shapes: convex collision shapes, in the link frame; openings: share of its openings that they keep, if they were limited.
+    shapes: convex collision shapes, in the link frame; openings: share of its openings that they keep, if they were limited;
+    substances: what it is made of, by area, the most first; surfaces: the substance of each shape, () if none is known.
     """
 
     link: Link
     inertia: Inertia
     shapes: tuple[Shape, ...]
     openings: float | None = None
+    substances: tuple[SubstanceShare, ...] = ()
+    surfaces: MadeOf = ()
 
     @property
     def name(self) -> str:
@@ -62,6 +77,10 @@ class ExportLink:
             return self.link.faces
         faces = source_face[self.link.faces]
         return faces[faces >= 0]
+
+    def collisions(self) -> Iterator[tuple[Shape, str | None, Substance | None]]:
+        """Yield each collision shape with its path as of `hull_paths`, and its substance."""
+        return zip(self.shapes, self.hull_paths(), self.surfaces or (None,) * len(self.shapes), strict=True)
 
     def hull_paths(self) -> tuple[str | None, ...]:
         """Return a path relative to the asset folder for each shape; None for boxes and cylinders, which need no file."""
@@ -148,34 +167,48 @@ def build_model(
     origins = {link.name: link.origin for link in links}
     shapes = replace(config.collision, hulls=how.hulls)
     collision = collision_shapes(asset, triangles, origins, shapes, cache, deadline=deadline)
-    asset = replace(
-        asset,
-        warnings=tuple(
-            dict.fromkeys((*asset.warnings, *collision.warnings, *losses(asset.mesh, asset.segmentation.face_part)))
-        ),
-    )
-    bodies = tuple(
-        ExportLink(
-            link,
-            link_inertia(triangles[link.name], config, _made_of(asset.mesh, link, plain[link.name][1])),
-            tuple(map(as_hull, collision.shapes[link.name])) if how.shapes is Shapes.HULLS else collision.shapes[link.name],
-            collision.openings.get(link.name),
-        )
-        for link in links
-    )
+    warnings = (*asset.warnings, *collision.warnings, *losses(asset.mesh, asset.segmentation.face_part))
+    asset = replace(asset, warnings=tuple(dict.fromkeys(warnings)))
+    bodies = []
+    for link in links:
+        shapes, (surface, kept) = collision.shapes[link.name], plain[link.name]
+        shapes = tuple(map(as_hull, shapes)) if how.shapes is Shapes.HULLS else shapes
+        shares, made_of = _shares(asset, link)
+        inertia = link_inertia(surface, config, [made_of[k] for k in kept])
+        surfaces = _surfaces(link.triangles, made_of, shapes, shares[0].substance)
+        bodies.append(ExportLink(link, inertia, shapes, collision.openings.get(link.name), shares, surfaces))
     excluded = [Exclusion(a, b, OVERLAP) for a, b in collision.overlapping]
     excluded += [Exclusion(a, b, TIGHT) for a, b in collision.tight]
     inertias = {body.name: body.inertia for body in bodies}
     usual = resolve(RESISTANCES)(asset, inertias, how.resistance)
     chosen, resisting = resolve(CHOOSE_MECHANISMS)(asset, inertias, usual, how.mechanisms)
-    return Model(asset, bodies, resisting, how, tuple(excluded), chosen)
+    return Model(asset, tuple(bodies), resisting, how, tuple(excluded), chosen)
 
 
-def _made_of(mesh: Mesh, link: Link, kept: Int[np.ndarray, " K"]) -> list[Substance | None]:
-    """Return the substance of some triangles of a link, by the names of their materials."""
-    named = {p.material: substance_of(mesh.materials[p.material].name) for p in link.primitives}
-    all_ = [named[p.material] for p in link.primitives for _ in range(len(p.triangles))]
-    return [all_[k] for k in kept]
+def _shares(asset: Asset, link: Link) -> tuple[tuple[SubstanceShare, ...], MadeOf]:
+    """Return what a link is made of, the most first, and the substance of each of its triangles."""
+    usual = usual_substance(f"{link.name} {link.part.label}", asset.name)
+    areas, made_of = dict[tuple[Substance | None, str], float](), list[Substance | None]()
+    for p in link.primitives:
+        named = substance_of(asset.mesh.materials[p.material].name)
+        answer = (named, "material") if named else (usual, "kind" if usual else "default")
+        areas[answer] = areas.get(answer, 0.0) + float(normals_and_areas(p.positions[p.triangles])[1].sum())
+        made_of += [answer[0]] * len(p.triangles)
+    whole = max(sum(areas.values()), 1e-300)
+    return tuple(SubstanceShare(*answer, area / whole) for answer, area in sorted(areas.items(), key=lambda a: -a[1])), made_of
+
+
+def _surfaces(triangles: np.ndarray, made_of: MadeOf, shapes: Sequence[Shape], usual: Substance | None) -> MadeOf:
+    """Return the substance of each shape: that with most area among the triangles nearest to it, `usual` without any."""
+    kinds = list(dict.fromkeys(made_of))
+    if len(kinds) < 2:
+        return (usual,) * len(shapes)
+    some = slice(None, None, 1 + len(triangles) // VOTERS)
+    centers, areas = np.c_[triangles[some].mean(1), np.ones(len(made_of[some]))], normals_and_areas(triangles[some])[1]
+    outside = [(centers @ planes(as_hull(shape)).T).max(1) for shape in shapes]
+    votes = np.zeros((len(shapes), len(kinds)))
+    np.add.at(votes, (np.argmin(outside, 0), [kinds.index(m) for m in made_of[some]]), areas)
+    return tuple(kinds[int(v.argmax())] if v.any() else usual for v in votes)
 
 
 @dataclass(frozen=True)

@@ -14,6 +14,7 @@ from anymesh.export.model import ExportConfig, ExportLink, Model
 from anymesh.export.notation import document, moments, number, rpy, vector
 from anymesh.export.options import Base
 from anymesh.names import legal_names
+from anymesh.physics.substances import Substance
 from anymesh.types import Box, Cylinder, Hull, Joint, Mesh, Shape
 
 VERSION = "1.9"
@@ -97,12 +98,25 @@ def _add_link(model: ElementTree.Element, body: ExportLink, origins: Mapping[str
     tensor = ElementTree.SubElement(inertial, "inertia")
     for key, value in moments(body.inertia.tensor).items():
         _leaf(tensor, key, value)
-    for index, (shape, path) in enumerate(zip(body.shapes, body.hull_paths(), strict=True)):
+    for index, (shape, path, substance) in enumerate(body.collisions()):
         collision = ElementTree.SubElement(element, "collision", name=f"collision_{index}")
         if not isinstance(shape, Hull):
             _leaf(collision, "pose", _pose(shape.center, shape.rotation))
         _add_shape(ElementTree.SubElement(collision, "geometry"), shape, path)
+        if substance is not None:
+            _add_surface(collision, substance)
     return element
+
+
+def _add_surface(collision: ElementTree.Element, substance: Substance) -> None:
+    """Add friction, equal in all directions (Drake: static and dynamic), and restitution."""
+    surface = ElementTree.SubElement(collision, "surface")
+    ode = ElementTree.SubElement(ElementTree.SubElement(surface, "friction"), "ode")
+    for tag in ("mu", "mu2"):
+        _leaf(ode, tag, number(substance.dynamic_friction))
+    bounce = ElementTree.SubElement(surface, "bounce")
+    _leaf(bounce, "restitution_coefficient", number(substance.restitution))
+    _leaf(bounce, "threshold", "0.1")  # [m/s] slower contacts do not bounce, as in DART; by default none does
 
 
 def _add_visual(link: ElementTree.Element, mesh: Mesh, body: ExportLink, path: str) -> None:

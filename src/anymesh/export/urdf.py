@@ -67,11 +67,23 @@ def _add_link(robot: ElementTree.Element, body: ExportLink, visual_path: str, lo
     sub(sub(visual, "geometry"), "mesh", filename=visual_path)
     name, color = look
     sub(sub(visual, "material", name=name), "color", rgba=" ".join(f"{c:.6g}" for c in color))
-    for shape, path in zip(body.shapes, body.hull_paths(), strict=True):
-        _add_collision(element, shape, path)
+    for shape, path, substance in body.collisions():
+        collision = _add_collision(element, shape, path)
+        if substance is not None:
+            proximity = sub(collision, f"{DRAKE}proximity_properties")
+            sub(proximity, f"{DRAKE}mu_static", value=number(substance.static_friction))
+            sub(proximity, f"{DRAKE}mu_dynamic", value=number(substance.dynamic_friction))
+    if body.substances and (most := body.substances[0].substance):
+        friction = number(most.dynamic_friction)
+        contact = sub(element, "contact")
+        sub(contact, "lateral_friction", value=friction)
+        sub(contact, "restitution", value=number(most.restitution))
+        gazebo = sub(robot, "gazebo", reference=body.name)
+        sub(gazebo, "mu1").text = friction
+        sub(gazebo, "mu2").text = friction
 
 
-def _add_collision(link: ElementTree.Element, shape: Shape, path: str | None) -> None:
+def _add_collision(link: ElementTree.Element, shape: Shape, path: str | None) -> ElementTree.Element:
     sub = ElementTree.SubElement
     element = sub(link, "collision")
     center, rotation = (np.zeros(3), np.eye(3)) if isinstance(shape, Hull) else (shape.center, shape.rotation)
@@ -86,6 +98,7 @@ def _add_collision(link: ElementTree.Element, shape: Shape, path: str | None) ->
             sub(geometry, "mesh", filename=str(path))
         case _:
             assert_never(shape)
+    return element
 
 
 def _add_joint(

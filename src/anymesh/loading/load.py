@@ -24,6 +24,7 @@ from anymesh.loading.files import ARCHIVE, FORMATS, MAX_FACES, FileMesh, Folder,
 from anymesh.loading.scene_graph import scene_of_objects
 from anymesh.loading.upright import AUTO, AXES, INFER, Up, infer_up, read_up, up_of
 from anymesh.types import Mesh
+from anymesh.vocabulary import SMALLER
 
 FARTHEST = 1e12  # coordinates above are no plausible lengths
 MAX_UV = 1e6  # a larger texture coordinate in single precision does not tell the place in the picture
@@ -41,7 +42,6 @@ LONGEST = {
     "toilet": 0.75, "trash": 0.6, "truck": 7.0, "tv": 1.1, "usb": 0.06, "van": 5.0, "wardrobe": 2.1, "washer": 0.85,
     "washing_machine": 0.85, "wheelchair": 1.05, "window": 1.3,
 }  # fmt: skip
-SMALLER = {"toy", "model", "mini", "miniature", "dollhouse"}  # words that mean that the usual size does not apply
 BELIEVED_FACTOR = 3.0  # a size is accepted within this factor of the usual one
 PLAUSIBLE = (0.02, 12.0)  # [m] diagonals of typical objects, from a knob to a van
 EXPECTED = (0.01, 20.0)  # [m] other diagonals in the unit of the file get a warning; as in anymesh check

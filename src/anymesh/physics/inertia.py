@@ -1,14 +1,7 @@
-"""Mass, center of mass and inertia of a link from its triangles, always physically valid.
-
-Densities follow from the words of a material's name. Steel, aluminium, brass, bronze, copper, iron, glass, stone, concrete,
-rubber, water and oak are within the ranges of the table of mass densities in Gere, Mechanics of Materials (5th edition). The
-others are rounded typical values, and vary by a tenth and more. The maximum thickness of solid components, and the wall
-thickness of thicker ones, are estimates from typical household objects.
-"""
+"""Mass, center of mass and inertia of a link from its triangles, always physically valid."""
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -16,54 +9,11 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.geometry.topology import components
+from anymesh.physics.substances import Substance
 from anymesh.types.triangles import face_cross, unshared
 
-DENSITIES = {  # [kg/m^3] by the thickness of solids and of walls [m]: those of `Substance`
-    (0.015, 0.0012): {
-        "steel": 7850, "stainless": 7900, "inox": 7900, "iron": 7200, "metal": 7850, "chrome": 7850,
-        "aluminium": 2700, "aluminum": 2700, "brass": 8500, "bronze": 8800, "copper": 8900, "zinc": 7140,
-        "silver": 10490, "gold": 19300,
-    },
-    (0.012, 0.003): {"plastic": 1050, "abs": 1050, "acrylic": 1180, "pvc": 1380, "nylon": 1140},
-    (0.08, 0.016): {
-        "wood": 650, "oak": 720, "pine": 510, "walnut": 640, "beech": 720, "birch": 650, "maple": 700, "bamboo": 700,
-        "plywood": 600, "mdf": 750, "chipboard": 680,
-    },
-    (0.04, 0.006): {"ceramic": 2300, "porcelain": 2400, "clay": 1900, "tile": 2200},
-    (float("inf"), 0.01): {
-        "stone": 2600, "marble": 2700, "granite": 2700, "concrete": 2400, "brick": 1900, "cork": 200, "fabric": 300,
-        "cloth": 300, "foam": 40, "cushion": 60, "paper": 750, "water": 1000, "ice": 917,
-    },
-    (0.012, 0.004): {"glass": 2500, "mirror": 2500},
-    (0.02, 0.004): {"rubber": 1100},
-    (0.004, 0.002): {"leather": 860},
-    (0.01, 0.004): {"cardboard": 690},
-}  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Substance:
-    """Density and wall thickness of a material.
-
-    density [kg/m^3]; solid_to: a closed component with a greater mean thickness [m] is hollow; sheet: thickness of the walls of
-    hollow components and open shells [m].
-    """
-
-    density: float
-    solid_to: float
-    sheet: float
-
-
-SUBSTANCES = {
-    name: Substance(float(density), *thickness) for thickness, named in DENSITIES.items() for name, density in named.items()
-}
-
-
-def substance_of(name: str) -> Substance | None:
-    """Return the substance of a material from the last known word of its name ("Black_Steel.001" is steel), else None."""
-    words = re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)
-    known = [SUBSTANCES[w.lower()] for w in words if w.lower() in SUBSTANCES]
-    return known[-1] if known else None
+WALLS = (0.5, 2.0)  # least and most of a wall's thickness relative to the one taken; an estimate
+UNKNOWN = (0.2, 3.0)  # the same of the mass of a component of unknown material; an estimate
 
 
 @dataclass(frozen=True)
@@ -88,11 +38,15 @@ MadeOf = Sequence[Substance | None]
 
 @dataclass(frozen=True, eq=False)
 class Inertia:
-    """Mass properties of a link. mass [kg]; center: center of mass [m]; tensor: about it, symmetric [kg m^2]."""
+    """Mass properties of a link.
+
+    mass [kg]; center: center of mass [m]; tensor: about it, symmetric [kg m^2]; spread: least and greatest mass over it.
+    """
 
     mass: float
     center: Float[np.ndarray, " 3"]
     tensor: Float[np.ndarray, "3 3"]
+    spread: tuple[float, float] = (1.0, 1.0)
 
 
 def link_inertia(triangles: Float[np.ndarray, "n 3 3"], config: InertiaConfig, made_of: MadeOf | None = None) -> Inertia:
@@ -122,7 +76,7 @@ def raw_inertia(triangles: Float[np.ndarray, "n 3 3"], config: InertiaConfig, ma
     volume = np.bincount(surface_components.label, volumes, surface_components.count)
     flat = np.abs(volume) <= 1e-9 * np.bincount(surface_components.label, np.abs(volumes), surface_components.count)
     wall = config.wall(float(np.linalg.norm(np.ptp(corners, axis=0))))
-    body, sheet_density, closed = _densities(
+    body, sheet_density, closed, spread = _densities(
         surface_components.label, areas, np.abs(volume), surface_components.solid & ~flat, wall, config, made_of
     )
     solid = closed[surface_components.label]
@@ -138,7 +92,8 @@ def raw_inertia(triangles: Float[np.ndarray, "n 3 3"], config: InertiaConfig, ma
     second = np.einsum("n,nki,nkj->ij", weights, t, t) + np.einsum("n,ni,nj->ij", weights, total, total)
     covariance = second - mass * np.outer(center, center)
     tensor = np.trace(covariance) * np.eye(3) - covariance
-    return Inertia(mass, center + base, (tensor + tensor.T) / 2)
+    least, most = (filled + sheet) @ spread[surface_components.label] / mass
+    return Inertia(mass, center + base, (tensor + tensor.T) / 2, (float(least), float(most)))
 
 
 def _densities(
@@ -149,13 +104,14 @@ def _densities(
     wall: float,
     config: InertiaConfig,
     made_of: MadeOf | None,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return for each component its density [kg/m^3], the area density of its shell [kg/m^2], and whether it is solid."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Return for each component its density [kg/m^3], the area density of its shell [kg/m^2], if it is solid, its spread."""
     count = len(volume)
     body, sheet, solid = np.full(count, config.density), np.full(count, config.shell_density * wall), closed.copy()
+    spread = np.tile(UNKNOWN, (count, 1))
     if made_of is None or not any(made_of):
-        return body, sheet, solid
-    kinds = sorted({m for m in made_of if m is not None}, key=lambda m: (m.density, m.solid_to, m.sheet))
+        return body, sheet, solid, spread
+    kinds = sorted({m for m in made_of if m is not None}, key=lambda m: (m.density, m.solid_to, m.sheet, m.name))
     number = np.array([len(kinds) if m is None else kinds.index(m) for m in made_of])
     covered = np.zeros((count, len(kinds) + 1))
     np.add.at(covered, (label, number), areas)
@@ -165,7 +121,8 @@ def _densities(
         body[k], sheet[k] = substance.density, substance.density * min(substance.sheet, wall)
         if 2 * volume[k] / area[k] > substance.solid_to:  # the area includes both sides of the wall
             solid[k], sheet[k] = False, substance.density * substance.sheet
-    return body, sheet, solid
+        spread[k] = np.array([1 - substance.spread, 1 + substance.spread]) * (1.0 if solid[k] else WALLS)
+    return body, sheet, solid, spread
 
 
 def physical(body: Inertia, config: InertiaConfig) -> Inertia:
@@ -179,4 +136,4 @@ def physical(body: Inertia, config: InertiaConfig) -> Inertia:
     if short > 0:
         moments[:2] += short / 2
     tensor = (axes * moments) @ axes.T
-    return Inertia(mass, body.center, (tensor + tensor.T) / 2)
+    return Inertia(mass, body.center, (tensor + tensor.T) / 2, body.spread)
