@@ -36,11 +36,12 @@ DAE_FRAME = "formats.dae.document:dae_frame"
 LOAD_ZIPPED = "formats.zipped:load_zipped"
 REMEDY = "formats.reading:remedy"
 
-# The writer of USD, which has a package of its own, the visuals of DAE, and the physics of glTF.
+# The writers of USD and SDF, the visuals of DAE, and the physics of glTF.
 WRITE_USD = "openusd.writer_:write_usd"
 WRITE_USDZ = "openusd.writer_:write_usdz"
 WRITE_SIMREADY = "openusd.simready_:write_simready"
 LOAD_USD = "openusd.writer_:load_usd"
+WRITE_SDF = "formats.sdf:write_sdf"
 WRITE_DAE = "formats.dae.writing:write_dae"
 GLTF_PHYSICS = "formats.gltf.physics:add_physics"
 

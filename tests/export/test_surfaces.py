@@ -15,8 +15,8 @@ from anymesh.export.mjcf_ import write_mjcf
 from anymesh.export.model import build_model
 from anymesh.export.notation import DRAKE
 from anymesh.export.options import ExportOptions
-from anymesh.export.sdf import sdf_text
 from anymesh.export.urdf import urdf_text
+from anymesh.formats.sdf import sdf_text
 from anymesh.physics.substances import SUBSTANCES
 from anymesh.types import Material, Part, Segmentation
 

@@ -6,12 +6,11 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
-from anymesh.entry_points import GLTF_PHYSICS, LOAD_USD, WRITE_SIMREADY, WRITE_USD, WRITE_USDZ, resolve
+from anymesh.entry_points import GLTF_PHYSICS, LOAD_USD, WRITE_SDF, WRITE_SIMREADY, WRITE_USD, WRITE_USDZ, resolve
 from anymesh.export.glb import glb_bytes
 from anymesh.export.mjcf_ import write_mjcf
 from anymesh.export.model import ExportConfig, Model
 from anymesh.export.options import Format, Profile
-from anymesh.export.sdf import write_sdf
 from anymesh.export.urdf import urdf_text
 
 Writer = Callable[[Model, Path, ExportConfig], None]  # writes into an asset folder with its meshes/
@@ -55,6 +54,10 @@ def _write_glb(model: Model, folder: Path, config: ExportConfig) -> None:
     (folder / main_file(Format.GLB, model.asset.name)).write_bytes(glb)
 
 
+def _write_sdf(model: Model, folder: Path, config: ExportConfig) -> None:
+    resolve(WRITE_SDF)(model, folder, config)
+
+
 def _write_usdz(model: Model, folder: Path, config: ExportConfig) -> None:
     resolve(WRITE_USDZ)(model, folder, config)
 
@@ -67,7 +70,7 @@ WRITERS: Mapping[Format, Writer] = {
     Format.URDF: _write_urdf,
     Format.MJCF: write_mjcf,
     Format.USD: _write_usd,
-    Format.SDF: write_sdf,
+    Format.SDF: _write_sdf,
     Format.GLB: _write_glb,
     Format.USDZ: _write_usdz,
 }
