@@ -135,7 +135,7 @@ def test_a_knob_snaps_to_steps(tmp_path: Path) -> None:
     for start, step in ((9, 0), (21, 30), (-22, -30)):
         mujoco.mj_resetData(compiled, data)
         data.qpos[0] = np.deg2rad(start)
-        assert np.rad2deg(after(compiled, data, 2.0)) == pytest.approx(step, abs=6)
+        assert np.rad2deg(after(compiled, data, 2.0)) == pytest.approx(step, abs=2)
 
 
 @pytest.mark.parametrize("choice", ["part=close", "part=hold", "part=latch", "part=return"])

@@ -234,5 +234,5 @@ class _Maker:
 
     def _stepped(self, m: Mechanism, force: float) -> tuple[Mechanism, Resistance]:
         torque = min(force, 2 * self.r.friction)
-        r = self._rubbing(0.0, torque / 2)
+        r = self._rubbing(0.0, torque / 4)  # else it would rest beside the step
         return replace(m, torque=torque, steps=STEPS, force=(torque + r.friction) / self.lever), r
