@@ -15,6 +15,7 @@ from anymesh.export.model import Model
 from anymesh.export.options import Format, Visuals
 from anymesh.loading import load_mesh
 from anymesh.types import Mesh
+from anymesh.types.mesh import to_srgb
 
 
 def written(asset, folder: Path) -> Model:
@@ -62,6 +63,17 @@ def test_dae_keeps_colours_pictures_and_their_coordinates(tmp_path):
     knob = next(body.link for body in model.tiled.bodies if body.name == "knob").primitives[0]
     wanted = model.tiled.asset.mesh.materials[knob.material].base_color[:3]
     np.testing.assert_allclose(read(tmp_path, "knob").materials[0].base_color[:3], wanted, atol=1e-5)
+
+
+def test_dae_has_the_mean_of_vertex_colours_which_viewers_do_not_show(tmp_path):
+    asset = cabinet()
+    color = asset.mesh.corner_color.copy()
+    color[::2, :, :3] = (100, 0, 0)
+    color[1::2, :, :3] = (200, 0, 0)
+    written(replace(asset, mesh=replace(asset.mesh, corner_color=color, face_material=np.full(len(color), -1))), tmp_path)
+    knob = read(tmp_path, "knob")
+    assert knob.corner_color is None
+    assert to_srgb(knob.materials[0].base_color[:3]) == pytest.approx([150 / 255, 0, 0], abs=2e-2)
 
 
 def test_urdf_and_sdf_refer_to_dae_and_mjcf_to_obj(tmp_path):

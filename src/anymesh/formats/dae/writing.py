@@ -1,7 +1,7 @@
 """COLLADA visuals, one file per link beside its OBJ, for viewers and simulators that do not read OBJ.
 
 A file states its unit and that Z is up, as in link frames; glTF is Y up, and readers of URDF disagree on who turns it. Pictures
-of the base colour and of emission are shared with the OBJ; COLLADA has no others.
+of the base colour and of emission are shared with the OBJ; viewers of COLLADA show no others, and no colours of vertices.
 """
 
 from __future__ import annotations
@@ -13,18 +13,18 @@ from xml.etree import ElementTree
 import numpy as np
 
 from anymesh.export.links import Primitive
-from anymesh.export.meshes import material_names, painted, texture_files, visible
+from anymesh.export.meshes import display_color, material_names, texture_files, visible
 from anymesh.export.model import ExportConfig, ExportLink, Model
 from anymesh.export.notation import document
-from anymesh.types import Material, Mesh
+from anymesh.types import Material
 from anymesh.types.mesh import to_srgb
 from anymesh.types.triangles import face_cross
 
 NAMESPACE = "http://www.collada.org/2005/11/COLLADASchema"
 DATE = "1980-01-01T00:00:00Z"  # the same bytes every time
 SLOTS = {"base_color": "diffuse", "emissive": "emission"}
-SEMANTICS = {"positions": "VERTEX", "normals": "NORMAL", "uv": "TEXCOORD", "colors": "COLOR"}
-AXES = {"positions": "XYZ", "normals": "XYZ", "uv": "ST", "colors": "RGBA"}
+SEMANTICS = {"positions": "VERTEX", "normals": "NORMAL", "uv": "TEXCOORD"}
+AXES = {"positions": "XYZ", "normals": "XYZ", "uv": "ST"}
 sub = ElementTree.SubElement
 Element = ElementTree.Element
 
@@ -40,7 +40,7 @@ def write_dae(model: Model, folder: Path, config: ExportConfig) -> None:
 def _dae_text(model: Model, body: ExportLink, files: Mapping[bytes, str], config: ExportConfig) -> str:
     mesh, primitives = model.asset.mesh, visible(body.link, config)
     names = material_names(mesh.materials)
-    used = sorted({p.material for p in primitives})
+    looks = {p.material: display_color(mesh, p) for p in primitives}  # links have one primitive per material
     root = Element("COLLADA", xmlns=NAMESPACE, version="1.4.1")
     asset = sub(root, "asset")
     for tag in ("created", "modified"):
@@ -48,18 +48,17 @@ def _dae_text(model: Model, body: ExportLink, files: Mapping[bytes, str], config
     sub(asset, "unit", name="meter", meter="1")
     sub(asset, "up_axis").text = "Z_UP"
     images, effects, materials = (sub(root, f"library_{kind}") for kind in ("images", "effects", "materials"))
-    for k in used:
+    for k, color in looks.items():
         entry = sub(materials, "material", id=f"{names[k]}-material", name=names[k])
         sub(entry, "instance_effect", url=f"#{names[k]}-effect")
-        plain = all(painted(mesh, p) for p in primitives if p.material == k)
-        _add_effect(effects, images, names[k], mesh.materials[k], files if mesh.corner_uv is not None else {}, plain)
+        _add_effect(effects, images, names[k], mesh.materials[k], files if mesh.corner_uv is not None else {}, color)
     if not len(images):
         root.remove(images)
     geometry = sub(sub(root, "library_geometries"), "geometry", id="visual-mesh", name=body.name)
-    _add_geometry(sub(geometry, "mesh"), mesh, primitives, names)
+    _add_geometry(sub(geometry, "mesh"), primitives, names)
     node = sub(sub(sub(root, "library_visual_scenes"), "visual_scene", id="scene"), "node", id=body.name, name=body.name)
     technique = sub(sub(sub(node, "instance_geometry", url="#visual-mesh"), "bind_material"), "technique_common")
-    for k in used:
+    for k in looks:
         bound = sub(technique, "instance_material", symbol=names[k], target=f"#{names[k]}-material")
         sub(bound, "bind_vertex_input", semantic="UVMap", input_semantic="TEXCOORD", input_set="0")
     sub(sub(root, "scene"), "instance_visual_scene", url="#scene")
@@ -67,12 +66,11 @@ def _dae_text(model: Model, body: ExportLink, files: Mapping[bytes, str], config
 
 
 def _add_effect(
-    effects: Element, images: Element, name: str, material: Material, files: Mapping[bytes, str], plain: bool
+    effects: Element, images: Element, name: str, material: Material, files: Mapping[bytes, str], color: Sequence[float]
 ) -> None:
-    """Add the colours and pictures of a material. plain: white, under the colours of vertices."""
+    """Add the pictures of a material, and its colour (sRGB)."""
     profile = sub(sub(effects, "effect", id=f"{name}-effect"), "profile_COMMON")
-    base, glow = to_srgb(material.base_color[:3]), to_srgb(np.array(material.emissive) / max(1.0, *material.emissive))
-    colors = {"emission": glow, "diffuse": np.ones(3) if plain else base}
+    colors = {"emission": to_srgb(np.array(material.emissive) / max(1.0, *material.emissive)), "diffuse": color[:3]}
     pictures = {SLOTS[slot]: files[t.data] for slot, t in material.textures.items() if slot in SLOTS and t.data in files}
     for channel, file in pictures.items():
         image = f"{name}-{channel}-image"
@@ -82,27 +80,25 @@ def _add_effect(
         sampler = sub(sub(profile, "newparam", sid=f"{channel}-sampler"), "sampler2D")
         sub(sampler, "source").text = f"{channel}-surface"
     shader = sub(sub(profile, "technique", sid="common"), "lambert")
-    for channel, color in colors.items():
+    for channel, rgb in colors.items():
         element = sub(shader, channel)
         if channel in pictures:
             sub(element, "texture", texture=f"{channel}-sampler", texcoord="UVMap")
         else:
-            sub(element, "color").text = " ".join(f"{c:.6g}" for c in (*color, 1.0))
+            sub(element, "color").text = " ".join(f"{c:.6g}" for c in (*rgb, 1.0))
     if material.opacity < 1:
         sub(sub(shader, "transparent", opaque="A_ONE"), "color").text = "1 1 1 1"
         sub(sub(shader, "transparency"), "float").text = f"{material.opacity:.6g}"
 
 
-def _add_geometry(element: Element, mesh: Mesh, primitives: Sequence[Primitive], names: Sequence[str]) -> None:
+def _add_geometry(element: Element, primitives: Sequence[Primitive], names: Sequence[str]) -> None:
     """Add the sources, and one list of triangles per material; faces without normals get those of their planes."""
-    sources: dict[str, list[np.ndarray]] = {"positions": [], "normals": [], "uv": [], "colors": []}
+    sources: dict[str, list[np.ndarray]] = {"positions": [], "normals": [], "uv": []}
     lists = []
     for p in primitives:
         corners = {"positions": (p.positions, p.triangles), "normals": _normals(p)}
         if p.uv is not None:
             corners["uv"] = p.uv, p.triangles
-        if p.colors is not None and painted(mesh, p):
-            corners["colors"] = p.colors / 255, p.triangles
         starts = {kind: sum(map(len, sources[kind])) for kind in corners}
         for kind, (rows, _) in corners.items():
             sources[kind].append(rows)
@@ -116,7 +112,7 @@ def _add_geometry(element: Element, mesh: Mesh, primitives: Sequence[Primitive],
         for offset, kind in enumerate(corners):
             source = "#vertices" if kind == "positions" else f"#{kind}"
             entry = sub(triangles, "input", semantic=SEMANTICS[kind], source=source, offset=str(offset))
-            if kind in ("uv", "colors"):
+            if kind == "uv":
                 entry.set("set", "0")
         sub(triangles, "p").text = " ".join(map(str, np.stack(list(corners.values()), -1).reshape(-1).tolist()))
 
