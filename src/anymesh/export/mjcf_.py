@@ -34,7 +34,7 @@ MJCF_SLOTS = ("base_color", "normal", "emissive")
 BLENDED = 0.99  # opacity below which MuJoCo blends, so that the alpha of a picture counts
 FIRM = {  # else what friction holds creeps, a knob by turns per second, and springs press parts into their stops
     "solreflimit": "0.004 1",
-    "solimplimit": "0.9999 0.9999 0.001",
+    "solimplimit": "0.99 0.999 0.001",
     "solreffriction": "0.004 1",
     "solimpfriction": "0.9999 0.9999 0.001",
 }
