@@ -1,4 +1,4 @@
-"""Test the asset in the form of SimReady by what its rules ask for; benchmarks/simready.py runs the rules themselves."""
+"""Test the asset in the form of SimReady by what its rules ask for; benchmarks.robotics_prop.py runs the rules themselves."""
 
 import json
 import zipfile
