@@ -1,7 +1,7 @@
-"""The rules of SimReady, of NVIDIA's asset validator and of OpenUSD, on files; run by `benchmarks.robotics_prop` in Python 3.12.
+"""Rules of SimReady, of NVIDIA's asset validator and of OpenUSD, on files, for `benchmarks.robotics_prop`, in Python 3.12.
 
-python benchmarks.robotics_prop_rules.py FILE...             prints JSON
-python benchmarks.robotics_prop_rules.py --memory FILE N SHARED     prints what N references to a file take [MB]
+python benchmarks/robotics_prop_rules.py FILE...             prints JSON
+python benchmarks/robotics_prop_rules.py --memory FILE N SHARED     prints what N references to a file take [MB]
 """
 
 import json
