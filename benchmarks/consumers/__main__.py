@@ -68,7 +68,10 @@ CONSUMERS = (
     Consumer("three.js, USD", "three", "usd", "node"),
     Consumer("three.js, GLB", "three", "glb", "node"),
     Consumer("glTF validator, GLB", "gltf_validator", "glb", "node"),
-    Consumer("SimReady, USD", "simready", "Robotics-Prop", "simready"),
+    Consumer("Newton, SimReady", "newton", "simready", "newton"),
+    Consumer("PhysX, SimReady", "ovphysx", "simready", "ovphysx"),
+    Consumer("OpenUSD, SimReady", "openusd", "simready", "openusd"),
+    Consumer("SimReady validator, SimReady", "simready", "simready", "simready"),
 )
 
 
@@ -79,8 +82,8 @@ def write_asset(mesh: Path, folder: Path) -> None:
     """Write the asset of an example, unless it is there."""
     if (folder / "asset.json").is_file():
         return
-    command = [sys.executable, "-m", "anymesh", "articulate", str(mesh), "-o", str(folder), "--formats", FORMATS, "--quiet"]
-    subprocess.run(command, check=True)
+    command = [sys.executable, "-m", "anymesh", "articulate", str(mesh), "-o", str(folder), "--formats", FORMATS]
+    subprocess.run([*command, "--profile", "simready", "--quiet"], check=True)
 
 
 def ask(consumer: Consumer, folders: Sequence[Path], work: Path, homes: dict[str, str]) -> None:

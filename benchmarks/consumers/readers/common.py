@@ -34,6 +34,10 @@ class Asset:
     content: dict  # of asset.json
 
     def file(self, kind: str) -> Path:
+        """Return the file to open for a format; "simready" is that of the SimReady profile."""
+        name = self.content["name"]
+        if kind == "simready":
+            return self.folder / kind / name / "simready_usd" / f"{name}.usda"
         return self.folder / self.content["files"][kind]
 
     @property

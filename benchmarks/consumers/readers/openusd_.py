@@ -17,7 +17,7 @@ def turn(quaternion: Gf.Quatf) -> np.ndarray:
 
 
 def read(asset: Asset, variant: str) -> dict:
-    stage = Usd.Stage.Open(str(asset.file("usd")))
+    stage = Usd.Stage.Open(str(asset.file(variant)))
     cache = UsdGeom.XformCache()
     world = {
         p.GetName(): np.array(cache.GetLocalToWorldTransform(p)).T

@@ -57,7 +57,7 @@ def last(path: str) -> str:
 def read(asset: Asset, variant: str) -> dict:
     physx = ovphysx.PhysX()
     stage = ovstage.Stage(asset.content["name"])
-    ovstage.population.open_usd(stage, str(asset.file("usd")), ordinal=1, domains=ovstage.PopulationDomain.ALL)
+    ovstage.population.open_usd(stage, str(asset.file(variant)), ordinal=1, domains=ovstage.PopulationDomain.ALL)
     stage.advance_write_floor(ordinal=1).wait()
     physx.wait_task(physx.attach_ovstage(stage, read_ordinal=1))
     physx.step_sync(1e-5)
