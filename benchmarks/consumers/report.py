@@ -102,11 +102,12 @@ def page_part(consumers: Sequence[Named], work: Path) -> str:
     lines += [table_row(["version", *(c.version for c in columns)])]
     lines += [table_row([name.replace("_", " "), *(c.cell(name) for c in columns)]) for name in examples]
     readers = [c for c in columns if any(c.values.values())]
-    lines += ["", *table_head(["", *PROPERTIES])]
+    names = [name for name in PROPERTIES if any(c.of(name) for c in readers)]
+    lines += ["", *table_head(["", *names])]
     marks: dict[str, int] = {}
     for c in readers:
         cells = []
-        for name in PROPERTIES:
+        for name in names:
             shown = c.share(name)
             for reason in c.marks(name):
                 shown += f" ({marks.setdefault(reason, len(marks) + 1)})"

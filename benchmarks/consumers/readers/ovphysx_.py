@@ -10,7 +10,7 @@ from ovphysx.samples.python_samples.schema_support import physx_schema_paths
 from ovphysx.types import ObjectScope, SimObjectType
 
 DEGREE = np.pi / 180
-JOINT, LINK = SimObjectType.ARTICULATION_JOINT, SimObjectType.ARTICULATION_LINK
+JOINT, LINK, TENDON = SimObjectType.ARTICULATION_JOINT, SimObjectType.ARTICULATION_LINK, SimObjectType.FIXED_TENDON
 ALL = {"scope": ObjectScope.ALL}
 HELD = {
     "effort": "jointMaxForce",
@@ -69,6 +69,8 @@ def read(asset: Asset, variant: str) -> dict:
     for path in mass:
         links[last(path)] = placed(rest[last(path)], mass[path][0], center[path], inertia[path])
     held = {key: values(physx, JOINT, name) for key, name in HELD.items()}
+    springs = {last(path): row[0] for path, row in values(physx, TENDON, "tendonStiffness").items()}
+    lengths = {last(path): row[0] for path, row in values(physx, TENDON, "tendonRestLength").items()}
     joints = {}
     for path, row in values(physx, JOINT, "jointLimit").items():
         name, turns = last(path), asset.joints[last(path)]["type"] != "prismatic"
@@ -76,6 +78,8 @@ def read(asset: Asset, variant: str) -> dict:
         limits = finite(*(np.clip(row, -1e9, 1e9) * unit))
         record = joints[name] = {"type": "prismatic" if not turns else "revolute" if limits else "continuous"}
         record |= {key: column[path][0] for key, column in held.items()} | {"limits": limits}
+        if name in springs:  # of a tendon of one joint
+            record |= {"stiffness": springs[name], "reference": lengths[name]}
         record["damping"] /= unit
         record["velocity"] *= unit
         child, amount = asset.joints[name]["child"], asset.amount(name)
