@@ -12,6 +12,7 @@ warp.config.quiet = True
 
 def read(asset: Asset, variant: str) -> dict:
     builder = newton.ModelBuilder()
+    newton.solvers.SolverMuJoCo.register_custom_attributes(builder)  # else it leaves out springs
     path = str(asset.file(variant))
     if variant == "urdf":
         builder.add_urdf(path, floating=False)
