@@ -40,9 +40,11 @@ REASONS = {
     **{(consumer, "springs"): _NO_SPRINGS for consumer in _WITHOUT_SPRINGS},
     **{(consumer, "armature"): _NO_ARMATURE for consumer in _WITHOUT_ARMATURE},
 }
+_VARIANT = "with the variant of this engine enabled, which SimReady wants disabled at first; without it, the joints have none"
 _NOT_APPLIED = "held, but [not applied](../findings/resistance-read-not-applied.sh)"
 _EXPLICIT = "applied [explicitly](../findings/light-link-damping.sh): the joint must not be light"
 NOTES = {
+    **{(f"{c}, SimReady", n): _VARIANT for c in ("Newton", "PhysX") for n in ("friction", "velocity")},
     ("three.js, USD", "drawn"): "besides, it [draws the hulls](../findings/three-usd-hidden.sh)",
     ("PyBullet", "friction"): _NOT_APPLIED,
     ("PyBullet", "damping"): _EXPLICIT,

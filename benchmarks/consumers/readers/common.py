@@ -40,6 +40,14 @@ class Asset:
             return self.folder / kind / name / "simready_usd" / f"{name}.usda"
         return self.folder / self.content["files"][kind]
 
+    def enabled(self, engine: str, place: Path) -> Path:
+        """Write a file to `place` that opens what the SimReady profile wrote with the variant of an engine."""
+        name, whole = self.content["name"], self.file("simready").resolve()
+        path = place / f"{self.folder.name}.usda"  # OpenUSD does not read a file again that was written anew
+        head = f'#usda 1.0\n(\n    subLayers = [@{whole}@]\n    defaultPrim = "{name}"\n)'
+        path.write_text(f'{head}\nover "{name}" (variants = {{ string {engine} = "Enabled" }}) {{}}\n', encoding="utf-8")
+        return path
+
     @property
     def root(self) -> str:
         """Name of the root link, whose frame is the asset frame."""

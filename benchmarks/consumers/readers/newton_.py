@@ -1,19 +1,23 @@
-"""Newton, from the URDF, the MJCF or the USD; positions by its forward kinematics."""
+"""Newton, from the URDF, the MJCF, the USD, or SimReady with its variant for Newton; positions by its forward kinematics."""
 
 from __future__ import annotations
+
+import tempfile
+from pathlib import Path
 
 import newton
 import numpy as np
 import warp
 from common import Asset, finite, frame, motion, placed, serve, turn_of
 
+PLACE = tempfile.TemporaryDirectory()
 warp.config.quiet = True
 
 
 def read(asset: Asset, variant: str) -> dict:
     builder = newton.ModelBuilder()
     newton.solvers.SolverMuJoCo.register_custom_attributes(builder)  # else it leaves out springs
-    path = str(asset.file(variant))
+    path = str(asset.enabled("Newton", Path(PLACE.name)) if variant == "simready" else asset.file(variant))
     if variant == "urdf":
         builder.add_urdf(path, floating=False)
     elif variant == "mjcf":

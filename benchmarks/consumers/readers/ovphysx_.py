@@ -1,6 +1,9 @@
-"""PhysX by ovphysx, the engine of Isaac Sim, on the CPU, from the USD."""
+"""PhysX by ovphysx, the engine of Isaac Sim, on the CPU, from the USD, or SimReady with its variant for PhysX."""
 
 from __future__ import annotations
+
+import tempfile
+from pathlib import Path
 
 import numpy as np
 import ovphysx
@@ -9,6 +12,7 @@ from common import Asset, finite, frame, motion, placed, serve, turn_of
 from ovphysx.samples.python_samples.schema_support import physx_schema_paths
 from ovphysx.types import ObjectScope, SimObjectType
 
+PLACE = tempfile.TemporaryDirectory()
 DEGREE = np.pi / 180
 JOINT, LINK, TENDON = SimObjectType.ARTICULATION_JOINT, SimObjectType.ARTICULATION_LINK, SimObjectType.FIXED_TENDON
 ALL = {"scope": ObjectScope.ALL}
@@ -55,9 +59,10 @@ def last(path: str) -> str:
 
 
 def read(asset: Asset, variant: str) -> dict:
+    path = asset.enabled("PhysX", Path(PLACE.name)) if variant == "simready" else asset.file(variant)
     physx = ovphysx.PhysX()
     stage = ovstage.Stage(asset.content["name"])
-    ovstage.population.open_usd(stage, str(asset.file(variant)), ordinal=1, domains=ovstage.PopulationDomain.ALL)
+    ovstage.population.open_usd(stage, str(path), ordinal=1, domains=ovstage.PopulationDomain.ALL)
     stage.advance_write_floor(ordinal=1).wait()
     physx.wait_task(physx.attach_ovstage(stage, read_ordinal=1))
     physx.step_sync(1e-5)
