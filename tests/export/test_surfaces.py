@@ -9,14 +9,19 @@ import pytest
 from assets import box, mesh_of
 from chests import SLIPS, TILTS, chest, slides
 from models import CONFIG, with_meshes
+from pxr import Usd, UsdPhysics, UsdShade
 
 from anymesh.export.asset_json import asset_record
+from anymesh.export.glb import GlbBuffer
 from anymesh.export.mjcf_ import write_mjcf
 from anymesh.export.model import build_model
 from anymesh.export.notation import DRAKE
 from anymesh.export.options import ExportOptions
 from anymesh.export.urdf import urdf_text
+from anymesh.formats.gltf.joints import KHR
+from anymesh.formats.gltf.physics import add_physics
 from anymesh.formats.sdf import sdf_text
+from anymesh.openusd.writer_ import write_usd
 from anymesh.physics.substances import SUBSTANCES
 from anymesh.types import Material, Part, Segmentation
 
@@ -79,6 +84,27 @@ def test_urdf_and_sdf_state_friction_and_restitution():
     mu = [e.findtext("friction/ode/mu") for e in found.iter("surface")]
     assert sorted(mu) == ["0.32", "0.57"]
     assert {e.findtext("bounce/restitution_coefficient") for e in found.iter("surface")} == {"0.6"}
+
+
+def test_usd_binds_physics_materials_to_colliders(tmp_path):
+    write_usd(built(mixed()), tmp_path, CONFIG)
+    stage = Usd.Stage.Open(str(tmp_path / "thing.usdc"))
+    bound = {}
+    for prim in stage.Traverse():
+        if prim.HasAPI(UsdPhysics.CollisionAPI):
+            surface, _ = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")
+            bound[prim.GetName()] = UsdPhysics.MaterialAPI(surface.GetPrim()) if surface else None
+    values = [(s.GetStaticFrictionAttr(), s.GetDynamicFrictionAttr(), s.GetDensityAttr()) for s in bound.values() if s]
+    assert sorted(tuple(round(a.Get(), 3) for a in row) for row in values) == [(0.4, 0.32, 720), (0.74, 0.57, 7850)]
+    assert bound["base_collision_0"] is None
+
+
+def test_glb_has_physics_materials():
+    document, buffer = {"nodes": [{"name": n} for n in ("up", "base", "lid")], "meshes": [], "scenes": []}, GlbBuffer()
+    add_physics(built(mixed()), document, buffer)
+    assert {m["dynamicFriction"] for m in document["extensions"][KHR]["physicsMaterials"]} == {0.32, 0.57}
+    own = [node.get("extensions", {}).get(KHR, {}) for node in document["nodes"]]
+    assert sorted(k["collider"].get("physicsMaterial", -1) for k in own if "collider" in k) == [-1, 0, 1]
 
 
 def test_what_is_not_known_keeps_the_defaults_of_the_engines():

@@ -26,6 +26,7 @@ from anymesh.openusd.geometry_ import add_shape, add_visual, place, quat, vec
 from anymesh.openusd.materials_ import UsdMaterials
 from anymesh.physics.mechanism import Mechanism
 from anymesh.physics.resistance import Resistance
+from anymesh.physics.substances import Substance
 from anymesh.types import Hull, Joint, JointType
 from anymesh.types.mesh import TEXTURE_SLOTS
 
@@ -80,7 +81,7 @@ def usd_stage(model: Model, config: ExportConfig, folder: Path, pictures: str) -
     """Return a stage of a tinted model, and write the textures that it refers to into the folder `pictures` of a folder.
 
     Links are siblings under /<name>/links, each at its origin; joints are under /<name>/joints, materials under
-    /<name>/materials.
+    /<name>/materials, physics materials under /<name>/surfaces.
     """
     pxr = load_usd()
     (folder / pictures).mkdir(parents=True, exist_ok=True)
@@ -128,12 +129,27 @@ def _add_body(pxr: Any, stage: Any, top: str, body: ExportLink, looks: UsdMateri
     mesh, counts = add_visual(pxr, stage, path, primitives, looks.mesh)
     looks.add_subsets(mesh, primitives, counts)
     looks.bind(stage, path, primitives, str)
-    for index, shape in enumerate(body.shapes):
+    for index, (shape, _, substance) in enumerate(body.collisions()):
         collider = add_shape(pxr, stage, f"{prim.GetPath()}/{body.name}_collision_{index}", shape).GetPrim()
         pxr.UsdPhysics.CollisionAPI.Apply(collider)
         if isinstance(shape, Hull):
             hull = pxr.UsdPhysics.MeshCollisionAPI.Apply(collider)
             hull.CreateApproximationAttr(pxr.UsdPhysics.Tokens.convexHull)
+        if substance is not None:
+            surface = _surface(pxr, stage, substance)
+            pxr.UsdShade.MaterialBindingAPI.Apply(collider).Bind(surface, pxr.UsdShade.Tokens.fallbackStrength, "physics")
+
+
+def _surface(pxr: Any, stage: Any, substance: Substance) -> Any:
+    """Return the physics material of a substance, which is written if it is not there."""
+    scope = pxr.UsdGeom.Scope.Define(stage, f"{stage.GetDefaultPrim().GetPath()}/surfaces")
+    material = pxr.UsdShade.Material.Define(stage, f"{scope.GetPath()}/{substance.name}")
+    surface = pxr.UsdPhysics.MaterialAPI.Apply(material.GetPrim())
+    surface.CreateStaticFrictionAttr(substance.static_friction)
+    surface.CreateDynamicFrictionAttr(substance.dynamic_friction)
+    surface.CreateRestitutionAttr(substance.restitution)
+    surface.CreateDensityAttr(substance.density)
+    return material
 
 
 def _add_exclusions(pxr: Any, stage: Any, top: str, model: Model) -> None:

@@ -17,6 +17,7 @@ from anymesh.export.notation import principal, quaternion, turning_x_to
 from anymesh.export.options import Base, Driven
 from anymesh.formats.gltf.joints import KHR, OMI, OMI_BODY
 from anymesh.names import legal_names
+from anymesh.physics.substances import Substance
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Shape
 
 KHR_SHAPES, OMI_SHAPES = "KHR_implicit_shapes", "OMI_physics_shape"
@@ -51,7 +52,7 @@ class _Physics:
         self._excluded = {frozenset((pair.a, pair.b)) for pair in model.exclusions}
         self._drives = drives(model)
         self._top: dict[str, dict[str, list[Any]]] = {
-            KHR_SHAPES: {"shapes": []}, KHR: {"physicsJoints": [], "collisionFilters": []},
+            KHR_SHAPES: {"shapes": []}, KHR: {"physicsJoints": [], "physicsMaterials": [], "collisionFilters": []},
             OMI_SHAPES: {"shapes": []}, OMI_BODY: {"collisionFilters": []}, OMI: {"physicsJoints": []},
         }  # fmt: skip
 
@@ -68,12 +69,24 @@ class _Physics:
         own = {OMI_BODY: {"motion": {"type": "dynamic" if moves else "static"} | motion}}
         self._nodes[number]["extensions"] = ({KHR: {"motion": motion}} if moves else {}) | own
         apart = self._filter(body.name)
-        for k, shape in enumerate(body.shapes):
+        for k, (shape, _, substance) in enumerate(body.collisions()):
             geometry, own_shape = self._shape(f"{body.name}_hull_{k}", shape)
             placed = _placed(shape.center, shape.rotation) if isinstance(shape, Box) else {}
             placed = _placed(shape.center, shape.rotation @ ALONG_Y) if isinstance(shape, Cylinder) else placed
-            collider = {KHR: {"collider": {"geometry": geometry} | apart}, OMI_BODY: {"collider": {"shape": own_shape} | apart}}
+            collider = {KHR: {"collider": {"geometry": geometry} | apart | self._surface(substance)}}
+            collider[OMI_BODY] = {"collider": {"shape": own_shape} | apart}
             self._below(number, {"name": f"{body.name}_shape_{k}"} | placed | {"extensions": collider})
+
+    def _surface(self, substance: Substance | None) -> dict[str, int]:
+        """Return the number of the physics material of a substance, which is added if it is not there; OMI has none."""
+        if substance is None:
+            return {}
+        friction = {"staticFriction": substance.static_friction, "dynamicFriction": substance.dynamic_friction}
+        content = friction | {"restitution": substance.restitution}
+        surfaces = self._top[KHR]["physicsMaterials"]
+        if content not in surfaces:
+            surfaces.append(content)
+        return {"physicsMaterial": surfaces.index(content)}
 
     def _filter(self, name: str) -> dict[str, int]:
         """Return the filter of a link that touches nothing of others; joints have a switch of their own for what they join."""
