@@ -72,11 +72,11 @@ KINDS = {
     "button": ResistingKind("touch", (0.3, 0.8, 2.0), 2.0, 10.0, 0.015),
     "key": ResistingKind("touch", (0.1, 0.25, 0.6), 2.0, 10.0, 0.015),
     "lever": ResistingKind("touch", (0.7, 2.0, 6.0), 10.0, 5.0, 0.1),
-    "wheel": ResistingKind("bearing", (0.01, 0.1, 0.2), 10.0, 0.02, torque=True),
+    "wheel": ResistingKind("bearing", (0.01, 0.05, 0.2), 10.0, 0.02, torque=True),
     "rotor": ResistingKind("bearing", (0.0015, 0.02, 0.1), 30.0, 0.05, torque=True),
     "hinge": ResistingKind("weight", (0.03, 0.06, 0.15)),
     "slide": ResistingKind("weight", (0.03, 0.08, 0.3), 2.0),
-    "spin": ResistingKind("bearing", (0.01, 0.1, 0.2), 10.0, 0.5, torque=True),
+    "spin": ResistingKind("bearing", (0.01, 0.05, 0.2), 10.0, 0.5, torque=True),
 }
 WORDS = {
     "screen": "screen display monitor", "tap": "tap valve faucet chuck cap", "crank": "crank steering", "key": "key keycap",
