@@ -295,6 +295,8 @@ def _joint(element: ElementTree.Element, joint: Joint, resistance: Resistance, m
     if joint.limits is not None:
         element.set("range", vector(joint.limits))
     element.attrib.update(FIRM)
+    if mechanism is not None:
+        element.set("solimplimit", "0.9999 0.9999 0.001")  # a spring presses a light button through its stop else
     if mechanism is not None and mechanism.stiffness:
         element.attrib.update(stiffness=number(mechanism.stiffness), springref=number(mechanism.reference))
 

@@ -228,9 +228,7 @@ def _add_mechanism(pxr: Any, prim: Any, m: Mechanism, per_unit: float) -> None:
     kinds = pxr.Sdf.ValueTypeNames
     # without these, hinges creep that friction holds
     firm = {"mjc:solreffriction": [0.004, 1.0], "mjc:solimpfriction": [0.9999, 0.9999, 0.001, 0.5, 2.0]}
-    values: list[tuple[str, Any, Any]] = [
-        (name, kinds.DoubleArray, value) for name, value in firm.items()
-    ]  # else hinges creep that friction holds
+    values: list[tuple[str, Any, Any]] = [(name, kinds.DoubleArray, value) for name, value in firm.items()]
     if m.stiffness:
         tendon, axis = "physxTendon:spring", "transX" if per_unit == 1 else "rotX"
         values += [
