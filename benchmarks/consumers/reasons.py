@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-_NO_PHYSICS = "glTF has no physics: types are in `extras`, axes and limits in the animation too"
+_NO_PHYSICS = "viewers pass over the physics of glTF: types are in `extras`, axes and limits in the animation too"
 _NO_VELOCITY = "MuJoCo and its MJCF have no limit of velocity; Newton then holds 1e6"
 _NO_JOINTS = "three.js and Blender read neither joints nor masses of USD"
 _SAPIEN = "SAPIEN [does not read it](../findings/sapien-friction-effort.sh): friction .05, velocity 100, effort without limit"

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -15,6 +16,7 @@ from anymesh.export.formats import write_formats
 from anymesh.export.model import Exclusion, Model
 from anymesh.export.options import Base, Driven, Format
 from anymesh.loading import load_mesh
+from anymesh.physics.substances import substance_of
 from anymesh.types import JointType
 
 KHR, OMI = "KHR_physics_rigid_bodies", "OMI_physics_joint"
@@ -126,6 +128,21 @@ def test_hulls_are_in_a_scene_that_is_not_shown(tmp_path):
     assert {doc["nodes"][k]["name"] for k in hidden["nodes"]} == {n["name"] for n in doc["nodes"] if "_hull_" in n["name"]}
     names = [n["name"] for n in doc["nodes"]]
     assert len(set(names)) == len(names)
+
+
+def test_shapes_have_the_friction_of_their_substance(tmp_path):
+    model = model_of(cabinet())
+    door = replace(model.bodies[1], surfaces=(substance_of("oak"), None, substance_of("steel")))
+    _, doc = written(replace(model, bodies=(model.bodies[0], door, *model.bodies[2:])), tmp_path)
+    for kind in (KHR, "OMI_physics_body"):
+        materials = doc["extensions"][kind]["physicsMaterials"]
+        colliders = {n["name"]: n["extensions"][kind]["collider"] for n in doc["nodes"] if "_shape_" in n["name"]}
+        found = [colliders[f"door_shape_{k}"].get("physicsMaterial") for k in range(3)]
+        assert found[1] is None
+        for index, substance in ((found[0], substance_of("oak")), (found[2], substance_of("steel"))):
+            assert materials[index]["staticFriction"] == substance.static_friction
+            assert materials[index]["restitution"] == substance.restitution
+        assert "physicsMaterial" not in colliders["base_shape_0"]
 
 
 def test_what_must_not_touch_is_filtered_or_switched_off(tmp_path):

@@ -53,7 +53,7 @@ class _Physics:
         self._drives = drives(model)
         self._top: dict[str, dict[str, list[Any]]] = {
             KHR_SHAPES: {"shapes": []}, KHR: {"physicsJoints": [], "physicsMaterials": [], "collisionFilters": []},
-            OMI_SHAPES: {"shapes": []}, OMI_BODY: {"collisionFilters": []}, OMI: {"physicsJoints": []},
+            OMI_SHAPES: {"shapes": []}, OMI_BODY: {"physicsMaterials": [], "collisionFilters": []}, OMI: {"physicsJoints": []},
         }  # fmt: skip
 
     def add_body(self, number: int, body: ExportLink) -> None:
@@ -70,23 +70,24 @@ class _Physics:
         self._nodes[number]["extensions"] = ({KHR: {"motion": motion}} if moves else {}) | own
         apart = self._filter(body.name)
         for k, (shape, _, substance) in enumerate(body.collisions()):
+            kept = apart | self._surface(substance)
             geometry, own_shape = self._shape(f"{body.name}_hull_{k}", shape)
             placed = _placed(shape.center, shape.rotation) if isinstance(shape, Box) else {}
             placed = _placed(shape.center, shape.rotation @ ALONG_Y) if isinstance(shape, Cylinder) else placed
-            collider = {KHR: {"collider": {"geometry": geometry} | apart | self._surface(substance)}}
-            collider[OMI_BODY] = {"collider": {"shape": own_shape} | apart}
+            collider = {KHR: {"collider": {"geometry": geometry} | kept}, OMI_BODY: {"collider": {"shape": own_shape} | kept}}
             self._below(number, {"name": f"{body.name}_shape_{k}"} | placed | {"extensions": collider})
 
     def _surface(self, substance: Substance | None) -> dict[str, int]:
-        """Return the number of the physics material of a substance, which is added if it is not there; OMI has none."""
+        """Return the friction and restitution of a shape, which both extensions call a physics material."""
         if substance is None:
             return {}
-        friction = {"staticFriction": substance.static_friction, "dynamicFriction": substance.dynamic_friction}
-        content = friction | {"restitution": substance.restitution}
-        surfaces = self._top[KHR]["physicsMaterials"]
-        if content not in surfaces:
-            surfaces.append(content)
-        return {"physicsMaterial": surfaces.index(content)}
+        keys = {"staticFriction": substance.static_friction, "dynamicFriction": substance.dynamic_friction}
+        content = {"name": substance.name, **keys, "restitution": substance.restitution}
+        for kind in (KHR, OMI_BODY):
+            materials = self._top[kind]["physicsMaterials"]
+            if content not in materials:
+                materials.append(content)
+        return {"physicsMaterial": self._top[KHR]["physicsMaterials"].index(content)}
 
     def _filter(self, name: str) -> dict[str, int]:
         """Return the filter of a link that touches nothing of others; joints have a switch of their own for what they join."""
