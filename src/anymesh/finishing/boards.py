@@ -12,6 +12,7 @@ from itertools import product
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.finishing.entering import enters
 from anymesh.finishing.protocol import ShapeConfig
 from anymesh.finishing.scenes import Growing, Scenes, moves_freely, scene_of, widest
 from anymesh.geometry.boxes import OrientedBox
@@ -191,11 +192,15 @@ def add_walls(panel: PanelBox, panels: Sequence[PanelBox], growing: Growing, con
         corners = None if np.isfinite(_side(panel, axis, sign, body, wall)) else _rail(panel, panels, axis, sign, body, wall)
         if corners is None:
             continue
-        low, high = corners
-        for first in (low[2], panel.low[2] + config.clearance * growing.scenes.diagonal):  # beside the panel, or behind it
-            low[2] = first
-            new = board(low, high, panel.axes)
-            if not crosses(movers, low, high, panel.axes) and moves_freely(panel.part, growing, growing, beside=new):
+        (low, high), gap = corners, config.clearance * growing.scenes.diagonal
+        starts = (low[2], panel.low[2] + gap)  # beside the panel, or behind it
+        for first, thinner in product(starts, (0.0, gap)):
+            low[2], less = first, thinner * np.eye(3)[axis]
+            if (low + less >= high - less).any():
+                continue
+            new = board(low + less, high - less, panel.axes)
+            free = not crosses(movers, low + less, high - less, panel.axes) and not enters(parent, growing, new)
+            if free and moves_freely(panel.part, growing, growing, beside=new):
                 growing.add(parent, new, ["wall added beside the cavity of a moving part"])
                 break
 
@@ -335,7 +340,7 @@ def add_box(panel: PanelBox, growing: Growing, config: ShapeConfig) -> None:
             continue
         order = [2, 0, 1]  # open along the second of the panel's axes
         box = tray(low[order], high[order], panel.axes[order], wall)
-        if moves_freely(panel.part, growing, growing, added=box):
+        if moves_freely(panel.part, growing, growing, added=box) and not enters(panel.part, growing, box):
             reach = high[2] - low[2]
             growing.add(
                 panel.part, box, [f"drawer box added behind its front, {reach:.2g} m deep for a travel of {travel:.2g} m"]

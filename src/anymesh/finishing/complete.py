@@ -16,7 +16,7 @@ from anymesh.geometry.distance_ import distance_to_mesh, distance_to_triangles
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.triangle_set import sample_surface
 from anymesh.runtime import COMPLETION, Deadline
-from anymesh.types import Asset, Mesh
+from anymesh.types import Asset, JointType, Mesh
 from anymesh.types.triangles import normals_and_areas
 
 THINNER = (0.5,)  # shares of the wall thickness tried for a part that would collide with the full one
@@ -84,8 +84,9 @@ def complete_shapes(
 ) -> Finished:
     """Add the faces that parts lack: caps, backs of plates, inner skins of shells, cavity walls and drawer boxes.
 
-    Existing faces stay unchanged. A part without open borders gets nothing, so finishing twice changes nothing. No part loses
-    more of its range than the sweep of stage B can distinguish.
+    Existing faces stay unchanged. A part without open borders gets nothing but the box of a drawer, so finishing twice changes
+    nothing. New faces enter no other part, at rest or on its way, and do not leave the object. No part loses more of its range
+    than the sweep of stage B can distinguish.
     parts: names, all if None. The same asset gives the same faces. Past the deadline, further surfaces stay open, and added
     faces that were not checked by a sweep are removed.
     Raise MissingExtraError without manifold3d.
@@ -101,13 +102,14 @@ def complete_shapes(
         deadline.leave_out("completion: some surfaces remain open")
         return _grown(asset, growing)
     carrier = {k: growing.scenes.carriers(k)[0] for k in growing.scenes.joint}
-    near = [k for k in growing.scenes.order if k in touched or carrier.get(k) in touched]
+    drawers = {k for k in chosen if k in carrier and growing.scenes.joint[k].type is JointType.PRISMATIC}
+    near = [k for k in growing.scenes.order if k in touched | drawers or carrier.get(k) in touched]
     panels = [panel for k in near if (panel := find_panel(k, growing, config)) is not None]
     for panel in panels:
         if carrier[panel.part] in touched:
             add_walls(panel, panels, growing, config)
     for panel in panels:
-        if panel.part in touched:
+        if panel.part in drawers:
             add_box(panel, growing, config)
     return _grown(asset, growing)
 

@@ -12,7 +12,7 @@ from jaxtyping import Float, Int
 from anymesh.finishing.protocol import ShapeConfig
 from anymesh.finishing.scenes import GRAZE, Scenes, escapes
 from anymesh.geometry.boxes import OrientedBox, fit_box
-from anymesh.geometry.surface import open_surface
+from anymesh.geometry.surface import earlier_equals, number_rows, open_surface
 from anymesh.geometry.topology import EdgePairs, edge_pairs, label_connected, weld
 from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
 from anymesh.types.triangles import normals_and_areas
@@ -168,3 +168,28 @@ def is_laid_open(seen: SheetVisibility, part: int, scenes: Scenes, config: Shape
     points, normals = probe.points @ T[:3, :3].T + T[:3, 3], probe.normals @ T[:3, :3].T
     shown = escapes(scenes.scene_opened(root), points, -seen.sign * normals, scenes.diagonal)[:, 0] >= GRAZE
     return bool(shown.mean() > config.shown) if len(shown) else False
+
+
+def covers_itself(faces: Int[np.ndarray, "F 3"], new: Int[np.ndarray, "m 3"]) -> bool:
+    """Return whether a new face coincides with an existing one, so that the two would enclose nothing."""
+    known = {tuple(sorted(f)) for f in faces.tolist()}
+    return any(tuple(sorted(f)) in known for f in new.tolist())
+
+
+def without_folds(new: Float[np.ndarray, "n 3 3"], beside: Float[np.ndarray, "m 3 3"]) -> Float[np.ndarray, "k 3 3"]:
+    """Remove new faces that enclose nothing: those with two corners in one place, or in pairs of opposite faces.
+
+    beside: adjacent faces, which determine the weld tolerance. Closed surfaces stay closed, because each edge loses its faces
+    in pairs.
+    """
+    number = weld(np.concatenate([beside, new]).reshape(-1, 3))[3 * len(beside) :].reshape(-1, 3)
+    whole = (number != np.roll(number, 1, axis=1)).all(1)
+    new, number = new[whole], number[whole]
+    if len(new) == 0:
+        return new
+    turn = (number.argmin(1)[:, None] + np.arange(3)) % 3
+    _, b, c = np.take_along_axis(number, turn, 1).T
+    side = np.where(b < c, 1, -1)
+    kind = number_rows(np.sort(number, axis=1))
+    excess = np.bincount(kind, side)
+    return new[(side * excess[kind] > 0) & (earlier_equals(2 * kind + (side > 0)) < np.abs(excess[kind]))]

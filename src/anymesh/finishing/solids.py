@@ -9,12 +9,20 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float, Int
 
+from anymesh.finishing.entering import NOTHING, Beside, Faces, Neighbours
 from anymesh.finishing.protocol import ShapeConfig
 from anymesh.finishing.scenes import SKIP, Growing, Scenes, room, scene_of
-from anymesh.finishing.sheets import Sheet, SheetVisibility, is_laid_open, open_sheets, sheet_visibility
+from anymesh.finishing.sheets import (
+    Sheet,
+    SheetVisibility,
+    covers_itself,
+    is_laid_open,
+    open_sheets,
+    sheet_visibility,
+    without_folds,
+)
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.geometry.surface import earlier_equals, number_rows
-from anymesh.geometry.topology import components, weld
+from anymesh.geometry.topology import components
 from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
 from anymesh.loading.polygons_ import triangulate
 from anymesh.types.triangles import unshared
@@ -28,6 +36,10 @@ AWAY = 0.1  # minimum distance by which the cover must move, as a share of the h
 FACING = 0.7  # minimum cosine between a face's normal and its plate's
 SHARES = (0.93, 0.87, 0.8)  # shares of the thickness, tried until a solid is separated from those that it lies in
 SHELL = 0.9  # below this share, plates become shells, because a back may lie in the face of another sheet
+MITER_GAP = 1.15  # how much further than its own plane a skin moves from that of another part that it meets at an angle
+SHRINK, ROUNDS = 0.6, 14  # by which a skin that would enter something is thinned there, and how often at most
+THINNEST = 0.25  # share of the thickness of a sheet seen from both sides, below which one is left open
+PLATES = (1.0, 0.6, 0.36, 0.2, 0.1)  # shares of the thickness of a plate, tried until it enters nothing
 OWN = 0.4  # maximum thickness of a shell, as a share of the distance to its other side
 
 
@@ -51,15 +63,33 @@ def cap(
 
 
 def backed(
-    sheet: Sheet, inward: Float[np.ndarray, " 3"], level: float, *, faces_out: bool, draft: float = 0.0
+    sheet: Sheet,
+    inward: Float[np.ndarray, " 3"],
+    level: float,
+    *,
+    faces_out: bool,
+    draft: float = 0.0,
+    beside: Beside = NOTHING,
 ) -> tuple[Float[np.ndarray, "k 3"], Int[np.ndarray, "m 3"]]:
     """Return points and faces that make a sheet a solid with a flat back at `level` [m] along `inward`.
 
     The faces refer to the sheet's points followed by the new ones, and consist of walls from its borders and the back.
-    faces_out: whether the sheet's faces are wound to the visible side; draft: [m] by which the back is narrowed on each side.
+    faces_out: whether the sheet's faces are wound to the visible side; draft: [m] by which the back is narrowed on each side;
+    beside: surfaces of others, from which it is narrowed by its thickness too.
     """
     border = np.concatenate(sheet.loops)
-    foot = sheet.points[border] + np.outer(level - sheet.points[border] @ inward, inward)
+    high = level - sheet.points[border] @ inward
+    foot = sheet.points[border] + np.outer(high, inward)
+    met, which = np.unique(beside.vertex, return_inverse=True)
+    if len(met):
+        total, moment = np.zeros((len(met), 3)), np.tile(np.outer(inward, inward), (len(met), 1, 1))
+        np.add.at(total, which, -MITER_GAP * beside.normals)
+        np.add.at(moment, which, beside.normals[:, :, None] * beside.normals[:, None])
+        way = np.einsum("nij,nj->ni", np.linalg.pinv(moment, STIFF, hermitian=True), total + inward)
+        way -= np.outer(way @ inward, inward)
+        row = np.searchsorted(met, border).clip(max=len(met) - 1)
+        there = met[row] == border
+        foot[there] += np.maximum(high[there], 0.0)[:, None] * way[row[there]]
     center = (foot.min(0) + foot.max(0)) / 2
     for axis in frame(inward):
         off = (foot - center) @ axis
@@ -70,12 +100,14 @@ def backed(
     return foot, np.concatenate([_walls(sheet.loops, copies), back])
 
 
-def shelled(sheet: Sheet, thickness: float, *, faces_out: bool) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "m 3"]]:
+def shelled(
+    sheet: Sheet, thickness: float | Float[np.ndarray, "V 1"], *, faces_out: bool, beside: Beside = NOTHING
+) -> tuple[Float[np.ndarray, "V 3"], Int[np.ndarray, "m 3"]]:
     """Return points and faces that make a sheet a shell of a thickness [m], in the form of `backed`.
 
-    The shell has a skin on the hidden side, and walls at its borders.
+    The shell has a skin on the hidden side, and walls at its borders. beside: surfaces of others, which get a skin too.
     """
-    foot = sheet.points + _offsets(sheet) * (-thickness if faces_out else thickness)
+    foot = sheet.points + _offsets(sheet, beside, faces_out) * (-thickness if faces_out else thickness)
     count = len(sheet.points)
     walls = _walls(sheet.loops, [loop + count for loop in sheet.loops])
     return foot, np.concatenate([walls, sheet.faces[:, ::-1] + count])
@@ -88,14 +120,11 @@ def _walls(loops: Sequence[np.ndarray], copies: Sequence[np.ndarray]) -> Int[np.
     return np.concatenate([np.stack([b, a, p], 1), np.stack([b, p, q], 1)])
 
 
-def covers_itself(faces: Int[np.ndarray, "F 3"], new: Int[np.ndarray, "m 3"]) -> bool:
-    """Return whether a new face coincides with an existing one, so that the two would enclose nothing."""
-    known = {tuple(sorted(f)) for f in faces.tolist()}
-    return any(tuple(sorted(f)) in known for f in new.tolist())
+def _offsets(sheet: Sheet, beside: Beside = NOTHING, faces_out: bool = True) -> Float[np.ndarray, "V 3"]:
+    """Return the offset per unit thickness at every vertex: to where the planes of all adjacent faces, moved by 1, meet.
 
-
-def _offsets(sheet: Sheet) -> Float[np.ndarray, "V 3"]:
-    """Return the offset per unit thickness at every vertex: to where the planes of all adjacent faces, moved by 1, meet."""
+    Those of others, beside it, move by MITER_GAP, so that the skins of two parts that meet at an angle leave a gap.
+    """
     t = sheet.triangles
     side = np.roll(t, -1, axis=1) - t
     back = -np.roll(side, 1, axis=1)
@@ -107,6 +136,9 @@ def _offsets(sheet: Sheet) -> Float[np.ndarray, "V 3"]:
         weighted = angle[:, k, None] * sheet.normals
         np.add.at(total, sheet.faces[:, k], weighted)
         np.add.at(moment, sheet.faces[:, k], weighted[:, :, None] * sheet.normals[:, None])
+    outward = beside.normals if faces_out else -beside.normals
+    np.add.at(total, beside.vertex, MITER_GAP * outward)
+    np.add.at(moment, beside.vertex, outward[:, :, None] * outward[:, None])
     values, axes = np.linalg.eigh(moment)
     held = values > STIFF * np.maximum(values[:, -1:], 1e-300)
     along = np.einsum("nij,ni->nj", axes, total)
@@ -115,35 +147,16 @@ def _offsets(sheet: Sheet) -> Float[np.ndarray, "V 3"]:
     return way * np.minimum(1.0, MITER / np.maximum(size, 1e-300))
 
 
-def without_folds(new: Float[np.ndarray, "n 3 3"], beside: Float[np.ndarray, "m 3 3"]) -> Float[np.ndarray, "k 3 3"]:
-    """Remove new faces that enclose nothing: those with two corners in one place, or in pairs of opposite faces.
-
-    beside: adjacent faces, which determine the weld tolerance. Closed surfaces stay closed, because each edge loses its faces
-    in pairs.
-    """
-    number = weld(np.concatenate([beside, new]).reshape(-1, 3))[3 * len(beside) :].reshape(-1, 3)
-    whole = (number != np.roll(number, 1, axis=1)).all(1)
-    new, number = new[whole], number[whole]
-    if len(new) == 0:
-        return new
-    turn = (number.argmin(1)[:, None] + np.arange(3)) % 3
-    _, b, c = np.take_along_axis(number, turn, 1).T
-    side = np.where(b < c, 1, -1)
-    kind = number_rows(np.sort(number, axis=1))
-    excess = np.bincount(kind, side)
-    return new[(side * excess[kind] > 0) & (earlier_equals(2 * kind + (side > 0)) < np.abs(excess[kind]))]
-
-
-def with_caps(seen: SheetVisibility, part: int, scenes: Scenes, config: ShapeConfig) -> tuple[Sheet, bool]:
-    """Close the flat holes of a sheet that are permanently covered.
+def with_caps(seen: SheetVisibility, around: Around) -> tuple[Sheet, bool]:
+    """Close the flat holes of a sheet that are permanently covered, where the cap enters nothing.
 
     Also return whether a hole stays open because its cover moves away.
     """
-    sheet = seen.sheet
-    done, capped, opens = [], sheet, False
+    sheet, config, scenes = seen.sheet, around.config, around.scenes
+    done, capped, opens, own = [], sheet, False, Faces(seen.sheet.triangles, around.neighbours.depth)
     for normal, numbers in _flat_holes(sheet, config):
         points, faces = np.zeros((0, 3)), cap(sheet.points, [sheet.loops[k] for k in numbers], normal)
-        hidden, opened = _covered(sheet.points[faces], seen.sign * normal, part, scenes, config)
+        hidden, opened = _covered(sheet.points[faces], seen.sign * normal, around.part, scenes, config)
         opens |= opened
         if not hidden or opened:
             continue
@@ -151,8 +164,9 @@ def with_caps(seen: SheetVisibility, part: int, scenes: Scenes, config: ShapeCon
             rim, out = replace(capped, loops=tuple(sheet.loops[k] for k in numbers)), seen.sign * normal
             level = float((sheet.points[np.concatenate(rim.loops)] @ out).max()) + config.sheet * scenes.diagonal / 2
             points, faces = backed(rim, out, level, faces_out=seen.faces_out)
-        capped = capped.with_faces(points, faces)
-        done += numbers
+        new = capped.with_faces(points, faces)
+        if not around.neighbours.entered(new.triangles[len(capped.faces) :], own).any():
+            capped, done = new, done + numbers
     return capped.without(done), opens
 
 
@@ -216,6 +230,7 @@ class Around:
     others: RayScene | None
     scenes: Scenes
     config: ShapeConfig
+    neighbours: Neighbours
 
     @cached_property
     def own_scene(self) -> RayScene | None:
@@ -225,6 +240,11 @@ class Around:
     def bounds(self) -> Float[np.ndarray, "2 3"]:
         """Bounds of the part [m]."""
         return np.stack([self.own.min((0, 1)), self.own.max((0, 1))])
+
+    @property
+    def gap(self) -> float:
+        """Distance that new faces keep from other parts [m]."""
+        return self.config.clearance * self.scenes.diagonal
 
     @property
     def wall(self) -> float:
@@ -238,8 +258,8 @@ class Around:
 
         It is limited by the other parts less the clearance, and by half the distance to other surfaces of the same part.
         """
-        skip, gap = SKIP * self.scenes.diagonal, self.config.clearance * self.scenes.diagonal
-        others = room(self.others, probe.points, ways, most + gap, skip) - gap
+        skip = SKIP * self.scenes.diagonal
+        others = room(self.others, probe.points, ways, most + self.gap, skip) - self.gap
         own = room(self.own_scene, probe.points, ways, 2 * most, skip, without=seen.sheet.own) / 2
         return np.minimum(others, own)
 
@@ -254,7 +274,8 @@ def close_part(part: int, growing: Growing, config: ShapeConfig) -> bool:
     sheets = [sheet_visibility(sheet, scenes, config) for sheet in unclosed if not growing.late()]
     if not config.watertight:
         sheets = [s for s in sheets if s.both or is_laid_open(s, part, scenes, config)]
-    around = Around(part, mesh.triangles[mine], scene_of(growing.others(part)), scenes, config)
+    others = scene_of(growing.others(part))
+    around = Around(part, mesh.triangles[mine], others, scenes, config, Neighbours(part, growing))
     made = [(around.own[:0], []) if growing.late() else closed(seen, around) for seen in sheets]
     for share in SHARES:
         again = _still_open(around.own, [s.sheet for s in sheets], [new for new, _ in made])
@@ -278,30 +299,63 @@ def _still_open(mine: np.ndarray, sheets: list[Sheet], made: list[np.ndarray]) -
 
 def closed(seen: SheetVisibility, around: Around, share: float = 1.0) -> tuple[Float[np.ndarray, "n 3 3"], list[str]]:
     """Return the faces that make a sheet a solid, and notes. share: of the thickness that it would get."""
-    sheet, config, scenes = seen.sheet, around.config, around.scenes
-    capped, opens = with_caps(seen, around.part, scenes, config)
+    sheet, config = seen.sheet, around.config
+    capped, opens = with_caps(seen, around)
     notes = []
     if len(capped.loops) < len(sheet.loops):
-        notes.append(f"{_count(len(sheet.loops) - len(capped.loops), 'hole')} that other parts hid capped")
+        closed_holes = len(sheet.loops) - len(capped.loops)
+        notes.append(f"{closed_holes} hole{'' if closed_holes == 1 else 's'} that other parts hid capped")
     if capped.loops:
         plate = not opens and not seen.both and seen.is_plate(config.plate) and share > SHELL
-        if plate:
-            draft = config.clearance * scenes.diagonal if around.part in scenes.joint or share < 1 else 0.0
-            capped, thickness = _plate(replace(seen, sheet=capped), around, draft, share)
-        else:
-            thickness = share * _shell_thickness(seen, around)
-            capped = capped.with_faces(*shelled(capped, thickness, faces_out=seen.faces_out))
-        notes.append(f"a {'plate given a back' if plate else 'shell given an inner skin'}, {thickness:.2g} m thick")
+        made = (plate and _free_plate(replace(seen, sheet=capped), around, share)) or _free_shell(seen, capped, around, share)
+        if made is None:
+            return sheet.triangles[:0], ["left open: its thickness would enter other parts or leave the object"]
+        capped, note = made
+        notes.append(note)
     # the bounds ensure that all are welded on one grid
     beside = np.concatenate([sheet.triangles, around.bounds[None, [0, 1, 1]]])
     return without_folds(capped.triangles[capped.own < 0], beside), notes
 
 
-def _count(number: int, thing: str) -> str:
-    return f"{number} {thing}{'' if number == 1 else 's'}"
+def _free_plate(seen: SheetVisibility, around: Around, share: float) -> tuple[Sheet, str] | None:
+    """Make a sheet the thickest plate that enters nothing, with a note; None if none is free."""
+    scenes, beside, own = (
+        around.scenes,
+        around.neighbours.beside(seen.sheet, around.gap),
+        Faces(seen.sheet.triangles, around.neighbours.depth),
+    )
+    draft = around.gap if around.part in scenes.joint or share < 1 else 0.0
+    for part in PLATES:
+        made, thickness = _plate(seen, around, draft, share * part, beside)
+        if thickness <= around.config.sheet * scenes.diagonal and part < 1:
+            return None
+        if not around.neighbours.entered(made.triangles[len(seen.sheet.faces) :], own).any():
+            return made, f"a plate given a back, {thickness:.2g} m thick"
+    return None
 
 
-def _plate(seen: SheetVisibility, around: Around, draft: float, share: float) -> tuple[Sheet, float]:
+def _free_shell(seen: SheetVisibility, capped: Sheet, around: Around, share: float) -> tuple[Sheet, str] | None:
+    """Make a sheet a shell, thinner where its skin would enter something, with a note; None if it always would."""
+    most, beside, own = (
+        share * _shell_thickness(seen, around),
+        around.neighbours.beside(seen.sheet, around.gap),
+        Faces(capped.triangles, around.neighbours.depth),
+    )
+    thickness = np.full((len(capped.points), 1), most)
+    for _ in range(ROUNDS):
+        made = capped.with_faces(*shelled(capped, thickness, faces_out=seen.faces_out, beside=beside))
+        bad = around.neighbours.entered(made.triangles[len(capped.faces) :], own)
+        if float(np.median(thickness)) < THINNEST * around.config.sheet * around.scenes.diagonal:
+            return None
+        if not bad.any():
+            low = float(thickness.min())
+            thick = f"{most:.2g} m" if low == most else f"{low:.2g} to {float(thickness.max()):.2g} m"
+            return made, f"a shell given an inner skin, {thick} thick"
+        thickness[np.unique(made.faces[len(capped.faces) :][bad] % len(capped.points))] *= SHRINK
+    return None
+
+
+def _plate(seen: SheetVisibility, around: Around, draft: float, share: float, beside: Beside) -> tuple[Sheet, float]:
     """Make a sheet a plate, and return it with its thickness [m].
 
     The back is at the sheet's deepest point, or at a wall's thickness, limited by the available space.
@@ -311,13 +365,28 @@ def _plate(seen: SheetVisibility, around: Around, draft: float, share: float) ->
     facing = seen.probe.take(seen.sign * (seen.probe.normals @ inward) < -FACING)
     front = float(np.median(facing.points @ inward)) if len(facing) else float(along.min())
     level = front + around.wall
+    if len(beside.vertex) and len(facing):  # where it is narrowed, it needs no room
+        border = np.concatenate([sheet.points[loop] for loop in sheet.loops])
+        ends = np.concatenate([sheet.points[np.roll(loop, 1)] for loop in sheet.loops])
+        inside = facing.take(_to_segments(facing.points, border, ends) > MITER_GAP * around.wall)
+        facing = inside if len(inside) else facing
     if len(facing):
         free = around.free(seen, facing, np.repeat(inward[None], len(facing), 0), level - float(along.min()))
         level = min(level, float((facing.points @ inward + free).min()))
     deepest = float(along.max())
     level = max(front + share * (level - front), deepest + (least if deepest - front < least else 0.0))
-    back = backed(sheet, inward, level, faces_out=seen.faces_out, draft=draft if level > deepest + least / 2 else 0.0)
+    back = backed(
+        sheet, inward, level, faces_out=seen.faces_out, draft=draft if level > deepest + least / 2 else 0.0, beside=beside
+    )
     return sheet.with_faces(*back), level - front
+
+
+def _to_segments(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> Float[np.ndarray, " n"]:
+    """Return the distance of points to the nearest segment from a to b."""
+    way = b - a
+    along = np.einsum("nsk,sk->ns", points[:, None] - a, way) / np.maximum((way**2).sum(1), 1e-300)
+    nearest = a + np.clip(along, 0, 1)[:, :, None] * way
+    return np.linalg.norm(points[:, None] - nearest, axis=2).min(1)
 
 
 def _shell_thickness(seen: SheetVisibility, around: Around) -> float:
