@@ -154,6 +154,12 @@ def test_what_is_whole_is_left_alone():
     assert (found.source_face == np.arange(len(asset.mesh.faces))).all()
 
 
+def test_a_closed_front_gets_a_box_once():
+    found = complete_shapes(cabinet())
+    assert [name for name, notes in found.notes.items() if "drawer box" in notes[0]] == ["drawer"]
+    assert complete_shapes(found.asset).notes == {}
+
+
 def test_only_the_parts_that_are_asked_for():
     found = complete_shapes(case_with_door(), parts=["door"])
     assert set(found.notes) == {"door"}
