@@ -107,6 +107,9 @@ def test_what_is_drawn_is_labelled_and_has_a_material(package):
     assert root.GetAttribute("semantics:labels:wikidata_qcode").Get() == ["Q14745"]
     drawn = [p for p in Usd.PrimRange(root, Usd.TraverseInstanceProxies()) if p.IsA(UsdGeom.Gprim)]
     for prim in drawn:
+        if prim.HasAPI(UsdPhysics.CollisionAPI):
+            surface = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")[0].GetPrim()
+            assert surface.GetAttribute("semantics:labels:material").Get() == [surface.GetName()]
         if UsdGeom.Imageable(prim).ComputePurpose() == "default":
             material = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial()[0].GetPrim()
             assert material.GetAttribute("semantics:labels:material").Get()

@@ -12,6 +12,7 @@ from anymesh.export.model import Exclusion
 from anymesh.export.options import Base
 from anymesh.openusd.geometry_ import welded
 from anymesh.openusd.writer_ import write_usd
+from anymesh.physics.substances import SUBSTANCES
 from anymesh.types.mesh import to_linear
 
 
@@ -139,3 +140,19 @@ def test_a_material_takes_varying_colours_from_the_corners(tmp_path):
     assert np.allclose(np.array(shown.Get()), expected, atol=1e-6)
     assert shown.GetIndices()[0] == 1
     assert list(shown.GetIndices()).count(0) == 3 * len(knob) - 1
+
+
+def test_a_collider_of_known_substance_has_its_friction_and_restitution(tmp_path):
+    model = model_of(cabinet())
+    steel = SUBSTANCES["steel"]
+    bodies = [replace(b, surfaces=(steel,) * len(b.shapes)) if b.name == "door" else b for b in model.bodies]
+    stage = stage_of(replace(model, bodies=tuple(bodies)), tmp_path)
+    for link in ("door", "drawer"):
+        prim = stage.GetPrimAtPath(f"/cabinet/links/{link}/{link}_collision_0")
+        material = UsdShade.MaterialBindingAPI(prim).ComputeBoundMaterial("physics")[0]
+        assert bool(material) == (link == "door")
+        if material:
+            surface = UsdPhysics.MaterialAPI(material)
+            reads = surface.GetStaticFrictionAttr(), surface.GetDynamicFrictionAttr(), surface.GetRestitutionAttr()
+            said = [attribute.Get() for attribute in reads]
+            assert np.allclose(said, [steel.static_friction, steel.dynamic_friction, steel.restitution])

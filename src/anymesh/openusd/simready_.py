@@ -23,8 +23,9 @@ from anymesh.export.model import ExportConfig, ExportLink, Model
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.openusd.geometry_ import vec
 from anymesh.openusd.layered_ import ENGINES, TEXTURES, LayeredAsset
-from anymesh.openusd.writer_ import load_usd, usd_stage
+from anymesh.openusd.writer_ import bind_surface, load_usd, usd_stage
 from anymesh.physics.resistance import Pull
+from anymesh.physics.substances import Substance
 from anymesh.rendering.drawing import Window, draw, ground, light_on, material_colors, render_target, sample, smoothed
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.types import Asset, JointType
@@ -36,6 +37,8 @@ INSIDE = "simready_usd"
 THUMBNAIL = 256  # [px]
 AZIMUTH, ELEVATION = 35.0, 24.0  # [deg] of the thumbnail
 OBJECT = ("object", "Q223557")  # an unknown kind: a physical object
+# A surface of unknown substance, which SimReady wants to have one: what PhysX gives it without.
+UNKNOWN = Substance("unknown", 500.0, 0.0, 0.0, 0.0, static_friction=0.5, dynamic_friction=0.5, restitution=0.0)
 SMALLER = frozenset({"toy", "model", "miniature", "doll"})  # a toy car is no car
 REACH = 0.04  # [m] of the surface around a handle, about half of what a gripper's finger covers; an estimate
 CLEAR = 0.01  # [m] by which the line leaves the handle on both sides
@@ -54,10 +57,10 @@ def write_simready(model: Model, folder: Path, config: ExportConfig) -> None:
     shutil.rmtree(folder / SIMREADY, ignore_errors=True)
     place = (folder / simready_file(model.asset.name)).parent
     stage = usd_stage(model, config, place / "payloads", TEXTURES)
-    _add_labels(pxr, stage, model)
     for body in model.bodies:
         _add_color(pxr, stage, model, body)
         _add_for_engines(pxr, stage, model, body)
+    _add_labels(pxr, stage, model)
     _add_grasps(pxr, stage, model)
     layers = LayeredAsset(pxr, stage.GetRootLayer(), model.asset.name, place)
     layers.write({b.name: f"{b.name}_visual" for b in model.bodies}, _metadata(pxr, model))
@@ -101,9 +104,11 @@ def _add_color(pxr: Any, stage: Any, model: Model, body: ExportLink) -> None:
 
 
 def _add_for_engines(pxr: Any, stage: Any, model: Model, body: ExportLink) -> None:
-    """Add what Newton and MuJoCo want of each collider, and the resistance of its joint as MuJoCo has it."""
+    """Add a surface and what Newton and MuJoCo want of each collider, and the resistance of its joint as MuJoCo has it."""
     link = stage.GetPrimAtPath(f"/{model.asset.name}/links/{body.name}")
     for prim in (p for p in link.GetChildren() if p.HasAPI(pxr.UsdPhysics.CollisionAPI)):
+        if not prim.GetRelationship("material:binding:physics"):
+            bind_surface(pxr, stage, prim, UNKNOWN)
         prim.AddAppliedSchema("MjcCollisionAPI")
         prim.AddAppliedSchema("NewtonCollisionAPI")
         if prim.IsA(pxr.UsdGeom.Mesh):

@@ -136,12 +136,11 @@ def _add_body(pxr: Any, stage: Any, top: str, body: ExportLink, looks: UsdMateri
             hull = pxr.UsdPhysics.MeshCollisionAPI.Apply(collider)
             hull.CreateApproximationAttr(pxr.UsdPhysics.Tokens.convexHull)
         if substance is not None:
-            surface = _surface(pxr, stage, substance)
-            pxr.UsdShade.MaterialBindingAPI.Apply(collider).Bind(surface, pxr.UsdShade.Tokens.fallbackStrength, "physics")
+            bind_surface(pxr, stage, collider, substance)
 
 
-def _surface(pxr: Any, stage: Any, substance: Substance) -> Any:
-    """Return the physics material of a substance, which is written if it is not there."""
+def bind_surface(pxr: Any, stage: Any, collider: Any, substance: Substance) -> None:
+    """Bind the physics material of a substance to a collider; it is written if it is not there."""
     scope = pxr.UsdGeom.Scope.Define(stage, f"{stage.GetDefaultPrim().GetPath()}/surfaces")
     material = pxr.UsdShade.Material.Define(stage, f"{scope.GetPath()}/{substance.name}")
     surface = pxr.UsdPhysics.MaterialAPI.Apply(material.GetPrim())
@@ -149,7 +148,7 @@ def _surface(pxr: Any, stage: Any, substance: Substance) -> Any:
     surface.CreateDynamicFrictionAttr(substance.dynamic_friction)
     surface.CreateRestitutionAttr(substance.restitution)
     surface.CreateDensityAttr(substance.density)
-    return material
+    pxr.UsdShade.MaterialBindingAPI.Apply(collider).Bind(material, pxr.UsdShade.Tokens.fallbackStrength, "physics")
 
 
 def _add_exclusions(pxr: Any, stage: Any, top: str, model: Model) -> None:
