@@ -5,8 +5,9 @@ python benchmarks/behaviour_engines.py ENGINE JOBS.json ANSWER.json
 Each engine reads the file that its users read, as it is; only what the engine does not take from the file is set by hand:
 
 - MuJoCo: the MJCF, nothing set.
-- Newton: the MJCF with `SolverMuJoCo`, whose attributes are registered before it is read.
-- SAPIEN: the URDF; a drive without stiffness whose force limit is the file's friction; damping and springs as forces.
+- Newton: the MJCF with `SolverMuJoCo`, whose attributes are registered before it is read; its model is stepped by MuJoCo.
+- SAPIEN: the URDF, with its limits of velocity; a drive without stiffness whose force limit is the file's friction; damping and
+  springs as forces.
 - PhysX (`ovphysx`): the USD, nothing set. Forces act at joints, without gravity, whose share is added afterwards; slopes and
   pushes are left out.
 - Drake: the URDF; an actuator per joint whose effort limit is the file's friction, with a velocity gain and no position gain;
@@ -32,6 +33,7 @@ from anymesh.checking.engines.robot import Robot, read_urdf
 from anymesh.checking.engines.sapien_ import without_visuals
 
 DT = 0.004  # [s] step
+FINE_DT = 0.001  # [s] of Drake for objects with knobs, wheels and the like: light parts creep in proportion to its step
 BRAKE = 1e5  # gain of the brakes that stand for dry friction, per N or N m of friction [s/m or s/rad]
 HELD = 1e6  # [N or N m] friction of a joint that is held
 REST_S, PULL_S, TILT_S, PUSH_S, CALM_S, WATCH_S = 0.5, 1.0, 4.0, 1.0, 2.0, 1.0  # [s]
@@ -50,6 +52,7 @@ class Stated:
     handles: dict[str, np.ndarray]
     springs: dict[str, tuple[float, float]]
     loose: bool = False  # whether joints have no dry friction, whatever is stated
+    dt: float = DT  # [s] step
 
 
 class World(Protocol):
@@ -59,7 +62,7 @@ class World(Protocol):
         """Set the joints, at rest; joints that are not named are at 0. held: joints that do not move from now on."""
 
     def step(self, link: str = "", force: np.ndarray | None = None, torque: np.ndarray | None = None) -> None:
-        """Advance by DT with a force at the link's handle and a torque about it [N, N m, axes of the world]."""
+        """Advance by a step with a force at the link's handle and a torque about it [N, N m, axes of the world]."""
 
     def positions(self) -> Positions: ...
 
@@ -75,17 +78,22 @@ class Mujoco:
         spec = mujoco.MjSpec.from_file(str(folder / f"{robot.name}.xml"))
         if ground is not None:
             spec.worldbody.add_geom(type=mujoco.mjtGeom.mjGEOM_PLANE, size=(0, 0, 1), pos=(0, 0, ground))
-        self.model = spec.compile()
-        self.model.opt.gravity[:], self.model.opt.timestep = gravity, DT
-        self.data, self.friction = mujoco.MjData(self.model), self.model.dof_frictionloss * (not stated.loose)
-        self.top = self.model.body(robot.roots[0]).id
-        one = [k for k in range(self.model.njnt) if self.model.jnt_type[k] != mujoco.mjtJoint.mjJNT_FREE]
-        self.names = {self.model.joint(k).name: k for k in one}
+        model = spec.compile()
+        free = mujoco.mjtJoint.mjJNT_FREE
+        joints = {model.joint(k).name: k for k in range(model.njnt) if model.jnt_type[k] != free}
+        self.use(model, gravity, stated, joints, {model.body(k).name: k for k in range(model.nbody)})
+        self.top = self.bodies[robot.roots[0]]
+
+    def use(self, model: Any, gravity: np.ndarray, stated: Stated, names: dict[str, int], bodies: dict[str, int]) -> None:
+        """Take a compiled model, with the indices of joints and bodies by their names in the asset."""
+        self.model, self.names, self.bodies = model, names, bodies
+        model.opt.gravity[:], model.opt.timestep = gravity, stated.dt
+        self.data, self.friction = self.mujoco.MjData(model), model.dof_frictionloss * (not stated.loose)
 
     def reset(self, positions: Positions, held: frozenset[str]) -> None:
         self.mujoco.mj_resetData(self.model, self.data)
         for name, at in positions.items():
-            self.data.joint(name).qpos = at
+            self.data.qpos[self.model.jnt_qposadr[self.names[name]]] = at
         for name, k in self.names.items():
             dof = self.model.jnt_dofadr[k]
             self.model.dof_frictionloss[dof] = HELD if name in held else self.friction[dof]
@@ -96,7 +104,7 @@ class Mujoco:
             zero = np.zeros(3)
             force, torque = zero if force is None else force, zero if torque is None else torque
             self.mujoco.mj_applyFT(
-                self.model, self.data, force, torque, self.handles[link], self.model.body(link).id, self.data.qfrc_applied
+                self.model, self.data, force, torque, self.handles[link], self.bodies[link], self.data.qfrc_applied
             )
         self.mujoco.mj_step(self.model, self.data)
 
@@ -116,7 +124,7 @@ class Sapien:
         sapien.physx.set_scene_config(config)
         physics = sapien.physx.PhysxCpuSystem()
         self.scene = sapien.Scene([physics])
-        physics.timestep = DT
+        physics.timestep = stated.dt
         loader = self.scene.create_urdf_loader()
         loader.fix_root_link = ground is None
         if ground is not None:
@@ -129,6 +137,10 @@ class Sapien:
         self.joints = list(self.body.active_joints)
         by_name = {j.name: replace(j, friction=0.0) if stated.loose else j for j in robot.moving}
         self.files = [by_name[j.name] for j in self.joints]
+        for joint, file in zip(self.joints, self.files, strict=True):
+            joint.set_max_velocity(file.velocity or 100.0)  # as by default
+        for link in self.body.links:  # by default they turn at 50 rad/s at most
+            link.set_max_angular_velocity(1e4)
         self.damping = np.array([j.damping for j in self.files])
         self.stiffness, self.relaxed = np.array([stated.springs.get(j.name, (0.0, 0.0)) for j in self.joints]).reshape(-1, 2).T
         self.handles = stated.handles
@@ -166,7 +178,7 @@ class Drake:
         import pydrake.all as drake
 
         builder = drake.DiagramBuilder()
-        plant, _ = drake.AddMultibodyPlantSceneGraph(builder, time_step=DT)
+        plant, _ = drake.AddMultibodyPlantSceneGraph(builder, time_step=stated.dt)
         (model,) = drake.Parser(plant).AddModels(str(robot.path))
         self.top = plant.GetBodyByName(robot.roots[0], model)
         if ground is None:
@@ -184,7 +196,7 @@ class Drake:
             spring = drake.RevoluteSpring if isinstance(joint, drake.RevoluteJoint) else drake.PrismaticSpring
             plant.AddForceElement(spring(joint, relaxed, stiffness))
         plant.Finalize()
-        self.drake, self.plant, self.model, self.handles = drake, plant, model, stated.handles
+        self.drake, self.plant, self.model, self.handles, self.dt = drake, plant, model, stated.handles, stated.dt
         self.joints = {j.name: plant.GetJointByName(j.name) for j in robot.moving}
         self.diagram = builder.Build()
 
@@ -219,7 +231,7 @@ class Drake:
         self.plant.get_applied_spatial_force_input_port().FixValue(
             self.context, self.drake.Value[list[self.drake.ExternallyAppliedSpatialForce]](forces)
         )
-        self.time += DT
+        self.time += self.dt
         self.simulator.AdvanceTo(self.time)
 
     def positions(self) -> Positions:
@@ -230,65 +242,28 @@ class Drake:
         return self.plant.EvalBodyPoseInWorld(self.context, self.top).translation()
 
 
-class Newton:
+class Newton(Mujoco):
+    """The model that `SolverMuJoCo` makes of the file, stepped by the MuJoCo below it without Newton's copies of each state."""
+
     def __init__(self, folder: Path, robot: Robot, gravity: np.ndarray, stated: Stated, ground: float | None = None) -> None:
+        import mujoco
         import newton
         import warp
 
         warp.config.quiet = True
+        self.mujoco, self.handles = mujoco, stated.handles
         builder = newton.ModelBuilder(gravity=tuple(gravity.tolist()))
         newton.solvers.SolverMuJoCo.register_custom_attributes(builder)
         builder.add_mjcf(str(folder / f"{robot.name}.xml"), parse_visuals=False)
         if ground is not None:
             builder.add_ground_plane(ground)
-        self.last = [label.rsplit("/", 1)[-1] for label in builder.joint_label]
-        self.q = {n: builder.joint_q_start[k] for k, n in enumerate(self.last) if n in {j.name for j in robot.moving}}
-        self.dof = {n: builder.joint_qd_start[k] for k, n in enumerate(self.last) if n in self.q}
-        self.bodies = {label.rsplit("/", 1)[-1]: k for k, label in enumerate(builder.body_label)}
-        self.newton, self.model, self.handles = newton, builder.finalize(device="cpu"), stated.handles
-        self.top, self.free = self.bodies[robot.roots[0]], ground is not None
-        self.solver = newton.solvers.SolverMuJoCo(self.model, use_mujoco_cpu=True)
-        self.control, self.friction = self.model.control(), self.model.joint_friction.numpy() * (not stated.loose)
-        self.center = self.model.body_com.numpy()
-
-    def reset(self, positions: Positions, held: frozenset[str]) -> None:
-        self.now, self.next = self.model.state(), self.model.state()
-        q = np.zeros(self.now.joint_q.shape, np.float32)
-        for name, at in positions.items():
-            q[self.q[name]] = at
-        if self.free:
-            q[6] = 1.0  # the root's quaternion (x, y, z, w)
-        friction = self.friction.copy()
-        for name in held:
-            friction[self.dof[name]] = HELD
-        self.model.joint_friction.assign(friction)
-        self.solver.notify_model_changed(self.newton.ModelFlags.JOINT_DOF_PROPERTIES)
-        for state in (self.now, self.next):
-            state.joint_q.assign(q)
-            state.joint_qd.zero_()
-            self.newton.eval_fk(self.model, state.joint_q, state.joint_qd, state)
-
-    def step(self, link: str = "", force: np.ndarray | None = None, torque: np.ndarray | None = None) -> None:
-        wrench = np.zeros(self.now.body_f.numpy().shape, np.float32)
-        if link:
-            k = self.bodies[link]
-            row = self.now.body_q.numpy()[k].astype(float)
-            u, w = row[3:6], row[6]
-            c = self.center[k].astype(float)
-            center = row[:3] + c + 2 * np.cross(u, np.cross(u, c) + w * c)
-            turn = np.zeros(3) if torque is None else torque
-            push = np.zeros(3) if force is None else force
-            wrench[k] = np.r_[push, turn + np.cross(self.handles[link] - center, push)]
-        self.now.body_f.assign(wrench)
-        self.solver.step(self.now, self.next, self.control, None, DT)
-        self.now, self.next = self.next, self.now
-
-    def positions(self) -> Positions:
-        q = self.now.joint_q.numpy()
-        return {name: float(q[k]) for name, k in self.q.items()}
-
-    def root(self) -> np.ndarray:
-        return self.now.body_q.numpy()[self.top][:3].astype(float)
+        self.solver = newton.solvers.SolverMuJoCo(builder.finalize(device="cpu"), use_mujoco_cpu=True)
+        model, moving = self.solver.mj_model, {j.name for j in robot.moving}
+        joints = {label.rsplit("/", 1)[-1]: label.replace("/", "_") for label in builder.joint_label}
+        bodies = {label.rsplit("/", 1)[-1]: model.body(label.replace("/", "_")).id for label in builder.body_label}
+        names = {name: model.joint(full).id for name, full in joints.items() if name in moving}
+        self.use(model, gravity, stated, names, bodies)
+        self.top = bodies[robot.roots[0]]
 
 
 ENGINES = {"mujoco": Mujoco, "sapien": Sapien, "drake": Drake, "newton": Newton}
@@ -299,7 +274,9 @@ class Hand:
 
     def __init__(self, engine: str, folder: Path, robot: Robot, joints: list[dict[str, Any]]) -> None:
         self.engine, self.folder, self.robot, self.joints = ENGINES[engine], folder, robot, {j["name"]: j for j in joints}
-        self.stated = Stated({j["child"]: np.array(j["pull"]["at"]) for j in joints}, springs_of(joints))
+        self.dt = FINE_DT if engine == "drake" and any(j["pull"]["unit"] == "N m" for j in joints) else DT
+        handles = {j["child"]: np.array(j["pull"]["at"]) for j in joints}
+        self.stated = Stated(handles, springs_of(joints), dt=self.dt)
         self.world: World = self.engine(folder, robot, np.array([0, 0, -GRAVITY]), self.stated)
 
     def step(self, joint: dict[str, Any], amount: float) -> None:
@@ -326,14 +303,14 @@ class Hand:
         name, pull = joint["name"], starts(joint)
         others = frozenset(self.joints) - {name}
         self.world.reset(self.opened(joint), others)
-        for _ in range(round(REST_S / DT)):
+        for _ in range(round(REST_S / self.dt)):
             self.world.step()
         rest = self.world.positions()
         sank = self.motion(joint, abs(rest[name]))
 
         def moves(amount: float) -> bool:
             self.world.reset(rest, others)
-            for _ in range(round(PULL_S / DT)):
+            for _ in range(round(PULL_S / self.dt)):
                 self.step(joint, amount)
                 if self.motion(joint, abs(self.world.positions()[name] - rest[name])) > 1:
                     return True
@@ -356,21 +333,21 @@ class Hand:
         self.world.reset(self.opened(joint), frozenset(self.joints) - {name})
         amount = 1.5 * max(pull["typical"], pull["most"], 1e-3)
         far = FAR_RAD if joint["type"] != "prismatic" else FAR_M
-        for _ in range(round(PUSH_S / DT)):
+        for _ in range(round(PUSH_S / self.dt)):
             self.step(joint, amount)
             if abs(self.world.positions()[name]) > far:
                 break
         at = []
-        for k in range(round((CALM_S + WATCH_S) / DT)):
+        for k in range(round((CALM_S + WATCH_S) / self.dt)):
             self.world.step()
-            if k * DT >= CALM_S:
+            if k * self.dt >= CALM_S:
                 at.append(self.world.positions()[name])
         return {"swing": self.motion(joint, _swing(np.array(at))), "ends": at[-1]}
 
     def holds(self, joint: dict[str, Any], at: float) -> float:
         """Return how far a joint moves within CALM_S from a position [rad or m]."""
         self.world.reset(self.opened(joint) | {joint["name"]: at}, frozenset(self.joints) - {joint["name"]})
-        for _ in range(round(CALM_S / DT)):
+        for _ in range(round(CALM_S / self.dt)):
             self.world.step()
         return self.world.positions()[joint["name"]] - at
 
@@ -381,7 +358,7 @@ class Hand:
             down = np.array([np.cos(angle) * np.sin(SLOPE), np.sin(angle) * np.sin(SLOPE), -np.cos(SLOPE)])
             world: World = self.engine(self.folder, self.robot, GRAVITY * down, self.stated)
             world.reset({}, frozenset())
-            for _ in range(round(TILT_S / DT)):
+            for _ in range(round(TILT_S / self.dt)):
                 world.step()
             for name, at in world.positions().items():
                 worst[name] = max(worst[name], self.motion(self.joints[name], abs(at)))
