@@ -108,6 +108,8 @@ def complete_shapes(
     for panel in panels:
         if carrier[panel.part] in touched:
             add_walls(panel, panels, growing, config)
+    for part in sorted(drawers & touched - {panel.part for panel in panels}):
+        growing.add(part, growing.triangles(part)[:0], ["no drawer box added: no cavity of its size lies behind it"])
     for panel in panels:
         if panel.part in drawers:
             add_box(panel, growing, config)
