@@ -339,7 +339,7 @@ def _actuators(actuators: ElementTree.Element, model: Model, motors: Mapping[str
 
 
 def _catches(actuators: ElementTree.Element, model: Model) -> None:
-    """Add catches and detents: forces of the joint's position alone. MuJoCo knows cogging, of motors that nothing drives."""
+    """Add catches and detents: forces of the joint's position alone. Detents are the cogging of motors that nothing drives."""
     joints = [joint.name for joint in model.asset.joints]
     names = legal_names([*joints, *(f"{name}_{m.kind}" for name, m in model.mechanisms.items())])[len(joints) :]
     for name, (joint, m) in zip(names, model.mechanisms.items(), strict=True):
