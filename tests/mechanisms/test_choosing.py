@@ -145,7 +145,7 @@ def test_mechanisms_are_stable_and_survive_attachment(choice: str, tmp_path: Pat
     r, m = model.resistances["moves"], model.mechanisms["moves"]
     inertia = r.inertia + r.armature
     assert max(m.stiffness, m.slope) / 3600 / inertia < 1
-    assert r.damping / 60 / inertia < 1
+    assert r.damping / 60 / r.inertia < 1
     scene = mujoco.MjSpec()
     scene.option.integrator = mujoco.mjtIntegrator.mjINT_IMPLICITFAST
     scene.option.disableflags |= int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)

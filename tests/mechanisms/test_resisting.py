@@ -39,7 +39,7 @@ def test_no_link_is_too_light_for_its_damping_or_its_friction(kind, size):
         limits = None if kind == "continuous" else (0.0, 1.2 * (size if kind == "prismatic" else 1))
         shape = (np.array([0, 0, 0]) * size, np.array([0.4, 0.1, 0.3]) * size)
         r = of(thing(label, kind, (0, 1, 0), limits, shape))
-        assert r.damping / 60 / (r.inertia + r.armature) <= 0.25 + 1e-9, label
+        assert r.damping / 60 / r.inertia <= 0.25 + 1e-9, label
         assert r.friction_range[0] <= r.friction <= r.friction_range[1] < r.effort, label
         assert r.effort > 1.5 * r.load, label
         assert np.isfinite([*r.pull.at, *r.pull.direction, r.velocity]).all()

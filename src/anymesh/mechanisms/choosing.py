@@ -16,7 +16,7 @@ from anymesh.vocabulary import recognize, words_of
 
 SURE = 0.8  # minimum confidence of what is written unasked
 STABLE = 0.5 * 60.0**2  # [1/s^2] maximum stiffness over inertia: half of what steps of 1/60 s allow
-DAMPED = 0.9 * 60.0  # [1/s] maximum damping over inertia
+DAMPED = 0.9 * 60.0  # [1/s] maximum damping over inertia, without armature
 PRESS = 100.0  # [m/s^2] maximum force of a spring at the handle, over the mass that is felt there
 MARGIN = 1.3  # friction of a hinge that holds, over what it must hold
 EASY = 10.0  # [N at the handle] maximum friction of a hinge that holds without a spring
@@ -194,7 +194,7 @@ class _Maker:
     def _closing(self, m: Mechanism, force: float) -> tuple[Mechanism, Resistance]:
         needed = (2 * self.r.friction + self.load) / (self.q - self.low + PRELOAD)
         k = min(max(CLOSING**2 * self.inertia, float(needed.max())), STABLE * self.inertia)
-        damping = min(max(self.r.damping, 2 * float(np.sqrt(k * self.inertia))), DAMPED * self.inertia)
+        damping = min(max(self.r.damping, 2 * float(np.sqrt(k * self.inertia))), DAMPED * self.r.inertia)
         m = replace(m, stiffness=k, reference=self.low - PRELOAD, force=(self._opening() + k * PRELOAD) / self.lever)
         return m, replace(self.r, damping=damping)
 

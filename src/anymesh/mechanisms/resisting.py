@@ -263,7 +263,8 @@ def _resistance(tree: _Tree, moved: _Moved, level: int) -> Resistance:
     friction = np.maximum(usual, holding)
     fixed = moved.slides or kind.form == "bearing"
     armature = 0.0 if fixed else max(0.0, MIN_INERTIA - moved.inertia, float(friction[2]) / JERK - moved.inertia)
-    damping = moved.rate() * (tree.effective[joint.name] + armature)
+    free = tree.effective[joint.name]  # URDF and SDF have no armature, so it may not raise the damping beyond what is stable
+    damping = min(moved.rate() * (free + armature), MAX_RATE * free)
     velocity = max(100.0, kind.speed / max(moved.radius, MIN_ARM)) if kind.form == "bearing" else kind.speed
     velocity = min(velocity, 2.0) if moved.slides else velocity
     brisk = (moved.inertia + armature) * velocity / crossing(joint, velocity)
