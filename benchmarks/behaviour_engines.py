@@ -29,6 +29,7 @@ import numpy as np
 
 from anymesh.checking.engines import physx_
 from anymesh.checking.engines.driving import Motor
+from anymesh.checking.engines.pushing import STEP
 from anymesh.checking.engines.robot import Robot, read_urdf
 from anymesh.checking.engines.sapien_ import without_visuals
 
@@ -256,7 +257,7 @@ class Newton(Mujoco):
         newton.solvers.SolverMuJoCo.register_custom_attributes(builder)
         builder.add_mjcf(str(folder / f"{robot.name}.xml"), parse_visuals=False)
         if ground is not None:
-            builder.add_ground_plane(ground)
+            builder.add_ground_plane(height=ground)
         self.solver = newton.solvers.SolverMuJoCo(builder.finalize(device="cpu"), use_mujoco_cpu=True)
         model, moving = self.solver.mj_model, {j.name for j in robot.moving}
         joints = {label.rsplit("/", 1)[-1]: label.replace("/", "_") for label in builder.joint_label}
@@ -406,26 +407,39 @@ def rolls(engine: str, job: dict[str, Any]) -> dict[str, float]:
 
 
 def of_physx(job: dict[str, Any]) -> dict[str, Any]:
-    """Return the pull that starts each joint in PhysX, from the force at the joint that moves it within half a second."""
+    """Return the pull that starts each joint in PhysX, from the force at the joint that moves it within PULL_S.
+
+    Springs of joints that are opened for it are balanced: without gravity they would close them.
+    """
     folder = Path(job["folder"])
     record = json.loads((folder / "asset.json").read_text(encoding="utf-8"))
     robot = read_urdf(folder / f"{record['name']}.urdf")
     world = physx_.World(robot.path, robot, dict.fromkeys((j.name for j in robot.moving), Motor(0.0, 0.0, 0.0, 1.0)))
-    answer = {}
+    answer, springs = {}, springs_of(job["joints"])
     for joint in job["joints"]:
         at, pull, start = world.names.index(joint["name"]), joint["pull"], np.zeros(len(world.names))
+        balance = np.zeros(len(world.names))
         for name in joint["opened"]:
-            start[world.names.index(name)] = next(j["limits"][1] for j in job["joints"] if j["name"] == name)
+            opened = next(j["limits"][1] for j in job["joints"] if j["name"] == name)
+            stiffness, relaxed = springs.get(name, (0.0, 0.0))
+            start[world.names.index(name)], balance[world.names.index(name)] = opened, stiffness * (opened - relaxed)
         arm = np.cross(joint["axis"], np.subtract(pull["at"], joint["origin"]))
         lever = max(float(np.linalg.norm(arm)), 1e-3) if pull["unit"] == "N" and joint["type"] != "prismatic" else 1.0
         opens = -1.0 if joint["limits"] and sum(joint["limits"]) < 0 else 1.0
         far = MOVED_M if joint["type"] == "prismatic" else MOVED_RAD if pull["unit"] != "N" else MOVED_M / lever
 
-        def moves(force: float, at: int = at, start: np.ndarray = start, far: float = far, sign: float = opens) -> bool:
+        def moves(
+            force: float,
+            at: int = at,
+            start: np.ndarray = start,
+            rest: np.ndarray = balance,
+            far: float = far,
+            sign: float = opens,
+        ) -> bool:
             world.reset(start)
-            forces = np.zeros(len(world.names))
+            forces = rest.copy()
             forces[at] = sign * force
-            for _ in range(100):
+            for _ in range(round(PULL_S / STEP)):
                 world.push(forces)
             return bool(abs(world.positions()[at] - start[at]) > far)
 
@@ -460,6 +474,8 @@ def main() -> None:
     engine, jobs, file = sys.argv[1], Path(sys.argv[2]), Path(sys.argv[3])
     answers: dict[str, Any] = {"version": f"{engine} {version(engine)}"}
     for job in json.loads(jobs.read_text(encoding="utf-8")):
+        if "down" in job and engine not in ENGINES:
+            continue
         try:
             answers[job["name"]] = rolls(engine, job) if "down" in job else measure(engine, job)
         except Exception:  # one asset's failure is a result
