@@ -32,7 +32,7 @@ def name_elements(spec: Any) -> None:
 
 def is_unstable(data: Any) -> bool:
     """Return whether a simulation diverged or warned."""
-    return not np.isfinite(data.qpos).all() or any(w.number for w in data.warning)
+    return not np.isfinite(data.qpos).all() or bool(data.warning.number.any())
 
 
 def _warn(message: str) -> None:

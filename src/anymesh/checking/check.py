@@ -38,12 +38,13 @@ def check_asset(path: str | Path, *, engines: Sequence[str] = ("mujoco",)) -> Ch
     if any(f.severity is Severity.FAILURE for f in broken):
         return CheckReport(str(path), broken)
     content = read_content(robot)
+    ours = (file.parent / NAME).is_file()
     findings = [*_still(content)]
     sweeps: list[SweepReport] = []
     if any(f.check in (SCHEMA, "joints") and f.severity is Severity.FAILURE for f in findings):
         chosen = ()  # engines disagree on what is broken, or end the process
     for engine in chosen:
-        of_motion, sweep = check_motion(file, engine)
+        of_motion, sweep = check_motion(file, engine, ours=ours)
         findings += of_motion
         sweeps += [] if sweep is None else [sweep]
     return CheckReport(str(path), tuple(findings), tuple(sweeps))

@@ -151,10 +151,11 @@ def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: Triangle
             yield warning(DIRECTION, joint.name, f"{problem}; the visible surfaces meet")
 
 
-def check_motion(path: Path, engine: str) -> tuple[list[Finding], SweepReport | None]:
+def check_motion(path: Path, engine: str, *, ours: bool) -> tuple[list[Finding], SweepReport | None]:
     """Drive every joint in an engine; also return its report, None without one.
 
     There is a failure for each fault of a joint, or if the engine cannot load the file, and a warning if it is not installed.
+    ours: whether this package wrote the asset; contacts that hold a joint of others are warnings, as those at rest.
     """
     try:
         report = sweep_in(engine, path)
@@ -163,7 +164,10 @@ def check_motion(path: Path, engine: str) -> tuple[list[Finding], SweepReport | 
     except InputError as error:
         return [failure(MOTION, engine, str(error))], None
     findings = [
-        failure(MOTION, j.name, f"{report.engine}: {fault}") for j in report.joints if not j.posture for fault in j.faults
+        (warning if j.touching and not ours else failure)(MOTION, j.name, f"{report.engine}: {fault}")
+        for j in report.joints
+        if not j.posture
+        for fault in j.faults
     ]
     for j in (j for j in report.joints if j.posture):
         findings.append(warning(MOTION, j.name, f"{report.engine}: {j.faults[0]} with the other joints at rest"))

@@ -6,7 +6,7 @@ import pytest
 from anymesh.checking.engines.mujoco_ import sweep_joints
 from anymesh.checking.engines.pushing import STEP, Resisting, push_faults
 from anymesh.checking.engines.robot import read_urdf
-from anymesh.checking.joints import check_damping
+from anymesh.checking.joints import check_damping, check_motion
 
 KNOB = """<robot name="knob"><link name="base"/><link name="knob"><inertial><mass value=".014"/>
 <inertia ixx="3e-6" iyy="3e-6" izz="3e-6" ixy="0" ixz="0" iyz="0"/></inertial></link><joint name="turn" type="continuous">
@@ -63,3 +63,26 @@ def test_damping_that_a_light_link_cannot_bear_is_a_warning_with_the_largest_tha
     (tmp_path / "knob.urdf").write_text(KNOB % 0.00017)
     assert not [*check_damping(read_urdf(tmp_path / "knob.urdf"))]
     assert sweep_joints(tmp_path / "knob.urdf", steps=20).ok
+
+
+PINCHED = """<mujoco><worldbody><body name="rails"><geom type="box" pos="0 0 -.03" size=".5 .1 .01" friction="9"/>
+<geom type="box" pos="0 0 .02999" size=".5 .1 .01" friction="9"/></body><body name="block" pos="-.3 0 0">
+<joint name="slide" type="slide" axis="1 0 0" range="0 .6"/><geom type="box" size=".05 .05 .02" friction="9" mass="1"/></body>
+</worldbody></mujoco>"""
+FOLDED = """<mujoco><compiler angle="radian"/><worldbody><body><joint name="turn" axis="0 0 1" range="0 3"/>
+<geom type="capsule" fromto="0 0 0 0 0 .2" size=".01"/><body pos="0 0 .2"><joint name="bend" axis="0 1 0" range="1 2"/>
+<geom type="capsule" fromto="0 0 .02 0 0 .3" size=".01"/></body></body></worldbody></mujoco>"""
+
+
+def test_contacts_that_hold_a_joint_fail_our_own_files_alone(tmp_path):
+    path = tmp_path / "pinched.xml"
+    path.write_text(PINCHED)
+    for ours, severity in ((True, "failure"), (False, "warning")):
+        (found,) = check_motion(path, "mujoco", ours=ours)[0]
+        assert (found.severity, found.subject) == (severity, "slide")
+        assert "contacts of its link are the cause" in found.text
+
+
+def test_a_push_meets_the_inertia_of_the_posture_at_its_start(tmp_path):
+    (tmp_path / "folded.xml").write_text(FOLDED)  # stretched along the axis at 0, which is out of the range of its elbow
+    assert sweep_joints(tmp_path / "folded.xml", steps=20).ok

@@ -50,6 +50,7 @@ class JointSweep:
     faults: tuple[str, ...]
     opened: tuple[str, ...] = ()  # joints that were moved first, because their links were in the way
     posture: bool = False  # whether its faults depend on the positions of further joints, as of the arms of a robot
+    touching: bool = False  # whether its only fault is that contacts hold or shake it without motors
 
     @property
     def ok(self) -> bool:

@@ -244,8 +244,16 @@ def _pushed(bench: MujocoBench, index: int, sweep: JointSweep) -> JointSweep:
     model, (lower, upper) = bench.model, bench.ranges[index]
     effort = float(model.jnt_actfrcrange[index, 1]) if model.jnt_actfrclimited[index] else DEFAULT_EFFORT
     start = bench.posture({k: float(bench.ranges[k, 1]) for k in bench.joints if model.joint(k).name in sweep.opened})
-    args = bench.passive.resisting(index, effort), (float(lower), float(upper)), float(bench.seconds[index])
-    return replace(sweep, faults=tuple(push_faults(bench.passive, index, *args, start[model.jnt_qposadr])))
+    start = start[model.jnt_qposadr]
+    resisting, limits = bench.passive.resisting(index, effort, start), (float(lower), float(upper))
+    args = bench.passive, index, resisting, limits, float(bench.seconds[index]), start
+    if not (faults := push_faults(*args)):
+        return sweep
+    bench.passive.contacts = False
+    touching = not push_faults(*args)
+    bench.passive.contacts = True
+    cause = "; contacts of its link are the cause" if touching else ""
+    return replace(sweep, faults=tuple(fault + cause for fault in faults), touching=touching)
 
 
 def _cleared_sweep(bench: MujocoBench, index: int, steps: int) -> JointSweep:

@@ -126,25 +126,38 @@ def push_faults(
 
 
 class MujocoPassive:
-    """A compiled model of MuJoCo without motors, as a PassiveWorld of all its joints."""
+    """A compiled model of MuJoCo without motors, as a PassiveWorld of all its joints; those that are not pushed are held."""
 
     def __init__(self, mujoco: Any, model: Any) -> None:
         self.mujoco, self.model, self.data = mujoco, model, mujoco.MjData(model)
+        self.contacts, self.start = True, np.array(model.qpos0[model.jnt_qposadr])
+        self.held = np.ones(model.njnt, bool)
 
     def reset(self, positions: Float[np.ndarray, " n"]) -> None:
         self.mujoco.mj_resetData(self.model, self.data)
-        self.data.qpos[self.model.jnt_qposadr] = positions
+        self.data.qpos[self.model.jnt_qposadr] = self.start = positions
+        self.held[:] = True
 
     def push(self, forces: Float[np.ndarray, " n"]) -> None:
-        self.data.qfrc_applied[self.model.jnt_dofadr] = forces
-        steps = max(1, round(STEP / self.model.opt.timestep))
-        self.mujoco.mj_step(self.model, self.data, steps)
+        m, data = self.model, self.data
+        self.held &= forces == 0
+        data.qfrc_applied[m.jnt_dofadr] = forces
+        flag = int(self.mujoco.mjtDisableBit.mjDSBL_CONTACT)
+        m.opt.disableflags = m.opt.disableflags & ~flag if self.contacts else m.opt.disableflags | flag
+        self.mujoco.mj_step(m, data, max(1, round(STEP / m.opt.timestep)))
+        data.qpos[m.jnt_qposadr[self.held]] = self.start[self.held]
+        data.qvel[m.jnt_dofadr[self.held]] = 0.0
 
     def positions(self) -> Float[np.ndarray, " n"]:
         return self.data.qpos[self.model.jnt_qposadr]
 
-    def resisting(self, index: int, effort: float) -> Resisting:
-        """Return what resists a joint: inertia at rest with the file's armature, friction, damping and spring."""
+    def resisting(self, index: int, effort: float, start: Float[np.ndarray, " n"]) -> Resisting:
+        """Return what resists a joint: inertia at the start with the file's armature, friction, damping and spring."""
         m, dof = self.model, self.model.jnt_dofadr[index]
-        values = (m.dof_M0[dof], m.dof_frictionloss[dof], m.dof_damping[dof], effort, m.jnt_stiffness[index])
+        self.reset(start)
+        self.mujoco.mj_forward(m, self.data)
+        inertia, unit = np.zeros(m.nv), np.zeros(m.nv)
+        unit[dof] = 1.0
+        self.mujoco.mj_mulM(m, self.data, inertia, unit)
+        values = (inertia[dof], m.dof_frictionloss[dof], m.dof_damping[dof], effort, m.jnt_stiffness[index])
         return Resisting(*(float(v) for v in values), relaxed=float(m.qpos_spring[m.jnt_qposadr[index]]))
