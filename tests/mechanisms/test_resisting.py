@@ -107,6 +107,11 @@ def test_a_pendulum_is_damped_and_a_wheel_is_not():
     assert wheel.velocity >= 70
 
 
+def test_the_edge_of_a_large_door_is_no_faster_than_that_of_a_small_one():
+    large, small = (of(thing("door", "revolute", (0, 0, 1), (0.0, 1.9), ((0, 0, 0), (w, 0.02, 0.6)))) for w in (3.0, 0.3))
+    assert (large.velocity, small.velocity) == (pytest.approx(1.0, rel=1e-3), 6.0)
+
+
 def test_a_door_is_pulled_at_its_knob():
     found = resistances(cabinet(), {link.name: link_inertia(link.triangles, CONFIG) for link in split_links(cabinet())})
     np.testing.assert_allclose(found["slide"].pull.at, (0.3, -0.04, 0.8), atol=1e-3)

@@ -23,6 +23,7 @@ TILT = float(np.sin(np.deg2rad(1.0)))  # of the weight: what a joint that stays 
 STILL = {True: 1e-3, False: float(np.deg2rad(0.5))}  # [m, rad] of a slide, of a turn: a joint with less room cannot move
 HOLD = np.array([1.25, 1.5, 2.5])  # friction over the load from gravity that it holds at rest
 PULLS = np.array([8.0, 15.0, 45.0])  # [N] maximum friction at a handle
+EDGE = 3.0  # [m/s] maximum speed of the edge of what turns about a hinge
 MAX_RATE = 15.0  # [1/s] maximum damping over inertia: a quarter at steps of 1/60 s
 SETTLING = 4.0, 1.4  # [1/s] minimum damping over inertia of a pendulum, and in natural frequencies [rad/s]
 SWING = 0.05  # [rad] beyond the limits: a lowest position about which a joint swings
@@ -265,8 +266,9 @@ def _resistance(tree: _Tree, moved: _Moved, level: int) -> Resistance:
     armature = 0.0 if fixed else max(0.0, MIN_INERTIA - moved.inertia, float(friction[2]) / JERK - moved.inertia)
     free = tree.effective[joint.name]  # URDF and SDF have no armature, so it may not raise the damping beyond what is stable
     damping = min(moved.rate() * (free + armature), MAX_RATE * free)
-    velocity = max(100.0, kind.speed / max(moved.radius, MIN_ARM)) if kind.form == "bearing" else kind.speed
-    velocity = min(velocity, 2.0) if moved.slides else velocity
+    turning = max(moved.radius, MIN_ARM)
+    velocity = max(100.0, kind.speed / turning) if kind.form == "bearing" else min(kind.speed, EDGE / turning)
+    velocity = min(kind.speed, 2.0) if moved.slides else velocity
     brisk = (moved.inertia + armature) * velocity / crossing(joint, velocity)
     effort = EFFORT * (float(friction[2]) + moved.load) + damping * min(velocity, 6.0) + BRISK * brisk
     direction = moved.opens * joint.axis
