@@ -30,7 +30,7 @@ from anymesh.rendering.drawing import Window, draw, ground, light_on, material_c
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.types import Asset, JointType
 from anymesh.types.mesh import to_linear
-from anymesh.vocabulary import words_of
+from anymesh.vocabulary import SMALLER, words_of
 
 SIMREADY = "simready"
 INSIDE = "simready_usd"
@@ -39,7 +39,6 @@ AZIMUTH, ELEVATION = 35.0, 24.0  # [deg] of the thumbnail
 OBJECT = ("object", "Q223557")  # an unknown kind: a physical object
 # A surface of unknown substance, which SimReady wants to have one: what PhysX gives it without.
 UNKNOWN = Substance("unknown", 500.0, 0.0, 0.0, 0.0, static_friction=0.5, dynamic_friction=0.5, restitution=0.0)
-SMALLER = frozenset({"toy", "model", "miniature", "doll"})  # a toy car is no car
 REACH = 0.04  # [m] of the surface around a handle, about half of what a gripper's finger covers; an estimate
 CLEAR = 0.01  # [m] by which the line leaves the handle on both sides
 STEPS = 24  # directions that are tried
