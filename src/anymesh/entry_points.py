@@ -45,6 +45,11 @@ WRITE_SDF = "formats.sdf:write_sdf"
 WRITE_DAE = "formats.dae.writing:write_dae"
 GLTF_PHYSICS = "formats.gltf.physics:add_physics"
 
+# An asset as a ROS 2 package and as a zip.
+WRITE_PACKAGE = "formats.packed:write_package"
+CHECK_ZIP = "formats.packed:check_zip"
+WRITE_ZIP = "formats.packed:write_zip"
+
 # Resistance, springs, catches and detents of joints.
 CHOOSE_MECHANISMS = "mechanisms.choosing:choose_mechanisms"
 RESISTANCES = "mechanisms.resisting:resistances"

@@ -22,7 +22,7 @@ from anymesh.export.asset_json import schema
 from anymesh.export.formats import write_formats
 from anymesh.export.links import split_links, unique_rows
 from anymesh.export.options import DEFAULT, Base, ExportOptions
-from anymesh.export.package import check_zip, write_package, write_zip
+from anymesh.formats.packed import check_zip, write_package, write_zip
 from anymesh.types import Asset, Hull, Part, Segmentation
 
 SHARED = Path(__file__).parents[3] / "shared" / "check_contract.py"

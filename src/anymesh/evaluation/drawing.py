@@ -14,9 +14,9 @@ from anymesh.evaluation.record import what_is_off
 from anymesh.evaluation.score import JointScore, part_ious
 from anymesh.geometry.kinematics import joint_motion
 from anymesh.geometry.raycast_ import RayScene
+from anymesh.prompted.pictures.strips import motion_axis, moved, silhouette, strip_camera
 from anymesh.rendering.marks import Color, blend, draw_arrow, font, lighten, rim
 from anymesh.rendering.render import lit, render
-from anymesh.rendering.strips import motion_axis, moved, silhouette, strip_camera
 from anymesh.rendering.viewpoints import framed
 from anymesh.types import Joint, JointType, Mesh, Motion, Segmentation
 from anymesh.types.camera import Camera

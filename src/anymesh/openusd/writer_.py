@@ -20,7 +20,7 @@ from anymesh.export.meshes import texture_files, visible, write_textures
 from anymesh.export.model import FOLDER, Drive, ExportConfig, ExportLink, Model, drives
 from anymesh.export.notation import principal, turning_x_to
 from anymesh.export.options import Base
-from anymesh.export.package import EPOCH, PLAIN_FILE
+from anymesh.formats.packed import EPOCH, PLAIN_FILE
 from anymesh.names import legal_names
 from anymesh.openusd.geometry_ import add_shape, add_visual, place, quat, vec
 from anymesh.openusd.materials_ import UsdMaterials

@@ -8,10 +8,9 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Unpack
 
-from anymesh.entry_points import REMOVE_TRANSCRIPT, WRITE_TRANSCRIPT, resolve
+from anymesh.entry_points import CHECK_ZIP, REMOVE_TRANSCRIPT, WRITE_PACKAGE, WRITE_TRANSCRIPT, WRITE_ZIP, resolve
 from anymesh.errors import OpenQuestionError, OptionError, OutputError
 from anymesh.export import ExportOptions, Format
-from anymesh.export.package import check_zip, write_package, write_zip
 from anymesh.isolation import AHEAD, shared_pool
 from anymesh.loading.load import reads_joints
 from anymesh.pipeline.answering import AnswererSetup, choose_answerer, object_name
@@ -138,7 +137,7 @@ def export_asset(
     deadline = Deadline(time_limit)
     ExportOptions.parse(writing)  # report invalid values before anything is read
     if archive is not None:
-        check_zip(Path(archive))
+        resolve(CHECK_ZIP)(Path(archive))
     with RunFolder.open(Path(folder)) as run:
         written = read_json(run.target / LAST) or {}
         how = ExportOptions.parse(writing, before=written)
@@ -148,9 +147,9 @@ def export_asset(
             raise OptionError(f"--package needs the format urdf, found {','.join(how.formats)!r}")
         asset = write_files(run, how, deadline, progress)
     if package is not None:
-        write_package(Path(folder), Path(package), base=how.base)
+        resolve(WRITE_PACKAGE)(Path(folder), Path(package), base=how.base)
     if archive is not None:
-        write_zip(Path(folder), Path(archive))
+        resolve(WRITE_ZIP)(Path(folder), Path(archive))
     return asset
 
 

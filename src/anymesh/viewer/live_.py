@@ -12,7 +12,7 @@ import numpy as np
 
 from anymesh.correcting import Correction
 from anymesh.errors import AnymeshError
-from anymesh.export.package import zip_bytes
+from anymesh.formats.packed import zip_bytes
 from anymesh.types import Asset, Joint, JointType
 from anymesh.viewer.bench_ import Workbench, WorkbenchFolders
 from anymesh.viewer.correct_ import CorrectionTools, CorrectPanel

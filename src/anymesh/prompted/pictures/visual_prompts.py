@@ -13,10 +13,10 @@ from PIL import Image, ImageDraw
 from anymesh.config import REFERENCE_PX, Config
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures.drawing import clearest_view, draw_arrows, draw_points
+from anymesh.prompted.pictures.strips import motion_strip, silhouette
 from anymesh.rendering.drawing import smoothed
 from anymesh.rendering.marks import HIGHLIGHT, font, highlight, lighten
 from anymesh.rendering.render import View, encode, face_colors
-from anymesh.rendering.strips import motion_strip, silhouette
 from anymesh.rendering.viewpoints import (
     best_view,
     cameras,

@@ -6,10 +6,10 @@ from assets import box, mesh_of
 
 from anymesh.config import Config
 from anymesh.geometry.raycast_ import RayScene
+from anymesh.prompted.pictures.strips import COLUMNS, PANEL, Posed, grid, motion_strip, moved, silhouette, strip_camera
 from anymesh.prompted.pictures.visual_prompts import BAR, card_view, part_card, titled
 from anymesh.rendering.marks import HIGHLIGHT
 from anymesh.rendering.render import render
-from anymesh.rendering.strips import COLUMNS, PANEL, Posed, grid, motion_strip, moved, silhouette, strip_camera
 from anymesh.rendering.viewpoints import views
 from anymesh.types import JointType, Motion
 
