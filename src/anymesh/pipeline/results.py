@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
+from anymesh.names import confidence_word
 from anymesh.types import Exchange, Joint, Mesh, Segmentation, Source
 from anymesh.types.motion import Recognition
 
 Record = dict[str, Any]  # a JSON object
 LOW_CONFIDENCE = 0.4  # warnings name parts and joints below this confidence
+PLEASE_CHECK = ", please check"  # how warnings about one part or joint end
 
 
 @dataclass(frozen=True, eq=False)
@@ -107,7 +110,7 @@ def segmentation_result(
     """Return the result of Stage A, with a warning for each part of low confidence, and if there is none but the base."""
     none = ("no moving part was found",) if len(segmentation.parts) == 1 else ()
     unsure = tuple(
-        f"part {p.name}: low confidence ({p.confidence:.2f}) that it moves by itself, please check"
+        f"part {p.name}: low confidence ({p.confidence:.2f}) that it moves by itself{PLEASE_CHECK}"
         for p in segmentation.parts[1:]
         if p.confidence < LOW_CONFIDENCE
     )
@@ -119,6 +122,41 @@ def joint_result(
 ) -> JointResult:
     """Return the result of Stage B, with a warning for each joint of low confidence."""
     unsure = tuple(
-        f"joint {j.name}: low confidence ({j.confidence:.2f}), please check" for j in joints if j.confidence < LOW_CONFIDENCE
+        f"joint {j.name}: low confidence ({j.confidence:.2f}){PLEASE_CHECK}" for j in joints if j.confidence < LOW_CONFIDENCE
     )
     return JointResult(joints, answerer, (*warnings, *unsure), exchanges)
+
+
+class Verdict(NamedTuple):
+    """How far a joint is to be trusted. word: sure, check or guess; why: in a short phrase, empty where sure."""
+
+    word: str
+    why: str
+
+
+def verdict(segmentation: Segmentation, joint: Joint, warnings: Sequence[str]) -> Verdict:
+    """Return the verdict on a joint, by the lower one of its confidence and its part's; with a warning it is never sure.
+
+    The joint of a stated or corrected motion has confidence 1, which also says that its part moves.
+    """
+    part = next(p for p in segmentation.parts if p.name == joint.child)
+    confidence, doubt = joint.confidence, "unsure how it moves"
+    if part.confidence < joint.confidence < 1:
+        confidence, doubt = part.confidence, "unsure whether it is a part"
+    begin = f"joint {joint.name}: "
+    found = next((w.removeprefix(begin).removesuffix(PLEASE_CHECK) for w in warnings if w.startswith(begin)), "")
+    word = confidence_word(confidence)
+    word = "check" if found and word == "sure" else word
+    return Verdict(word, "" if word == "sure" else found or doubt)
+
+
+def summary(segmentation: Segmentation, joints: Sequence[Joint], warnings: Sequence[str]) -> str:
+    """Return one line on all joints, such as "3 joints, 2 sure, 1 to check: door_2 (why)"."""
+    verdicts = [(joint.child, verdict(segmentation, joint, warnings)) for joint in joints]
+    counts = [f"{len(joints)} joint{'' if len(joints) == 1 else 's'}"]
+    for word, said in (("sure", "sure"), ("check", "to check"), ("guess", "guessed")):
+        mine = [(name, v.why) for name, v in verdicts if v.word == word]
+        names = {why: ", ".join(name for name, other in mine if other == why) for _, why in mine if why}
+        listed = "; ".join(f"{name} ({why})" for why, name in names.items())
+        counts += [f"{len(mine)} {said}" + (f": {listed}" if listed else "")] if mine else []
+    return ", ".join(counts)

@@ -135,7 +135,9 @@ def contradictions(cases: Sequence[PartCase], joints: Sequence[Joint]) -> tuple[
         kinds = {kind for kind, _ in answered} | {_motion(joint.type)}
         if len(kinds) > 1:
             answers = ", then ".join(words for _, words in answered)
-            warnings.append(f"{case.name}: the answers contradict each other ({answers}); it became {joint.type}: please check")
+            warnings.append(
+                f"joint {joint.name}: the answers contradict each other ({answers}); it became {joint.type}, please check"
+            )
     return tuple(warnings)
 
 
