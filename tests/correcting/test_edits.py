@@ -12,12 +12,14 @@ from anymesh.correcting import (
     ChangeParent,
     ChangeType,
     ChooseMotion,
+    Confirm,
     CorrectionError,
     FaceSet,
     FlipSign,
     MergeParts,
     MoveFaces,
     Relabel,
+    RemovePart,
     Rename,
     SetAxis,
     SetLimits,
@@ -169,6 +171,25 @@ def test_a_doubt_goes_with_the_joint_that_was_corrected():
     assert apply(unsure, FlipSign("drawer")).warnings == unsure.warnings
 
 
+def test_a_joint_called_right_is_certain_and_its_warnings_go():
+    before = joint(cabinet(), "door")
+    about = (f"joint {before.name}: blocked", "part door: low confidence (0.20) that", "part door: 90 kg", "part doors: low")
+    found = apply(replace(cabinet(), warnings=about), Confirm("door"))
+    assert found.warnings == about[2:]
+    same_joint(joint(found, "door"), before)
+    assert joint(found, "door").confidence == 1
+    assert joint(found, "door").reason == f"confirmed by hand: {before.reason}"
+    with pytest.raises(CorrectionError, match="already"):
+        apply(found, Confirm("door"))
+
+
+def test_a_part_removed_is_of_its_parent_which_carries_what_it_carried():
+    asset = slanted()
+    removed, merged = apply(asset, RemovePart("p3")), apply(asset, MergeParts("p3", "p2"))
+    assert joint(removed, "p4").parent == "p2"
+    np.testing.assert_array_equal(removed.segmentation.face_part, merged.segmentation.face_part)
+
+
 def test_a_fixed_joint_takes_no_limits():
     with pytest.raises(CorrectionError, match="change its type first"):
         apply(slanted(), SetLimits("p4", 0.0, 1.0))
@@ -196,6 +217,8 @@ DOOR = len(faces_of(cabinet(), "base"))
         (MergeParts("drawer", "knob"), "merge 'knob' into 'drawer' instead"),
         (MergeParts("base", "door"), "instead"),
         (MergeParts("door", "door"), "itself"),
+        (RemovePart("base"), "root"),
+        (Confirm("base"), "root"),
         (SplitPart("door", FaceSet(((0, 1),)), "x"), "not of 'door'"),
         (SplitPart("door", FaceSet(()), "x"), "no face"),
         (SplitPart("door", FaceSet(((DOOR, DOOR + 12),)), "x"), "all faces"),

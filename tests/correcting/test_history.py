@@ -21,6 +21,7 @@ from anymesh.correcting import (
     ChangeParent,
     ChangeType,
     ChooseMotion,
+    Confirm,
     CorrectionError,
     FaceSet,
     FlipSign,
@@ -30,6 +31,7 @@ from anymesh.correcting import (
     MoveFaces,
     Opened,
     Relabel,
+    RemovePart,
     Rename,
     SetAxis,
     SetLimits,
@@ -47,6 +49,7 @@ from anymesh.pipeline.run_folder import RunFolder
 from anymesh.pipeline.stage_files import JOINTS
 from anymesh.types import JointType
 
+NOW = "2024-05-01T12:00:00+00:00"
 ONE_OF_EACH = (
     ChangeType("door", JointType.CONTINUOUS),
     SetLimits("door", -0.25, 1.5),
@@ -58,7 +61,8 @@ ONE_OF_EACH = (
     ChangeParent("knob", "door"),
     Relabel("tab", "Griff ü"),
     Rename("tab", "grip"),
-    MergeParts("drawer", "base"),
+    Confirm("drawer"),
+    RemovePart("drawer"),
     MergeParts("knob", "door"),
     SplitComponents("door"),
 )
@@ -101,6 +105,17 @@ def test_undo_is_exact_and_redo_brings_back(done, undone):
     assert history.done == start.done
 
 
+def test_corrections_made_as_one_step_are_undone_and_redone_as_one():
+    start = History.of(cabinet(), entries([FlipSign("drawer")]))
+    done = start.do_all([FlipSign("door"), SetLimits("door", 0.0, 1.0), SetLimits("drawer", 0.0, 0.1)], NOW, "Ada")
+    assert unpack_log(json.loads(json.dumps(pack_log(done.done)))) == done.done
+    undone = done.do_all([FlipSign("knob")], NOW, "Ada").undo().undo()
+    assert undone.asset is start.asset
+    same(undone.redo().asset, done.asset)
+    assert undone.redo().undone == (HistoryEntry(FlipSign("knob"), NOW, "Ada"),)
+    same(History.of(cabinet(), undone.redo().redo().done).asset, undone.redo().redo().asset)
+
+
 def test_a_new_correction_ends_what_could_be_redone():
     history = History.of(cabinet(), entries(ONE_OF_EACH[:2])).undo().do(*entries([FlipSign("door")]))
     assert history.undone == ()
@@ -125,9 +140,6 @@ def test_a_correction_that_is_refused_changes_nothing():
 def test_a_log_that_cannot_be_read_is_refused(record):
     with pytest.raises(CorrectionError):
         unpack_log([record])
-
-
-NOW = "2024-05-01T12:00:00+00:00"
 
 
 def corrected(opened: Opened, *corrections) -> Opened:

@@ -153,6 +153,20 @@ class Rename:
     name: str
 
 
+@dataclass(frozen=True)
+class Confirm:
+    """State that `part` and its joint are right as they are: both are certain, and their warnings are removed."""
+
+    part: str
+
+
+@dataclass(frozen=True)
+class RemovePart:
+    """Merge `part` into its parent, so that it no longer moves by itself; what it carries is carried by the parent."""
+
+    part: str
+
+
 Correction = (
     ChangeType
     | ChooseMotion
@@ -166,4 +180,6 @@ Correction = (
     | MoveFaces
     | Relabel
     | Rename
+    | Confirm
+    | RemovePart
 )

@@ -13,6 +13,7 @@ from anymesh.correcting.corrections import (
     ChangeParent,
     ChangeType,
     ChooseMotion,
+    Confirm,
     Correction,
     CorrectionError,
     FaceSet,
@@ -20,6 +21,7 @@ from anymesh.correcting.corrections import (
     MergeParts,
     MoveFaces,
     Relabel,
+    RemovePart,
     Rename,
     SetAxis,
     SetLimits,
@@ -32,7 +34,9 @@ from anymesh.names import legal_name
 from anymesh.types import Asset, Joint, JointType, Part, Segmentation
 
 UNSURE = "joint {}:"  # prefix of warnings about one joint
+UNSURE_PART = "part {}: low confidence"  # begin of a warning about one part
 BY_HAND = "corrected by hand"  # prefix of the reason of a corrected joint
+CONFIRMED = "confirmed by hand"  # prefix of the reason of a joint that a person calls right
 CERTAIN = 1.0  # confidence of manual corrections
 USUAL_TURN = (0.0, float(np.pi / 2))  # [rad] default limits of a hinge
 USUAL_SLIDE = 0.5  # default travel of a slide, as a share of the part's extent along the axis
@@ -76,8 +80,8 @@ def with_joint(asset: Asset, joint: Joint) -> Asset:
 
 def without_doubts(warnings: tuple[str, ...], joints: set[str]) -> tuple[str, ...]:
     """Return the warnings that are not about these joints."""
-    begin = tuple(UNSURE.format(name) for name in sorted(joints))
-    return tuple(w for w in warnings if not (begin and w.startswith(begin)))
+    begin = tuple(UNSURE.format(name) for name in joints)
+    return tuple(w for w in warnings if not w.startswith(begin))
 
 
 def box_middle(asset: Asset, name: str) -> Float[np.ndarray, " 3"]:
@@ -200,6 +204,20 @@ def merge_parts(asset: Asset, c: MergeParts) -> Asset:
     )
 
 
+def remove_part(asset: Asset, c: RemovePart) -> Asset:
+    return merge_parts(asset, MergeParts(c.part, joint_of_part(asset, c.part).parent))
+
+
+def confirm(asset: Asset, c: Confirm) -> Asset:
+    joint, part = joint_of_part(asset, c.part), asset.segmentation.parts[part_number(asset, c.part)]
+    if joint.reason.startswith(CONFIRMED):
+        raise CorrectionError(f"the joint of {c.part!r} is confirmed already")
+    sure = with_joint(asset, replace(joint, confidence=CERTAIN, reason=f"{CONFIRMED}: {joint.reason}"))
+    begin = UNSURE_PART.format(c.part)
+    sure = replace(sure, warnings=tuple(w for w in sure.warnings if not w.startswith(begin)))
+    return _with_part(sure, c.part, replace(part, confidence=CERTAIN))
+
+
 def split_part(asset: Asset, c: SplitPart) -> Asset:
     number, faces = part_number(asset, c.part), _faces(asset, c.faces)
     mine = asset.segmentation.face_part == number
@@ -318,6 +336,8 @@ EDITS: dict[type, Callable[[Asset, Any], Asset]] = {
     MoveFaces: move_faces,
     Relabel: relabel,
     Rename: rename,
+    Confirm: confirm,
+    RemovePart: remove_part,
 }
 
 

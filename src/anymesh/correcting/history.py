@@ -33,11 +33,12 @@ KINDS = {name: kind for kind, name in NAMES.items()}
 
 @dataclass(frozen=True)
 class HistoryEntry:
-    """A correction, its time (ISO 8601), and its author."""
+    """A correction, its time (ISO 8601), and its author. joined: whether it is undone together with the one before it."""
 
     correction: Correction
     time: str
     author: str
+    joined: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,21 +75,32 @@ class History:
         """Apply one more correction, and drop undone ones. Raise CorrectionError if it is not applicable."""
         return History((*self.states, apply(self.asset, entry.correction)), (*self.done, entry))
 
+    def do_all(self, corrections: Sequence[Correction], time: str, author: str) -> History:
+        """Apply corrections as one step, which is undone at once. Raise CorrectionError if one is not applicable."""
+        history = self
+        for k, correction in enumerate(corrections):
+            history = history.do(HistoryEntry(correction, time, author, joined=k > 0))
+        return history
+
     def undo(self) -> History:
-        """Undo the last correction, which can be redone."""
+        """Undo the last correction and those that it is joined to; they can be redone."""
         if not self.done:
             raise CorrectionError("there is nothing to undo")
-        return History(self.states[:-1], self.done[:-1], (*self.undone, self.done[-1]))
+        first = max(k for k, entry in enumerate(self.done) if not (entry.joined and k))
+        return History(self.states[: first + 1], self.done[:first], (*self.undone, *reversed(self.done[first:])))
 
     def redo(self) -> History:
-        """Redo the correction that was undone last."""
+        """Redo the correction that was undone last, with those that were undone together with it."""
         if not self.undone:
             raise CorrectionError("there is nothing to redo")
-        return replace(self.do(self.undone[-1]), undone=self.undone[:-1])
+        history, left = self.do(self.undone[-1]), self.undone[:-1]
+        while left and left[-1].joined:
+            history, left = history.do(left[-1]), left[:-1]
+        return replace(history, undone=left)
 
 
 def pack_log(log: Sequence[HistoryEntry]) -> list[dict[str, Any]]:
-    """Return one object per entry: `correction` (the kind), its fields, `time` and `author`.
+    """Return one object per entry: `correction` (the kind), its fields, `time`, `author`, and `joined` where it is true.
 
     Face sets are runs [first, one after the last].
     """
@@ -98,7 +110,8 @@ def pack_log(log: Sequence[HistoryEntry]) -> list[dict[str, Any]]:
 def pack_entry(entry: HistoryEntry) -> dict[str, Any]:
     c = entry.correction
     values = {f.name: _plain(getattr(c, f.name)) for f in fields(c)}
-    return {"correction": NAMES[type(c)], **values, "time": entry.time, "author": entry.author}
+    joined = {"joined": True} if entry.joined else {}
+    return {"correction": NAMES[type(c)], **values, "time": entry.time, "author": entry.author, **joined}
 
 
 def _plain(value: Any) -> Any:
@@ -120,7 +133,7 @@ def _entry(record: Mapping[str, Any]) -> HistoryEntry:
         raise CorrectionError(f"unknown correction {record.get('correction')!r}; valid are {', '.join(KINDS)}")
     try:
         values = {f.name: _typed(f.name, record[f.name]) for f in fields(kind)}
-        return HistoryEntry(kind(**values), record["time"], record["author"])
+        return HistoryEntry(kind(**values), record["time"], record["author"], bool(record.get("joined", False)))
     except (KeyError, TypeError, ValueError) as error:
         raise CorrectionError(f"a correction {record['correction']!r} in the log cannot be read: {error!r}") from error
 
