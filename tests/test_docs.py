@@ -15,9 +15,11 @@ import typer
 
 import anymesh
 from anymesh.cli import make_app
+from anymesh.errors import PIP_TARGET, pip_install
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
+SOURCE = ROOT / "src" / "anymesh"
 # Modules that the tutorials use and that need not be installed here.
 OUTSIDE = {"mujoco", "sapien", "pxr", "isaaclab", "sqlite3"}
 FENCE = re.compile(r"^[ ]*```([\w{}-]*)\n(.*?)^[ ]*```", re.M | re.S)
@@ -194,6 +196,21 @@ def test_every_extra_is_on_the_page_of_the_installation() -> None:
     extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
     page = (DOCS / "install.md").read_text(encoding="utf-8")
     assert not [name for name in extras if f"`{name}`" not in page]
+
+
+def test_extras_are_installed_in_one_way() -> None:
+    """The package is not on PyPI yet, so its name installs nothing; `errors.PIP_TARGET` is what to change then."""
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]["optional-dependencies"]
+    other = []
+    for path in [*PAGES, *SOURCE.rglob("*.py")]:
+        text = path.read_text(encoding="utf-8")
+        for flags, target in re.findall(r"pip install((?: +-[\w-]+)*) +([^\s`]*\[[\w,{}-]+\]\S?)", text):
+            known = re.fullmatch(rf"'{re.escape(PIP_TARGET)}\[([\w,-]+)\]'", target)
+            if path.suffix == ".py" or not known or not {*known[1].split(",")} <= {*extras}:
+                other.append((named(path), f"pip install{flags} {target}"))
+        other += [(named(path), found) for found in re.findall(r"pip install[^\n`;&]*anymesh", text)]
+    assert [place for place in other if place != ("src/anymesh/errors.py", "pip install '{PIP_TARGET}[{extra}]'")] == []
+    assert pip_install("view") == f"`pip install '{PIP_TARGET}[view]'`"
 
 
 def test_the_api_page_documents_the_public_names() -> None:

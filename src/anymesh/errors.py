@@ -21,6 +21,7 @@ PLACE = re.compile(  # an address; a path in quotes, as Python prints it; a path
     r"|(?:(?<!\w)[A-Za-z]:)?[^\s:#'\"(),=<>]*[\\/](?P<name>[^\\/\s:#'\"(),=<>]*)"
 )
 LONGEST = 500  # maximum number of characters of a redacted text
+PIP_TARGET = "."  # what pip installs: the checkout, from its folder, until the package is on PyPI; then its name
 
 
 class AnymeshError(Exception):
@@ -105,3 +106,8 @@ def redacted(text: str) -> str:
         return "[address]" if place["name"] is None else place["name"]
 
     return SECRET.sub("[removed]", PLACE.sub(shown, " ".join(text.split())))[:LONGEST]
+
+
+def pip_install(extra: str) -> str:
+    """Return the command that installs an extra, as messages quote it."""
+    return f"`pip install '{PIP_TARGET}[{extra}]'`"

@@ -88,7 +88,7 @@ def test_force_replaces_an_output_of_this_program(crowded, capfd) -> None:
 @pytest.mark.parametrize(
     ("raised", "code", "word"),
     [
-        (MissingExtraError("needs articulate-anymesh[sim]"), 5, "[sim]"),
+        (MissingExtraError("needs the extra [sim]"), 5, "[sim]"),
         (RuntimeError("two\nlines\x1b[31m"), 70, "--debug"),
         (EOFError("cut"), 70, "internal defect, EOFError: cut"),
         (KeyboardInterrupt(), 130, "interrupted\n"),

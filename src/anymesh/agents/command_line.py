@@ -8,7 +8,7 @@ from typing import Annotated
 
 import typer
 
-from anymesh.errors import MissingExtraError, OptionError
+from anymesh.errors import MissingExtraError, OptionError, pip_install
 
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 Folders = Annotated[list[Path], typer.Argument(metavar="FOLDER", help="Folders that the tools may read and write.")]
@@ -22,7 +22,7 @@ def mcp(folders: Folders, http: Http = False, host: Host = "127.0.0.1", port: Po
     if host not in LOOPBACK:
         raise OptionError(f"--host: found {host!r}; valid are {', '.join(LOOPBACK)}: there is no password")
     if find_spec("mcp") is None:
-        raise MissingExtraError("the MCP server is not installed; install it with `pip install articulate-anymesh[mcp]`")
+        raise MissingExtraError(f"the MCP server is not installed; install it with {pip_install('mcp')}")
     from anymesh.agents.server_ import serve_http, serve_stdio
 
     names = [str(folder) for folder in folders]

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float, Int
 from scipy import ndimage
 
-from anymesh.errors import MissingExtraError
+from anymesh.errors import MissingExtraError, pip_install
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.topology import weld
 from anymesh.geometry.triangle_set import sample_surface
@@ -76,7 +76,7 @@ def joined(solids: Sequence[np.ndarray]) -> Float[np.ndarray, "R 3 3"]:
         from manifold3d import Error, Manifold, OpType
         from manifold3d import Mesh as Triangles
     except ImportError:
-        raise MissingExtraError("manifold3d is missing; pip install 'articulate-anymesh[test]' has it") from None
+        raise MissingExtraError(f"manifold3d is missing; {pip_install('test')} has it") from None
     usable, others = [], []
     for triangles in solids:
         corners = triangles.reshape(-1, 3)

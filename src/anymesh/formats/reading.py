@@ -10,7 +10,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 
-from anymesh.errors import InputError, MissingExtraError
+from anymesh.errors import InputError, MissingExtraError, pip_install
 from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
 from anymesh.loading.files import FileMesh, Folder
 
@@ -44,7 +44,7 @@ def read_isolated(data: bytes, folder: Folder) -> FileMesh:
     name, suffix = folder.path.name, folder.path.suffix.lower()
     module, function, library, extra = READERS[suffix]
     if find_spec(library) is None:
-        raise MissingExtraError(f"reading {suffix} needs an extra; install it with `pip install articulate-anymesh[{extra}]`")
+        raise MissingExtraError(f"reading {suffix} needs an extra; install it with {pip_install(extra)}")
     with tempfile.TemporaryDirectory(prefix="anymesh_") as work:
         arguments = {"module": module, "function": function, "folder": folder, "work": Path(work).resolve()}
         try:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from PIL import Image
 
-from anymesh.errors import MissingExtraError
+from anymesh.errors import MissingExtraError, pip_install
 
 
 def open_ktx2(data: bytes, most: int) -> Image.Image:
@@ -15,7 +15,7 @@ def open_ktx2(data: bytes, most: int) -> Image.Image:
     try:
         import opengl_basisu
     except ImportError as error:
-        raise MissingExtraError("KTX 2: pip install 'articulate-anymesh[ktx2]'") from error
+        raise MissingExtraError(f"KTX 2: {pip_install('ktx2')}") from error
     texture = opengl_basisu.open(data)
     if texture.width * texture.height > most:
         raise ValueError(f"{texture.width} x {texture.height} pixels")

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from anymesh.errors import MissingExtraError
+from anymesh.errors import MissingExtraError, pip_install
 from anymesh.export.meshes import texture_files, visible, write_textures
 from anymesh.export.model import FOLDER, Drive, ExportConfig, ExportLink, Model, drives
 from anymesh.export.notation import principal, turning_x_to
@@ -46,7 +46,7 @@ def load_usd() -> ModuleType:
         import pxr.UsdShade
         import pxr.Vt
     except ImportError as error:
-        raise MissingExtraError("USD is not installed; install it with `pip install articulate-anymesh[usd]`") from error
+        raise MissingExtraError(f"USD is not installed; install it with {pip_install('usd')}") from error
     return pxr
 
 

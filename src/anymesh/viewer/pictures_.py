@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import UInt8
 from PIL import Image, ImageDraw
 
-from anymesh.errors import InputError, MissingExtraError, OptionError
+from anymesh.errors import InputError, MissingExtraError, OptionError, pip_install
 from anymesh.export.glb import tracks
 from anymesh.export.model import ExportConfig
 from anymesh.geometry.kinematics import posed
@@ -56,7 +56,7 @@ def write_mp4(frames: Iterable[UInt8[np.ndarray, "H W 3"]], path: Path, rate: fl
     try:
         from imageio_ffmpeg import write_frames
     except ImportError as error:
-        raise MissingExtraError("imageio-ffmpeg is missing; install it with `pip install articulate-anymesh[video]`") from error
+        raise MissingExtraError(f"imageio-ffmpeg is missing; install it with {pip_install('video')}") from error
     writer = None
     for frame in frames:
         if writer is None:

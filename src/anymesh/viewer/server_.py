@@ -20,7 +20,7 @@ from typing import Any
 from urllib.parse import urlsplit
 
 from anymesh import pipeline
-from anymesh.errors import MissingExtraError, OptionError
+from anymesh.errors import MissingExtraError, OptionError, pip_install
 from anymesh.pipeline.atomic_folder import CORRECTIONS, written_files
 from anymesh.runtime import Progress, silent
 from anymesh.viewer.bench_ import WorkbenchFolders
@@ -89,7 +89,7 @@ def start_server(host: str, port: int, label: str) -> Any:
     try:
         import viser
     except ImportError:
-        raise MissingExtraError("the viewer needs the extra `view`: pip install 'articulate-anymesh[view]'") from None
+        raise MissingExtraError(f"the viewer needs the extra `view`: {pip_install('view')}") from None
     with guarded_server(host):
         return viser.ViserServer(host=host, port=port, label=label, verbose=False)
 

@@ -11,7 +11,7 @@ import zlib
 from pathlib import Path
 from typing import Any
 
-from anymesh.errors import InputError, MissingExtraError
+from anymesh.errors import InputError, MissingExtraError, pip_install
 from anymesh.prompted.models.retry import UnavailableError
 
 try:
@@ -35,7 +35,7 @@ def fetch(uid: str) -> Path:
     try:
         import objaverse
     except ImportError:
-        message = "objects of Objaverse need its package; install it with `pip install articulate-anymesh[objaverse]`"
+        message = f"objects of Objaverse need its package; install it with {pip_install('objaverse')}"
         raise MissingExtraError(message) from None
     home, before = Path(objaverse._VERSIONED_PATH), socket.getdefaulttimeout()
     socket.setdefaulttimeout(SECONDS)

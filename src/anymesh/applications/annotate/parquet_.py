@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from anymesh.errors import InputError, MissingExtraError
+from anymesh.errors import InputError, MissingExtraError, pip_install
 
 ROWS = 10_000  # rows per batch in memory
 
@@ -17,7 +17,7 @@ def _pyarrow() -> Any:
         import pyarrow
         import pyarrow.parquet
     except ImportError:
-        message = "Parquet needs pyarrow, which is not installed; install it with `pip install articulate-anymesh[parquet]`"
+        message = f"Parquet needs pyarrow, which is not installed; install it with {pip_install('parquet')}"
         raise MissingExtraError(message) from None
     return pyarrow
 

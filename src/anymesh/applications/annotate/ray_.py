@@ -18,7 +18,7 @@ from typing import Any
 
 from anymesh.applications.annotate.states import AttemptOutcome, Job, Result
 from anymesh.applications.annotate.workers import TARGET, run_in_child
-from anymesh.errors import MissingExtraError, OptionError
+from anymesh.errors import MissingExtraError, OptionError, pip_install
 from anymesh.isolation import ChildLimits, ChildPool
 
 RETRIES = 3  # maximum number of restarts of a task whose node is lost
@@ -30,7 +30,7 @@ def _ray() -> Any:
     try:
         return importlib.import_module("ray")
     except ImportError:
-        message = "a cluster needs Ray, which is not installed; install it with `pip install articulate-anymesh[ray]`"
+        message = f"a cluster needs Ray, which is not installed; install it with {pip_install('ray')}"
         raise MissingExtraError(message) from None
 
 

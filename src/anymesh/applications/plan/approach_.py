@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.errors import MissingExtraError
+from anymesh.errors import MissingExtraError, pip_install
 
 Valid = Callable[[Float[np.ndarray, " J"]], bool]
 STRIDE = 0.03  # [rad] between postures that are checked for collision
@@ -36,7 +36,7 @@ def free_path(
     try:
         from ompl import base, geometric, util
     except ImportError:
-        raise MissingExtraError("ompl is missing; install it with `pip install 'articulate-anymesh[plan]'`") from None
+        raise MissingExtraError(f"ompl is missing; install it with {pip_install('plan')}") from None
     path = _rrt(base, geometric, util, (start, goal, low, high), valid, seed, checks)
     return None if path is None else _shortcut(path, valid, np.random.default_rng(seed))
 

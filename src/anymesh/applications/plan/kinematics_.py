@@ -10,7 +10,7 @@ from jaxtyping import Float
 
 from anymesh.applications.plan.hand_ import Hand
 from anymesh.applications.plan.robot_ import RobotArm, quaternion, without_visuals
-from anymesh.errors import MissingExtraError
+from anymesh.errors import MissingExtraError, pip_install
 from anymesh.mujoco_ import load_mujoco
 
 TOOL = "anymesh_tool"  # name of the site added to the wrist
@@ -28,7 +28,7 @@ class Kinematics:
         try:
             import mink
         except ImportError:
-            raise MissingExtraError("mink is missing; install it with `pip install 'articulate-anymesh[plan]'`") from None
+            raise MissingExtraError(f"mink is missing; install it with {pip_install('plan')}") from None
         self.mujoco = load_mujoco()
         self._mink: Any = mink
         self.robot = robot

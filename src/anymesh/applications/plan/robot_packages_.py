@@ -9,10 +9,10 @@ from importlib import metadata
 from pathlib import Path
 from typing import Any
 
-from anymesh.errors import InputError, MissingExtraError, OptionError
+from anymesh.errors import InputError, MissingExtraError, OptionError, pip_install
 
 SHARE = "cmeel.prefix/share/example-robot-data/robots"  # path of the robots in the wheel example-robot-data
-NO_PLAN = "is not installed; install it with `pip install 'articulate-anymesh[plan]'`"
+NO_PLAN = f"is not installed; install it with {pip_install('plan')}"
 
 
 @dataclass(frozen=True)
@@ -117,7 +117,7 @@ def _example_robot_data(what: tuple[str, str], preset: Preset) -> Path | str:
     try:
         path = Path(str(metadata.distribution("example-robot-data").locate_file(f"{SHARE}/{preset.urdf}")))
     except metadata.PackageNotFoundError:
-        return "example-robot-data is not installed; install it with `pip install 'articulate-anymesh[robots]'`"
+        return f"example-robot-data is not installed; install it with {pip_install('robots')}"
     return path if path.is_file() else "example-robot-data does not have it"
 
 

@@ -18,7 +18,7 @@ from anymesh.applications.policy.robots_ import NAMES
 from anymesh.applications.policy.scene_ import TIMESTEP
 from anymesh.applications.policy.simulation_ import HORIZON, SUBSTEPS, TaskSimulation
 from anymesh.applications.policy.tasks import PolicyTask, Randomization, reward, success
-from anymesh.errors import MissingExtraError, OptionError
+from anymesh.errors import MissingExtraError, OptionError, pip_install
 
 POINTS = 512  # of the cloud, as DexArt's
 GRID = 32  # rays per side of the camera
@@ -111,7 +111,7 @@ try:
     import gymnasium
     from gymnasium.spaces import Box, Dict
 except ImportError:
-    raise MissingExtraError("gymnasium is not installed; `pip install 'articulate-anymesh[policy]'` brings it") from None
+    raise MissingExtraError(f"gymnasium is not installed; {pip_install('policy')} brings it") from None
 
 LARGE = 100.0  # bound of observations
 

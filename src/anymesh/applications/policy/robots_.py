@@ -14,7 +14,7 @@ from jaxtyping import Float
 from anymesh.applications.plan.hand_ import Hand, measure_hand
 from anymesh.applications.plan.robot_ import RobotArm, add_servo, finger_bodies, load_robot, positions_of, quaternion
 from anymesh.applications.plan.robot_packages_ import find_robot
-from anymesh.errors import MissingExtraError, OptionError
+from anymesh.errors import MissingExtraError, OptionError, pip_install
 from anymesh.mujoco_ import load_mujoco
 
 SLIDERS, HINGES = ("move_x", "move_y", "move_z"), ("turn_z", "turn_y", "turn_x")  # servos of a floating hand
@@ -26,7 +26,7 @@ MASS = 0.8  # [kg] of the gripper
 STEP, TURN_STEP = 0.03, 0.12  # [m], [rad] of the largest change of the command in one step
 SHADOW = "gymnasium_robotics/envs/assets"  # in the wheel gymnasium-robotics: the Shadow hand as MJCF, with meshes
 SHADOW_FINGERS = ("ff", "mf", "rf", "lf", "th")
-NO_SHADOW = "gymnasium-robotics is not installed; `pip install 'articulate-anymesh[policy-hand]'` brings it"
+NO_SHADOW = f"gymnasium-robotics is not installed; {pip_install('policy-hand')} brings it"
 TOOL_X, TOOL_Y = 0.0, -0.3  # [m] of the tool at home, from the middle of the object; the base of the arm is behind it
 JOINT_STEP = 0.06  # [rad] of the largest change of a command in one step
 ARMS = ("panda", "ur5e")

@@ -13,7 +13,7 @@ import numpy as np
 
 from anymesh.applications.policy.env_ import ArticulatedEnv, make_env
 from anymesh.applications.policy.tasks import DEXART, PolicyTask, Randomization
-from anymesh.errors import MissingExtraError, OptionError, OutputError
+from anymesh.errors import MissingExtraError, OptionError, OutputError, pip_install
 from anymesh.runtime import write_whole
 
 MODEL, CHECKPOINT, CURVE, CONFIG = "policy.zip", "checkpoint.zip", "curve.jsonl", "training.json"
@@ -75,7 +75,7 @@ def load_sb3() -> Any:
         import stable_baselines3  # ty: ignore[import-not-found]
     except ImportError:
         raise MissingExtraError(
-            "stable-baselines3 is not installed; `pip install 'articulate-anymesh[policy]'` brings it "
+            f"stable-baselines3 is not installed; {pip_install('policy')} brings it "
             "(install a CPU build of torch first where there is no GPU)"
         ) from None
     return stable_baselines3

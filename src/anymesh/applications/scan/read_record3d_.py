@@ -16,7 +16,7 @@ import numpy as np
 
 from anymesh.applications.scan.frames import FLIPPED, Frames, Observation, Pinhole, RgbdFrame, quaternion_pose
 from anymesh.applications.scan.pictures import clean_depth, observed, read_color
-from anymesh.errors import InputError, MissingExtraError
+from anymesh.errors import InputError, MissingExtraError, pip_install
 
 METADATA = ("metadata", "metadata.json")
 MOST_BYTES = 1 << 28  # [bytes] limit of one file in the archive
@@ -57,7 +57,7 @@ def unpack(data: bytes, name: str) -> bytes:
         lzfse: Any = importlib.import_module("lzfse")  # a compiled module without types
     except ImportError:
         raise MissingExtraError(
-            "depth of Record3D is compressed with LZFSE; pip install 'articulate-anymesh[scan]' brings what reads it"
+            f"depth of Record3D is compressed with LZFSE; {pip_install('scan')} brings what reads it"
         ) from None
     try:
         return lzfse.decompress(data)

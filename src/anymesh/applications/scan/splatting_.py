@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.applications.scan.frames import Frames, Observation, Pinhole, RgbdFrame
-from anymesh.errors import MissingExtraError
+from anymesh.errors import MissingExtraError, pip_install
 from anymesh.runtime import Progress
 
 SIDE = 800  # [px] largest side of the pictures used for fitting
@@ -94,9 +94,7 @@ def gaze(frames: Frames) -> tuple[Float[np.ndarray, " 3"], float]:
 
 
 def _libraries() -> _Libraries:
-    wanted = (
-        "these pictures have no depth; 2D Gaussian splatting makes it, with pip install 'articulate-anymesh[scan-gpu]' and CUDA"
-    )
+    wanted = f"these pictures have no depth; 2D Gaussian splatting makes it, with {pip_install('scan-gpu')} and CUDA"
     try:
         import torch  # ty: ignore[import-not-found]
         from gsplat import DefaultStrategy, rasterization_2dgs  # ty: ignore[import-not-found]

@@ -14,7 +14,7 @@ from jaxtyping import Float
 
 from anymesh.checking.engines.pushing import STEP, PassiveWorld, Resisting, push_faults
 from anymesh.checking.engines.robot import Robot, RobotJoint
-from anymesh.errors import InputError, MissingExtraError
+from anymesh.errors import InputError, MissingExtraError, pip_install
 
 HOLD_STEPS = 100  # steps for which a motor is held at a limit
 SAME = 1e-4  # tolerance of limits as read by the engine [rad or m]
@@ -145,7 +145,7 @@ def load_engine(module: str, *, shown: str, extra: str) -> ModuleType:
     try:
         return import_module(module)
     except ImportError as error:
-        message = f"{shown} is not installed ({error}); install it with `pip install articulate-anymesh[{extra}]`"
+        message = f"{shown} is not installed ({error}); install it with {pip_install(extra)}"
         raise MissingExtraError(message) from error
 
 

@@ -5,17 +5,14 @@ from __future__ import annotations
 from importlib.util import find_spec
 from pathlib import Path
 
-from anymesh.errors import InputError, MissingExtraError, OptionError
+from anymesh.errors import InputError, MissingExtraError, OptionError, pip_install
 from anymesh.evaluation.datasets.dataset import Dataset
 
 NAMES = (
     "examples[:FOLDER], scene-synthesizer, sweethome3d[:FILE], metaworld[:FOLDER], libero[:FOLDER], "
     "partnet-mobility:FOLDER, urdf:FOLDER, static:FOLDER, mjcf:FOLDER, labelled:FOLDER"
 )
-NEEDED = {  # import name -> installation command
-    "scene_synthesizer": "pip install 'articulate-anymesh[eval]'",
-    "yourdfpy": "pip install 'articulate-anymesh[eval]'",
-}
+NEEDED = ("scene_synthesizer", "yourdfpy")  # of the extra `eval`
 
 
 def open_dataset(spec: str) -> Dataset:
@@ -28,10 +25,9 @@ def open_dataset(spec: str) -> Dataset:
     try:
         return _open(spec, name, Path(place).expanduser() if place else None)
     except ModuleNotFoundError as error:
-        command = NEEDED.get((error.name or "").split(".")[0])
-        if command is None:
+        if (error.name or "").split(".")[0] not in NEEDED:
             raise
-        raise MissingExtraError(f"the data set {name} needs {error.name}; `{command}` brings it") from None
+        raise MissingExtraError(f"the data set {name} needs {error.name}; {pip_install('eval')} brings it") from None
 
 
 def _open(spec: str, name: str, place: Path | None) -> Dataset:

@@ -13,7 +13,7 @@ from pathlib import Path, PurePosixPath
 from types import ModuleType
 from typing import Any
 
-from anymesh.errors import InputError, MissingExtraError
+from anymesh.errors import InputError, MissingExtraError, pip_install
 from anymesh.formats.packages import unpack
 from anymesh.loading.files import Folder
 from anymesh.loading.references import SHOWN
@@ -37,7 +37,7 @@ def load_pxr() -> ModuleType:
         import pxr.UsdShade
         import pxr.UsdSkel
     except ImportError as error:
-        raise MissingExtraError("reading USD needs OpenUSD; install it with `pip install articulate-anymesh[usd]`") from error
+        raise MissingExtraError(f"reading USD needs OpenUSD; install it with {pip_install('usd')}") from error
     return pxr
 
 

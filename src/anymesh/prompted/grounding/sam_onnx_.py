@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from anymesh.errors import MissingExtraError, ModelError
+from anymesh.errors import MissingExtraError, ModelError, pip_install
 from anymesh.prompted.grounding.sam import MEAN, Frame, PromptedSegmenter
 from anymesh.prompted.grounding.sam_weights_ import Hub, resolve
 
@@ -183,7 +183,7 @@ def _session(path: Path) -> Any:
     try:  # imported by name, because type checks also run without the library
         runtime = importlib.import_module("onnxruntime")
     except ImportError as error:
-        raise MissingExtraError("ONNX Runtime is missing; install it with `pip install articulate-anymesh[sam]`") from error
+        raise MissingExtraError(f"ONNX Runtime is missing; install it with {pip_install('sam')}") from error
     wanted = ("CUDAExecutionProvider", "CPUExecutionProvider")
     providers = [p for p in wanted if p in runtime.get_available_providers()]
     try:

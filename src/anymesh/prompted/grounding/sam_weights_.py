@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from types import ModuleType
 
-from anymesh.errors import MissingExtraError, ModelError, OptionError
+from anymesh.errors import MissingExtraError, ModelError, OptionError, pip_install
 
 SUMS = "SHA256SUMS"  # digests in a folder, in the format of `sha256sum`
 PICKLES = (".pth", ".pt", ".bin", ".pkl", ".ckpt")
@@ -175,7 +175,7 @@ def _library() -> ModuleType:
         return importlib.import_module("huggingface_hub")
     except ImportError as error:
         raise MissingExtraError(
-            "huggingface_hub is not installed; install it with `pip install articulate-anymesh[sam]`; "
+            f"huggingface_hub is not installed; install it with {pip_install('sam')}; "
             "or give a folder that holds the weights: sam:FOLDER"
         ) from error
 

@@ -17,7 +17,7 @@ from dataclasses import dataclass, field
 from threading import Thread
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from anymesh.errors import MAX_QUOTE, SECRET, MissingExtraError, ModelError, OptionError
+from anymesh.errors import MAX_QUOTE, SECRET, MissingExtraError, ModelError, OptionError, pip_install
 from anymesh.prompted.models.pydantic_ai_wire_ import (
     fit,
     the_message,
@@ -55,7 +55,7 @@ def connect(name: str, *, timeout: float = CALL_SECONDS) -> Client:
         importlib.import_module(f"pydantic_ai.models.{address.provider.partition('-')[0]}")
     except ImportError:
         raise MissingExtraError(
-            f"the client of {address.provider} is not installed; install it with `pip install articulate-anymesh[vlm]`"
+            f"the client of {address.provider} is not installed; install it with {pip_install('vlm')}"
         ) from None
     address.key()  # fail now rather than after the rendering
     return Client(name, address, timeout)
