@@ -58,7 +58,7 @@ def test_answers_that_contradict_each_other_give_a_warning(kind, moves, joint_ty
     found = contradictions([case(1, kind, moves)], [joint(joint_type)])
     assert len(found) == (not agree)
     for warning in found:
-        assert warning.startswith("joint p1_joint: the answers contradict each other (")
+        assert warning.startswith("joint j: the answers contradict each other (")
         assert kind.value.replace("_", " ") in warning
         assert (f"recognized as {moves}, then " in warning) == (moves is not None)
 
