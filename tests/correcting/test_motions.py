@@ -1,11 +1,13 @@
 """The ranked motions of a part hold the one it was built with, and each can be chosen."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from assets import cabinet
 
-from anymesh.correcting import CorrectionError, apply, ranked_motions
-from anymesh.correcting.motions import made_ready
+from anymesh.correcting import ChooseMotion, CorrectionError, apply, ranked_motions
+from anymesh.correcting.motions import made_ready, motion_words, told_apart
 from anymesh.types import JointType
 
 
@@ -48,3 +50,52 @@ def test_a_dense_asset_has_the_same_first_motion(ready, monkeypatch):
 def test_the_root_has_no_motions(ready):
     with pytest.raises(CorrectionError, match="root"):
         ranked_motions(ready[0], "base", ready=ready[1])
+
+
+def test_motions_are_described_by_what_a_person_sees():
+    asset = cabinet()
+    words = {j.child: motion_words(asset, j) for j in asset.joints}
+    assert words["door"] == "hinge right, vertical"
+    assert words["drawer"] == "slides out, towards the front"
+    assert words["knob"] == "turns endlessly, axis front to back"
+
+
+SEEN = [
+    ("revolute", (1, 0, 0), (0.3, -0.02, 0.025), (0.0, 1.5), "flap, hinge at the bottom"),
+    ("revolute", (-1, 0, 0), (0.3, -0.02, 0.6), (0.0, 1.5), "flap, hinge at the top"),
+    ("revolute", (0, 0, 1), (0.3, -0.01, 0.3), (-1.0, 1.0), "turns, axis vertical"),
+    ("prismatic", (-1, 0, 0), (0.3, -0.01, 0.3), (0.0, 0.2), "slides out, to the left"),
+    ("prismatic", (0, 0, 1), (0.3, -0.01, 0.3), (-0.1, 0.1), "slides, up and down"),
+    ("prismatic", (0, 1, 0), (0.3, -0.01, 0.3), (0.0, 0.01), "is pushed in, towards the back"),
+    ("prismatic", (0, -1, 1), (0.3, -0.01, 0.3), (0.0, 0.1), "slides, towards the front and up"),
+    ("fixed", (0, 0, 1), (0.3, -0.01, 0.3), None, "does not move"),
+]
+
+
+@pytest.mark.parametrize(("kind", "axis", "origin", "limits", "words"), SEEN)
+def test_words_of_motions_of_a_front(kind, axis, origin, limits, words):
+    asset = cabinet()
+    door = replace(
+        asset.joints[0],
+        type=JointType(kind),
+        axis=np.array(axis) / np.linalg.norm(axis),
+        origin=np.array(origin),
+        limits=limits,
+    )
+    assert motion_words(asset, door) == words
+
+
+def test_motions_with_the_same_words_are_told_apart_by_what_differs():
+    asset = cabinet()
+    at = {"part": "door", "type": JointType.REVOLUTE, "confidence": 0.5, "reason": "r"}
+    a = ChooseMotion(axis=(0.0, 0.0, 1.0), origin=(0.595, -0.02, 0.3), limits=(0.0, 1.5), **at)
+    b = replace(a, axis=(0.0, 0.0, -1.0))
+    c = replace(a, limits=(0.0, 0.7))
+    d = replace(a, origin=(0.595, 0.0, 0.3))
+    assert told_apart(asset, (a, b)) == (
+        "hinge right, vertical, opens towards the front",
+        "hinge right, vertical, opens towards the back",
+    )
+    assert told_apart(asset, (a, c)) == ("hinge right, vertical, 0..86°", "hinge right, vertical, 0..40°")
+    assert told_apart(asset, (a, d)) == ("hinge right, vertical", "hinge right, vertical, 2.0 cm further towards the back")
+    assert len(set(told_apart(asset, (a, a, b, c, d)))) == 5

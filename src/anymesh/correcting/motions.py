@@ -1,7 +1,8 @@
-"""Ranked free motions of one part, computed again as in Stage B."""
+"""Ranked free motions of one part, computed again as in Stage B, and words that tell them apart."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,7 +12,7 @@ from anymesh.articulation.estimate import all_motions, joint_of
 from anymesh.articulation.part_contexts import part_context
 from anymesh.articulation.rank_motions import joint_type, motion_scores, reason
 from anymesh.correcting.corrections import ChooseMotion, vector
-from anymesh.correcting.edits import joint_of_part, part_number
+from anymesh.correcting.edits import choose_motion, joint_of_part, part_number
 from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.surface import ObjectShape
@@ -23,6 +24,16 @@ DENSE = 60_000  # number of faces above which an asset's surface is simplified f
 MIN_PART_FACES = 500  # minimum number of faces of a simplified part
 ALIKE = 0.97  # cosine between axes that are equal for a user
 SAME_AXIS_RATIO = 0.02  # share of the object's diagonal: distance of hinge lines that are equal for a user
+# names of the two ends of x, y and z: where a hinge is, and where something moves; the front is where y is least
+SIDES = (("left", "right"), ("front", "back"), ("bottom", "top"))
+WAYS = (("to the left", "to the right"), ("towards the front", "towards the back"), ("down", "up"))
+BOTH = (("left and right",) * 2, ("forwards and back",) * 2, ("up and down",) * 2)
+AXES = ("left to right", "front to back", "vertical")
+STRAIGHT = 0.94  # cosine (20 degrees) from which a direction is called by one name
+BOTH_RATIO = 0.5  # range to the shorter side, relative to that to the other, from which a motion goes both ways
+MIDDLE = 0.3  # offset of an axis from the part's middle, as a share of its reach, up to which it is in the middle
+FLAT = 0.5  # height of a lid, relative to its shorter side
+AT_EDGE = 0.05  # share of the object's diagonal: distance from its outside within which a part is at the outside
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,3 +109,81 @@ def _alike(a: ChooseMotion, b: ChooseMotion, diagonal: float) -> bool:
         return False
     apart = np.linalg.norm(np.cross(np.subtract(b.origin, a.origin), axis))
     return a.type is JointType.PRISMATIC or float(apart) < SAME_AXIS_RATIO * diagonal
+
+
+def motion_words(asset: Asset, joint: Joint) -> str:
+    """Describe a joint of an asset by how its part moves: "slides out, towards the front", "hinge right, vertical"."""
+    return _facets(asset, joint)[0]
+
+
+def told_apart(asset: Asset, motions: Sequence[ChooseMotion]) -> tuple[str, ...]:
+    """Describe motions of the parts of an asset in words that differ: what two have in common is followed by what differs."""
+    joints = [next(j for j in choose_motion(asset, m).joints if j.child == m.part) for m in motions]
+    facets = [_facets(asset, j) for j in joints]
+    words = [f[0] for f in facets]
+    for level in (1, 2):
+        differ = [len({f[level] for f, other in zip(facets, words, strict=True) if other == w}) > 1 for w in words]
+        words = [f"{w}, {f[level]}" if d and f[level] else w for w, f, d in zip(words, facets, differ, strict=True)]
+    told: list[str] = []
+    for joint, word in zip(joints, words, strict=True):
+        first = joints[words.index(word)]
+        off = joint.origin - first.origin
+        text = word if joint is first else f"{word}, {100 * np.linalg.norm(off):.1f} cm further {_way(off)}"
+        told.append(text if text not in told else f"{text} ({len(told) + 1})")
+    return tuple(told)
+
+
+def _facets(asset: Asset, joint: Joint) -> tuple[str, str, str]:
+    """Return what a motion is, where it opens to, and how far, "" where that says nothing."""
+    corners = asset.mesh.triangles[asset.segmentation.faces(part_number(asset, joint.child))].reshape(-1, 3)
+    lower, upper = joint.limits or (0.0, 0.0)
+    opening = (1.0 if upper >= -lower else -1.0) * joint.axis
+    both = min(upper, -lower) > BOTH_RATIO * max(upper, -lower)
+    if joint.type is JointType.FIXED:
+        return "does not move", "", ""
+    if joint.type is JointType.PRISMATIC:
+        words = f"slides, {_way(opening, BOTH)}" if both else f"{_slides(asset, corners, opening)}, {_way(opening)}"
+        return words, "", f"{100 * lower:.1f}..{100 * upper:.1f} cm"
+    range_ = "" if joint.limits is None else f"{np.degrees(lower):.0f}..{np.degrees(upper):.0f}°"
+    low, high = corners.min(0), corners.max(0)
+    arm = (low + high) / 2 - joint.origin
+    arm -= (arm @ joint.axis) * joint.axis
+    along = next((name for name, share in zip(AXES, np.abs(joint.axis), strict=True) if share > STRAIGHT), "slanted")
+    off = corners - joint.origin
+    reach = np.linalg.norm(off - (off @ joint.axis)[:, None] * joint.axis, axis=1).max()
+    central = np.linalg.norm(arm) < MIDDLE * reach
+    endless = " endlessly" if joint.type is JointType.CONTINUOUS else ""
+    if endless or central:
+        return f"turns{endless}{'' if central else f' about its {_side(-arm)}'}, axis {along}", "", range_
+    swing = "" if both else f"opens {_way(np.cross(opening, arm))}"
+    return _hinge(high - low, along, _side(-arm)), swing, range_
+
+
+def _hinge(size: np.ndarray, along: str, side: str) -> str:
+    """Describe a hinge at one side of a part of this size."""
+    if along == AXES[2]:
+        return f"hinge {side}, vertical"
+    words = f"{'lid' if size[2] < FLAT * min(size[:2]) else 'flap'}, hinge at the {side}"
+    return words if along in AXES else f"{words}, slanted"
+
+
+def _slides(asset: Asset, corners: np.ndarray, opening: np.ndarray) -> str:
+    """Return whether a part slides out of the object, is pushed into it, or slides along it."""
+    part, whole = corners @ opening, asset.mesh.vertices @ opening
+    near = AT_EDGE * asset.mesh.diagonal
+    if whole.max() - part.max() < near:
+        return "slides out"
+    return "is pushed in" if part.min() - whole.min() < near else "slides"
+
+
+def _side(offset: np.ndarray) -> str:
+    """Return the name of the side on which an offset from the middle lies."""
+    k = int(np.abs(offset).argmax())
+    return SIDES[k][int(offset[k] > 0)]
+
+
+def _way(direction: np.ndarray, names: Sequence[Sequence[str]] = WAYS) -> str:
+    """Return the name of a direction, or of the two that it lies between."""
+    unit = direction / max(float(np.linalg.norm(direction)), 1e-300)
+    order = np.argsort(-np.abs(unit), kind="stable")[: 1 if np.abs(unit).max() > STRAIGHT else 2]
+    return " and ".join(names[k][int(unit[k] > 0)] for k in order)
