@@ -1,5 +1,6 @@
 """Manual corrections of an asset: typed corrections, a history with undo, a replayable log, and safe saving."""
 
+from anymesh.correcting.copies import Copy, copies_of, same_for_copies
 from anymesh.correcting.corrections import (
     ChangeParent,
     ChangeType,
@@ -28,6 +29,7 @@ __all__ = [
     "ChangeType",
     "ChooseMotion",
     "Confirm",
+    "Copy",
     "Correction",
     "CorrectionError",
     "FaceSet",
@@ -46,7 +48,9 @@ __all__ = [
     "SplitPart",
     "StaleError",
     "apply",
+    "copies_of",
     "open_asset",
     "ranked_motions",
+    "same_for_copies",
     "save_asset",
 ]

@@ -1,0 +1,259 @@
+"""Copies of a part, and corrections that give them what the part has.
+
+A copy is a part, or a region of the part's parent, with the shape of the part in another place, turned, or as its mirror image; or
+a part with an equal box.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import permutations, product
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from anymesh.correcting.corrections import ChooseMotion, Correction, CorrectionError, FaceSet, Relabel, SplitPart, vector
+from anymesh.correcting.edits import apply, components_of, joint_of_part, part_number
+from anymesh.geometry.boxes import OrientedBox, same_box
+from anymesh.geometry.distance_ import TriangleTree
+from anymesh.geometry.topology import triangle_set_of
+from anymesh.geometry.triangle_set import body_obb, principal_spread, sample_surface, surface_moments
+from anymesh.types import Asset, Joint, JointType
+
+# Estimates; articulation/part_contexts.py calls boxes equal up to 3 % of the diagonal.
+MAX_SIZE_DIFFERENCE = 0.03  # of area and spread, relative
+MAX_MISFIT = 0.01  # mean distance of the surfaces of copies, over the diagonal
+SURROUNDINGS = 0.25  # of the diagonal: how far around a part its place is compared
+MISFIT_STEP = 0.01  # of the diagonal: places that differ by less fit alike
+MAX_BOX_RATIO = 0.5  # axis-aligned boxes of copies differ by less; a protrusion such as a handle is not of the box
+NEIGHBOURS = 0.1  # of the diagonal: maximum gap between leaves whose free edges meet
+MAX_ROW_OFFSET = 0.25  # of the offset: share along the opening direction, as for rows in articulation/part_contexts.py
+SAMPLES = 300
+MAX_REGIONS = 400  # regions of one size that are compared
+SIGNED = [np.eye(3)[list(p)] * np.array(s)[:, None] for p in permutations(range(3)) for s in product((1.0, -1.0), repeat=3)]
+
+
+@dataclass(frozen=True, eq=False)
+class Copy:
+    """A copy of a part. part: its name, or of the parent that the region belongs to; faces: of a region, None for a whole part.
+
+    pose: (4, 4), maps the part onto its copy; a mirror image where its determinant is negative.
+    """
+
+    part: str
+    pose: Float[np.ndarray, "4 4"]
+    faces: Int[np.ndarray, " n"] | None = None
+
+
+class _Surface:
+    """A surface with the measures by which copies are recognized."""
+
+    def __init__(self, triangles: Float[np.ndarray, "F 3 3"]) -> None:
+        self.triangles = triangles
+        moments = surface_moments(triangles)
+        self.area = float(moments[3, 3])
+        self.center = moments[:3, 3] / max(self.area, 1e-300)
+        self.spread = principal_spread(moments[None])[0]
+        self.covariance = moments[:3, :3] / max(self.area, 1e-300) - np.outer(self.center, self.center)
+        corners = triangles.reshape(-1, 3)
+        self.low, self.high = corners.min(0), corners.max(0)
+        self.diagonal = float(np.linalg.norm(self.high - self.low))
+
+    @cached_property
+    def points(self) -> Float[np.ndarray, "n 3"]:
+        return sample_surface(self.triangles, SAMPLES, 0).points
+
+    @cached_property
+    def tree(self) -> TriangleTree:
+        return TriangleTree(self.triangles)
+
+    @cached_property
+    def axes(self) -> Float[np.ndarray, "3 3"]:
+        """The principal directions as rows."""
+        return np.linalg.eigh(self.covariance)[1].T
+
+    @cached_property
+    def box(self) -> OrientedBox:
+        """The box without protrusions."""
+        return body_obb(triangle_set_of(self.triangles))
+
+    def like(self, other: _Surface) -> bool:
+        """Return whether the sizes agree, in any rotation."""
+        near = abs(self.area - other.area) <= MAX_SIZE_DIFFERENCE * self.area
+        return near and bool((np.abs(self.spread - other.spread) <= MAX_SIZE_DIFFERENCE * self.spread.max()).all())
+
+    def misfit(self, other: _Surface, T: Float[np.ndarray, "4 4"]) -> float:
+        """Return the mean distance of the surfaces under a pose, over the diagonal."""
+        there, back = _moved(T, self.points), _moved(np.linalg.inv(T), other.points)
+        return float(max(other.tree.distance(there).mean(), self.tree.distance(back).mean())) / max(self.diagonal, 1e-300)
+
+    def poses(self, other: _Surface) -> list[Float[np.ndarray, "4 4"]]:
+        """Return the poses that map this surface onto the other: shifts first, then mirror images, then the others."""
+        turns = [other.axes.T @ S @ self.axes for S in SIGNED]
+        plain = sorted(SIGNED, key=lambda S: (-np.trace(np.abs(S)), -np.trace(S)))
+        found: list[np.ndarray] = []
+        for L in (*plain, *turns):
+            off = np.abs(L @ self.covariance @ L.T - other.covariance).max()
+            if off > 2 * MAX_SIZE_DIFFERENCE * self.spread.max() ** 2 or any(np.abs(T[:3, :3] - L).max() < 1e-3 for T in found):
+                continue
+            T = np.eye(4)
+            T[:3, :3], T[:3, 3] = L, other.center - L @ self.center
+            if self.misfit(other, T) < MAX_MISFIT:
+                found.append(T)
+        return found
+
+    def box_poses(self, other: _Surface) -> list[Float[np.ndarray, "4 4"]]:
+        """Return the shift and the mirror images that map a box onto an equal one, as in stage B; none if they differ."""
+        least = np.maximum(self.high - self.low, other.high - other.low) * MAX_BOX_RATIO
+        if (np.minimum(self.high - self.low, other.high - other.low) < least).any() or not same_box(self.box, other.box):
+            return []
+        poses = [np.diag([*s, 1.0]) for s in ((1, 1, 1), (-1, 1, 1), (1, -1, 1), (1, 1, -1))]
+        for T in poses:
+            T[:3, 3] = other.box.center - T[:3, :3] @ self.box.center
+        return poses
+
+
+def _moved(T: np.ndarray, points: np.ndarray) -> np.ndarray:
+    return points @ T[:3, :3].T + T[:3, 3]
+
+
+def copies_of(asset: Asset, part: str, *, regions: bool = True) -> tuple[Copy, ...]:
+    """Return the copies of a part: the other parts first, then regions of its parent. Raise CorrectionError for the root.
+
+    regions: also find connected components of the parent that would be copies, beside the part with respect to its motion.
+    Of several poses the one is taken whose surroundings fit best: a door may be the mirror image of the other.
+    """
+    joint, segmentation = joint_of_part(asset, part), asset.segmentation
+    triangles = asset.mesh.triangles
+    own = _Surface(triangles[segmentation.faces(part_number(asset, part))])
+    place = _Place(own, joint, triangles[segmentation.face_part != part_number(asset, part)], triangles)
+    found = []
+    for number, other in enumerate(segmentation.parts[1:], 1):
+        surface = _Surface(triangles[segmentation.faces(number)])
+        poses = own.poses(surface) if other.name != part and own.like(surface) else []
+        if not poses and other.name != part:
+            poses = own.box_poses(surface)
+        if poses:
+            found.append(Copy(other.name, place.best(surface, poses)))
+    if regions:
+        for faces in _regions_like(asset, part, joint.parent):
+            surface = _Surface(triangles[faces])
+            poses = own.poses(surface) if _beside(joint, own, surface) else []
+            if poses:
+                found.append(Copy(joint.parent, place.best(surface, poses), faces))
+    return tuple(found)
+
+
+class _Place:
+    """A part's place in the object, to choose between several poses of a copy."""
+
+    def __init__(self, own: _Surface, joint: Joint, rest: np.ndarray, whole: np.ndarray) -> None:
+        self._own, self._joint, self._tree = own, joint, TriangleTree(whole)
+        reach = SURROUNDINGS * own.diagonal
+        points = sample_surface(rest, 20 * SAMPLES, 0, at_least=1).points
+        around = ((points > own.low - reach) & (points < own.high + reach)).all(1)
+        self._around = points[around][:: max(1, int(around.sum()) // SAMPLES)]
+
+    def best(self, other: _Surface, poses: Sequence[np.ndarray]) -> Float[np.ndarray, "4 4"]:
+        """Return the pose with the best surroundings; of equal ones the first, but leaves that meet are mirror images."""
+        steps = np.round([self._misfit(T) / MISFIT_STEP for T in poses])
+        best = [T for T, step in zip(poses, steps, strict=True) if step == steps.min()]
+        return next((T for T in best if self._leaves(other, T)), best[0])
+
+    def _misfit(self, T: np.ndarray) -> float:
+        if not len(self._around):
+            return 0.0
+        reach = SURROUNDINGS * self._own.diagonal
+        return float(np.minimum(self._tree.distance(_moved(T, self._around)), reach).mean()) / max(self._own.diagonal, 1e-300)
+
+    def _leaves(self, other: _Surface, T: np.ndarray) -> bool:
+        """Return whether this mirror image makes the two a pair of hinged leaves whose free edges meet."""
+        offset, a = other.center - self._own.center, self._joint.axis
+        gap = np.maximum(np.maximum(other.low - self._own.high, self._own.low - other.high), 0)
+        across = offset / max(float(np.linalg.norm(offset)), 1e-300)
+        if self._joint.type is not JointType.REVOLUTE or np.linalg.norm(gap) > NEIGHBOURS * self._own.diagonal:
+            return False
+        if not np.allclose(T[:3, :3], np.eye(3) - 2 * np.outer(across, across), atol=0.1):
+            return False
+        hinges = _moved(T, self._joint.origin[None])[0] - self._joint.origin
+        return float(np.linalg.norm(np.cross(hinges, a))) > float(np.linalg.norm(np.cross(offset, a)))
+
+
+def _beside(joint: Joint, own: _Surface, other: _Surface) -> bool:
+    """Return whether a region lies beside a part and not before or behind it, where the part opens to."""
+    offset = other.center - own.center
+    way = joint.axis if joint.type is JointType.PRISMATIC else np.cross(joint.axis, own.center - joint.origin)
+    if joint.type in (JointType.CONTINUOUS, JointType.FIXED) or np.linalg.norm(way) < 1e-9:
+        return True
+    return abs(float(offset @ way)) < MAX_ROW_OFFSET * float(np.linalg.norm(offset) * np.linalg.norm(way))
+
+
+def _regions_like(asset: Asset, part: str, parent: str) -> Iterator[Int[np.ndarray, " n"]]:
+    """Yield the faces of each group of components of the parent that has the size and shape of a part."""
+    mine, theirs = components_of(asset, part), components_of(asset, parent)
+    anchor, area = _Surface(asset.mesh.triangles[mine[0]]), asset.mesh.face_areas
+    whole = _Surface(asset.mesh.triangles[np.concatenate(mine)])
+    taken = np.zeros(0, np.int64)
+    near = [f for f in theirs if abs(float(area[f].sum()) - anchor.area) <= MAX_SIZE_DIFFERENCE * anchor.area]
+    for faces in near[:MAX_REGIONS]:
+        region = _Surface(asset.mesh.triangles[faces])
+        if len(theirs) == 1 or np.isin(faces, taken).any() or not anchor.like(region):
+            continue
+        groups = [(T, np.unique(np.concatenate([faces, *_carried(asset, whole, theirs, T)]))) for T in anchor.poses(region)]
+        fit = [g for T, g in groups if whole.misfit(_Surface(asset.mesh.triangles[g]), T) < MAX_MISFIT]
+        if fit:
+            found = max(fit, key=lambda g: float(area[g].sum()))
+            taken = np.concatenate([taken, found])
+            yield found
+
+
+def _carried(asset: Asset, whole: _Surface, theirs: Sequence[np.ndarray], T: np.ndarray) -> Iterator[np.ndarray]:
+    """Yield the components that lie where a pose maps the surface of a part, such as its handle."""
+    back, reach = np.linalg.inv(T), MAX_MISFIT * whole.diagonal
+    for faces in theirs:
+        points = _moved(back, asset.mesh.triangles[faces].reshape(-1, 3))
+        if (points > whole.low - reach).all() and (points < whole.high + reach).all():
+            points = _moved(back, sample_surface(asset.mesh.triangles[faces], SAMPLES, 0).points)
+            if whole.tree.distance(points).mean() < reach:
+                yield faces
+
+
+def same_for_copies(asset: Asset, part: str, *, regions: bool = True) -> tuple[Correction, ...]:
+    """Return the corrections that give all copies of a part its label and its joint, placed and mirrored as they are.
+
+    regions: also make parts of copies that are regions of the parent. Raise CorrectionError for the root, or without a copy.
+    """
+    joint, label = joint_of_part(asset, part), asset.segmentation.parts[part_number(asset, part)].label
+    copies = copies_of(asset, part, regions=regions)
+    if not copies:
+        raise CorrectionError(
+            f"{part!r} has no copy: no other part{' or region of its parent' if regions else ''} has its shape"
+        )
+    done: list[Correction] = []
+    for copy in copies:
+        name = copy.part
+        if copy.faces is not None:
+            split = SplitPart(copy.part, FaceSet.of(copy.faces), label, label)
+            asset = apply(asset, split)
+            done.append(split)
+            name = asset.segmentation.parts[-1].name
+        elif asset.segmentation.parts[part_number(asset, name)].label != label:
+            done.append(Relabel(name, label))
+        done.append(mapped_motion(joint, name, copy.pose))
+    return tuple(done)
+
+
+def mapped_motion(joint: Joint, part: str, pose: Float[np.ndarray, "4 4"]) -> ChooseMotion:
+    """Return the motion of a copy of a joint's child under the copy's pose, with the same limits.
+
+    A mirrored hinge turns the other way round; copies that turn endlessly, as wheels, turn the same way.
+    """
+    axis = pose[:3, :3] @ joint.axis
+    back = axis @ joint.axis < 0 if joint.type is JointType.CONTINUOUS else np.linalg.det(pose[:3, :3]) < 0
+    axis = -axis if back and joint.type is not JointType.PRISMATIC else axis
+    reason = f"as its copy {joint.child}"
+    return ChooseMotion(
+        part, joint.type, vector(axis + 0.0), vector(_moved(pose, joint.origin[None])[0]), joint.limits, 1.0, reason
+    )
