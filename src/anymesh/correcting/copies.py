@@ -1,7 +1,7 @@
 """Copies of a part, and corrections that give them what the part has.
 
-A copy is a part, or a region of the part's parent, with the shape of the part in another place, turned, or as its mirror image; or
-a part with an equal box.
+A copy is a part with the shape of another, in another place, turned, or as its mirror image, or with an equal box; or a region of
+the parent with this shape.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from anymesh.types import Asset, Joint, JointType
 # Estimates; articulation/part_contexts.py calls boxes equal up to 3 % of the diagonal.
 MAX_SIZE_DIFFERENCE = 0.03  # of area and spread, relative
 MAX_MISFIT = 0.01  # mean distance of the surfaces of copies, over the diagonal
-SURROUNDINGS = 0.25  # of the diagonal: how far around a part its place is compared
+PLACE_REACH = 0.25  # of the diagonal: how far around a part its place is compared
 MISFIT_STEP = 0.01  # of the diagonal: places that differ by less fit alike
 MAX_BOX_RATIO = 0.5  # axis-aligned boxes of copies differ by less; a protrusion such as a handle is not of the box
 NEIGHBOURS = 0.1  # of the diagonal: maximum gap between leaves whose free edges meet
@@ -93,16 +93,16 @@ class _Surface:
         """Return the poses that map this surface onto the other: shifts first, then mirror images, then the others."""
         turns = [other.axes.T @ S @ self.axes for S in SIGNED]
         plain = sorted(SIGNED, key=lambda S: (-np.trace(np.abs(S)), -np.trace(S)))
-        found: list[np.ndarray] = []
+        poses: list[np.ndarray] = []
         for L in (*plain, *turns):
             off = np.abs(L @ self.covariance @ L.T - other.covariance).max()
-            if off > 2 * MAX_SIZE_DIFFERENCE * self.spread.max() ** 2 or any(np.abs(T[:3, :3] - L).max() < 1e-3 for T in found):
+            if off > 2 * MAX_SIZE_DIFFERENCE * self.spread.max() ** 2 or any(np.abs(T[:3, :3] - L).max() < 1e-3 for T in poses):
                 continue
             T = np.eye(4)
             T[:3, :3], T[:3, 3] = L, other.center - L @ self.center
             if self.misfit(other, T) < MAX_MISFIT:
-                found.append(T)
-        return found
+                poses.append(T)
+        return poses
 
     def box_poses(self, other: _Surface) -> list[Float[np.ndarray, "4 4"]]:
         """Return the shift and the mirror images that map a box onto an equal one, as in stage B; none if they differ."""
@@ -129,21 +129,21 @@ def copies_of(asset: Asset, part: str, *, regions: bool = True) -> tuple[Copy, .
     triangles = asset.mesh.triangles
     own = _Surface(triangles[segmentation.faces(part_number(asset, part))])
     place = _Place(own, joint, triangles[segmentation.face_part != part_number(asset, part)], triangles)
-    found = []
+    copies = []
     for number, other in enumerate(segmentation.parts[1:], 1):
         surface = _Surface(triangles[segmentation.faces(number)])
         poses = own.poses(surface) if other.name != part and own.like(surface) else []
         if not poses and other.name != part:
             poses = own.box_poses(surface)
         if poses:
-            found.append(Copy(other.name, place.best(surface, poses)))
+            copies.append(Copy(other.name, place.best(surface, poses)))
     if regions:
         for faces in _regions_like(asset, part, joint.parent):
             surface = _Surface(triangles[faces])
             poses = own.poses(surface) if _beside(joint, own, surface) else []
             if poses:
-                found.append(Copy(joint.parent, place.best(surface, poses), faces))
-    return tuple(found)
+                copies.append(Copy(joint.parent, place.best(surface, poses), faces))
+    return tuple(copies)
 
 
 class _Place:
@@ -151,7 +151,7 @@ class _Place:
 
     def __init__(self, own: _Surface, joint: Joint, rest: np.ndarray, whole: np.ndarray) -> None:
         self._own, self._joint, self._tree = own, joint, TriangleTree(whole)
-        reach = SURROUNDINGS * own.diagonal
+        reach = PLACE_REACH * own.diagonal
         points = sample_surface(rest, 20 * SAMPLES, 0, at_least=1).points
         around = ((points > own.low - reach) & (points < own.high + reach)).all(1)
         self._around = points[around][:: max(1, int(around.sum()) // SAMPLES)]
@@ -165,7 +165,7 @@ class _Place:
     def _misfit(self, T: np.ndarray) -> float:
         if not len(self._around):
             return 0.0
-        reach = SURROUNDINGS * self._own.diagonal
+        reach = PLACE_REACH * self._own.diagonal
         return float(np.minimum(self._tree.distance(_moved(T, self._around)), reach).mean()) / max(self._own.diagonal, 1e-300)
 
     def _leaves(self, other: _Surface, T: np.ndarray) -> bool:
@@ -204,9 +204,9 @@ def _regions_like(asset: Asset, part: str, parent: str) -> Iterator[Int[np.ndarr
         groups = [(T, np.unique(np.concatenate([faces, *_carried(asset, whole, theirs, T)]))) for T in anchor.poses(region)]
         fit = [g for T, g in groups if whole.misfit(_Surface(asset.mesh.triangles[g]), T) < MAX_MISFIT]
         if fit:
-            found = max(fit, key=lambda g: float(area[g].sum()))
-            taken = np.concatenate([taken, found])
-            yield found
+            group = max(fit, key=lambda g: float(area[g].sum()))
+            taken = np.concatenate([taken, group])
+            yield group
 
 
 def _carried(asset: Asset, whole: _Surface, theirs: Sequence[np.ndarray], T: np.ndarray) -> Iterator[np.ndarray]:
