@@ -1,7 +1,7 @@
 """Copies of a part, and corrections that give them what the part has.
 
-A copy is a part with the shape of another, in another place, turned, or as its mirror image, or with an equal box; or a region of
-the parent with this shape.
+A copy has the shape of the part in another place, turned, or as its mirror image; a part may also have an equal box only, and a
+region of the parent is made a part.
 """
 
 from __future__ import annotations
