@@ -1,7 +1,10 @@
-"""Draw the pictures of two pages for one of the examples.
+"""Draw the pictures of README and docs from today's results for the examples.
 
-python docs/pictures.py method FOLDER [NAME] [--part PART]     method.md: patches, candidates, motions and joints
-python docs/pictures.py questions FOLDER [NAME] [--all]        vlm.md: a picture per question, and questions.txt
+python docs/pictures.py all                                    all of them, into docs/images (about six minutes on two cores)
+python docs/pictures.py method FOLDER [NAME] [--part PART]     those of method.md: patches, candidates, motions and joints
+python docs/pictures.py questions FOLDER [NAME] [--all]        a picture per question (as in vlm.md), and questions.txt
+
+Not drawn here: those of reports, which `benchmarks/` writes (noise, worst joints and parts), and those of the applications.
 """
 
 from __future__ import annotations
@@ -31,9 +34,13 @@ from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
 from anymesh.segmentation.part_classifier import score_parts, shipped_classifier
 from anymesh.segmentation.segment import assign_parts, examine_candidates
-from anymesh.types import JointType, Mesh, Picture
+from anymesh.types import Exchange, JointType, Mesh, Picture
+from anymesh.viewer.pictures_ import write_picture
 
 EXAMPLES = Path(__file__).parents[1] / "examples"
+IMAGES = Path(__file__).parent / "images"
+SHELF = ("cabinet", "fridge", "laptop", "microwave", "storage_box", "stove", "toy_car", "valve")  # on the first page
+PREVIEWS = {"microwave.png": "microwave", "tutorials/cabinet.png": "cabinet", "tutorials/box.png": "storage_box"}
 MOST = 9  # candidates that are drawn
 MOTIONS = 7  # motions that are drawn
 
@@ -82,9 +89,9 @@ def draw_method(folder: Path, name: str, part: int) -> None:
     score, _ = score_parts(tree, place, rows)
     chosen = assign_parts(tree.overlap, shipped_classifier().probability(score))
     found = solver.parts().segmentation
-    _, _, context, motions = sorted(part_motions(solver.geometry.whole, found), key=lambda m: m[0])[part - 1]
-    scores = motion_scores(motions)
-    ranked = [(float(scores[k]), motions.candidates[k]) for k in np.argsort(-scores, kind="stable")]
+    _, _, context, swept = sorted(part_motions(solver.geometry.whole, found), key=lambda m: m[0])[part - 1]
+    scores = motion_scores(swept)
+    ranked = [(float(scores[k]), swept.candidates[k]) for k in np.argsort(-scores, kind="stable")]
     drawn = {
         "patches": patches(studio, mesh, tree),
         "candidates": candidates(studio, tree, score, chosen),
@@ -97,32 +104,81 @@ def draw_method(folder: Path, name: str, part: int) -> None:
         shutil.copyfile(Path(out) / "asset" / "preview.png", folder / "joints.png")
 
 
-def draw_questions(folder: Path, name: str, every: bool) -> None:
-    """Draw what a model is shown for an example. every: all pictures of each question, not the first."""
+def asked(name: str) -> list[Exchange]:
+    """Return what a model is asked about an example, with the answers of one that sees the ground truth."""
     truth = next(t for t in example_truths(EXAMPLES) if t.name == name)
     mesh = place_mesh(load_mesh(truth.mesh)).mesh
     solver = Solver(mesh, answerer_factory=lambda fallback: SimulatedVlm(oracle(prepared(truth)), fallback))
     recognized = solver.answers.recognize()
     segmented = solver.parts("auto", recognized.recognition)
     jointed = solver.joints(segmented.segmentation, recognized.recognition)
+    return [*recognized.exchanges, *segmented.exchanges, *jointed.exchanges]
+
+
+def draw_questions(folder: Path, name: str, every: bool) -> None:
+    """Draw what a model is shown for an example. every: all pictures of each question, not the first."""
     questions = []
-    for exchange in (*recognized.exchanges, *segmented.exchanges, *jointed.exchanges):
+    for exchange in asked(name):
         questions.append(f"{exchange.kind} ({len(exchange.pictures)} pictures)\n{exchange.text}\n-> {exchange.answer}\n")
         for k, picture in enumerate(exchange.pictures if every else exchange.pictures[:1], start=1):
             (folder / f"{name}_{exchange.kind}{f'_{k}' if every else ''}.png").write_bytes(picture.png)
     (folder / "questions.txt").write_text("\n".join(questions), encoding="utf-8")
 
 
+def draw_vlm(folder: Path) -> None:
+    """Draw the pictures of vlm.md."""
+    first: dict[str, Exchange] = {}
+    for name in ("microwave", "sliding_window"):  # the second has a part that slides along arrows
+        for exchange in asked(name):
+            first.setdefault(exchange.kind, exchange)
+    for page, kind, k in (
+        ("view", "recognize", 0),
+        ("marks", "marks", 0),
+        ("inside", "marks", -2),
+        ("kinds", "kinds", 0),
+        ("points", "points", 0),
+        ("arrows", "arrows", 0),
+        ("motions", "motions", 0),
+    ):
+        (folder / f"{page}.png").write_bytes(first[kind].pictures[k].png)
+
+
+def draw_tutorials(images: Path) -> None:
+    """Draw the film of the first page, the previews, the contact sheet, and the questions of the tutorial with a model."""
+    (images / "tutorials").mkdir(exist_ok=True)
+    with tempfile.TemporaryDirectory() as temporary:
+        work = Path(temporary)
+        for path in sorted((EXAMPLES / "meshes").glob("*.glb")):
+            articulate(path, work / "all" / path.stem)
+        for name in SHELF:
+            shutil.copytree(work / "all" / name, work / "shelf" / name)
+        write_picture(work / "shelf", images / "shelf.gif")
+        write_picture(work / "all", images / "tutorials" / "sheet.png", columns=7)
+        for picture, name in PREVIEWS.items():
+            shutil.copyfile(work / "all" / name / "preview.png", images / picture)
+    for exchange in asked("laptop"):
+        if exchange.kind in ("marks", "points", "motions"):
+            (images / "tutorials" / f"{exchange.kind}.png").write_bytes(question_sheet(list(exchange.pictures)).png)
+
+
+def draw_all(images: Path) -> None:
+    draw_tutorials(images)
+    draw_method(images / "method", "cabinet", 1)
+    draw_vlm(images / "vlm")
+
+
 def main() -> None:
-    parser = argparse.ArgumentParser(description="Draw the pictures of two pages for one of the examples.")
-    parser.add_argument("what", choices=("method", "questions"))
-    parser.add_argument("folder", type=Path, help="where the pictures go")
+    parser = argparse.ArgumentParser(description="Draw the pictures of README and docs from today's results for the examples.")
+    parser.add_argument("what", choices=("all", "method", "questions"))
+    parser.add_argument("folder", type=Path, nargs="?", default=IMAGES, help="where the pictures go (default: docs/images)")
     parser.add_argument("name", nargs="?", help="an example; by default cabinet for method, microwave for questions")
     parser.add_argument("--part", type=int, default=1, help="for method: whose motions are drawn")
     parser.add_argument("--all", action="store_true", help="for questions: all pictures of each, not the first")
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
-    if options.what == "method":
+    if options.what == "all":
+        draw_all(options.folder)
+    elif options.what == "method":
         draw_method(options.folder, options.name or "cabinet", options.part)
     else:
         draw_questions(options.folder, options.name or "microwave", options.all)
