@@ -29,10 +29,19 @@ def show(tab: Tab, serving) -> None:
     tab.open(serving.url)
     tab.page.wait_for_selector("canvas")
     tab.page.get_by_text("parts,").first.wait_for()
+    colored(serving)
     settle(tab)
     close = tab.page.locator(".mantine-Notification-closeButton")
     if close.count():
         close.first.click()
+
+
+def colored(serving) -> None:
+    """Show a colour per part, which tests tell apart, instead of the materials."""
+    page = serving.page
+    if page.session is not None and page.view.textured:
+        page.play._textures.value = page.view.textured = False
+        page.act(page.refresh)
 
 
 def settle(tab: Tab, seconds: float = 40) -> np.ndarray:

@@ -17,7 +17,7 @@ from anymesh.errors import OptionError
 from anymesh.prompted.answerers.question_files import QuestionStore
 from anymesh.prompted.models.vision import Request
 from anymesh.prompted.questions.saved_question import pack_question
-from anymesh.viewer import bench_
+from anymesh.viewer.intake import bench_
 from anymesh.viewer.server_ import serve
 
 pytest.importorskip("viser", reason="needs the extra view")

@@ -9,8 +9,8 @@ import pytest
 from anymesh.errors import InputError
 from anymesh.formats import zipped as archives
 from anymesh.loading import load_mesh
-from anymesh.viewer import uploads
-from anymesh.viewer.uploads import plain_name, receive
+from anymesh.viewer.intake import uploads
+from anymesh.viewer.intake.uploads import plain_name, receive
 
 OBJ = b"mtllib box.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl red\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n"
 MTL = b"newmtl red\nKd 1 0 0\n"

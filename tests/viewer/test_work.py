@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from anymesh.viewer.work import ArticulationWork
+from anymesh.viewer.intake.work import ArticulationWork
 
 MESHES = Path(__file__).parents[2] / "examples" / "meshes"
 

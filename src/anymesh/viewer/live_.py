@@ -14,8 +14,9 @@ from anymesh.correcting import Correction
 from anymesh.errors import AnymeshError
 from anymesh.formats.packed import zip_bytes
 from anymesh.types import Asset, Joint, JointType
-from anymesh.viewer.bench_ import Workbench, WorkbenchFolders
 from anymesh.viewer.correct_ import CorrectionTools, CorrectPanel
+from anymesh.viewer.intake.bench_ import Workbench, WorkbenchFolders
+from anymesh.viewer.looks import has_looks
 from anymesh.viewer.panels import Page, head, joint_table, scale_of
 from anymesh.viewer.review_ import ReviewPanel
 from anymesh.viewer.scene import swayed
@@ -35,6 +36,7 @@ class PlayPanel:
         self._page, gui = page, page.gui
         self._made: list[tuple[Any, ...]] | None = None
         self._sliders: dict[str, Any] = {}
+        self._chosen = False  # whether a person has chosen between materials and colours of parts
         with tab:
             self._all = gui.add_checkbox("Play all", False, hint="Space")
             self._all.on_update(_by_hand(lambda: page.act(lambda: page.play_joint("" if self._all.value else None))))
@@ -43,7 +45,9 @@ class PlayPanel:
             self._joints = gui.add_folder("Joints")
             with gui.add_folder("Shown"):
                 self._explode = gui.add_slider("Exploded", 0.0, 1.0, 0.01, 0.0)
-                self._textures = gui.add_checkbox("Textures", False)
+                self._textures = gui.add_checkbox(
+                    "Textures", False, hint="The object's own materials, instead of a colour per part"
+                )
                 self._axes = gui.add_checkbox("Axes and limits", True)
                 self._collision = gui.add_checkbox("Collision shapes", False)
                 self._inertia = gui.add_checkbox("Inertia", False, hint="Boxes of even density with the mass and moments")
@@ -64,6 +68,11 @@ class PlayPanel:
             with self._joints:
                 self._sliders = {j.name: self._slider(session, j) for j in asset.joints if j.type is not JointType.FIXED}
         self._why.content = joint_table(asset)
+
+    def choose_looks(self, asset: Asset) -> None:
+        """Show an object with its materials if they tell more than one colour, until a person has chosen."""
+        if not self._chosen:
+            self._textures.value = self._page.view.textured = has_looks(asset.mesh)
 
     def tell_playing(self, playing: bool) -> None:
         """Update the checkbox after all joints were started or stopped elsewhere (by a key)."""
@@ -102,6 +111,7 @@ class PlayPanel:
 
     def _set_shown(self) -> None:
         view = self._page.view
+        self._chosen = self._chosen or view.textured != self._textures.value
         view.textured, view.axes = self._textures.value, self._axes.value
         view.collision, view.inertia = self._collision.value, self._inertia.value
         self._page.refresh()
@@ -160,6 +170,7 @@ class LivePage:
             self.session = Session(folder, self._author, self._clock)
             self.playing = None
             self.view.look_at(self.session.asset.mesh)
+            self.play.choose_looks(self.session.asset)
             self.refresh()
             self._show_controls()
 
@@ -280,6 +291,7 @@ class LivePage:
     def _run(self) -> None:
         while not self._ended.wait(TICK):
             with self._lock:
+                self.view.follow_shadow()
                 session = self.session
                 if session is None or self.playing is None:
                     continue

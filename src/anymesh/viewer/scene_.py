@@ -16,7 +16,7 @@ from anymesh.export.options import ExportOptions
 from anymesh.rendering.viewpoints import away
 from anymesh.runtime import cache_folder
 from anymesh.types import Asset, JointType, Mesh, Segmentation
-from anymesh.viewer.report_asset import display_glb, displayed
+from anymesh.viewer.looks import Ground, mesh_glb
 from anymesh.viewer.scene import DisplayMesh, Surfaces, box_lines, color_of, inertia_box, joint_lines, shade_of, shape_surface
 from anymesh.viewer.session import part_poses
 
@@ -27,7 +27,6 @@ SEE_THROUGH = 0.35  # opacity of overlays
 FROM_Y_UP = (0.5**0.5, 0.5**0.5, 0.0, 0.0)  # wxyz; a GLB has Y up
 DISTANCE, FOV = 2.3, np.deg2rad(35)  # of the first view: distance in diagonals; vertical field of view
 LIFT = 1e-3  # offset of chosen faces from the surface, as a share of the diagonal
-PIXELS = 2048  # longest side of a texture
 
 
 class SceneView:
@@ -46,6 +45,7 @@ class SceneView:
         self._made = count()  # part of every name: a tab reuses the pose of a removed node for a new one with the same name
         self._built: tuple[Asset, Model] | None = None
         self._marks: list[Any] = []
+        self._ground = Ground(self._scene)
         self.textured, self.axes, self.collision, self.inertia = False, True, False, False
         self._scene.set_up_direction("+z")
         self._scene.configure_default_lights(cast_shadow=False)
@@ -56,7 +56,8 @@ class SceneView:
         return "" if self._asset is None else self._surfaces.note(self._asset)
 
     def look_at(self, mesh: Mesh) -> None:
-        """Set the initial view, for open and future tabs."""
+        """Set the initial view, for open and future tabs, and put the ground below the mesh."""
+        self._ground.lay(mesh)
         self.look_from(mesh, away(np.deg2rad(35), np.deg2rad(24)), mesh.diagonal)
 
     def look_from(self, mesh: Mesh, direction: Float[np.ndarray, " 3"], size: float) -> None:
@@ -75,6 +76,7 @@ class SceneView:
             self._draw_parts(asset)
             self._drawn = (asset.segmentation, self.textured)
         self._asset = asset
+        self._ground.lay(asset.mesh, asset.segmentation.face_part)
         self._draw_axes(asset)
         self._draw_overlays(asset)
 
@@ -84,6 +86,7 @@ class SceneView:
             _remove(handles)
         self._frames, self._meshes, self._looks, self._axes = {}, {}, [], []
         self._asset = self._drawn = self._built = None
+        self._ground.clear()
 
     def _draw_parts(self, asset: Asset) -> None:
         _remove([*self._frames.values()])
@@ -93,7 +96,8 @@ class SceneView:
         for number, part in enumerate(asset.segmentation.parts):
             self._frames[part.name] = frame = self._frame()
             if textured:
-                look = self._scene.add_glb(f"{frame.name}/look", _glb(asset, number), wxyz=FROM_Y_UP, cast_shadow=False)
+                glb = mesh_glb(asset.mesh.subset(asset.segmentation.faces(number)), part.name)
+                look = self._scene.add_glb(f"{frame.name}/look", glb, wxyz=FROM_Y_UP, cast_shadow=False)
                 self._looks.append(look)
                 continue
             self._meshes[part.name] = mesh = self._mesh(f"{frame.name}/look", surfaces[part.name], color_of(number), None)
@@ -140,6 +144,11 @@ class SceneView:
         with self._server.atomic():
             for name, frame in (*self._frames.items(), *self._axes):
                 frame.wxyz, frame.position = quaternion(poses[name][:3, :3]), poses[name][:3, 3]
+        self._ground.cast({k: poses[p.name] for k, p in enumerate(self._asset.segmentation.parts)})
+
+    def follow_shadow(self) -> None:
+        """Draw the shadow of the last pose on the ground."""
+        self._ground.follow()
 
     def mark(self, selected: str | None, chosen: np.ndarray) -> None:
         """Highlight the selected part and the chosen faces."""
@@ -193,14 +202,6 @@ def ray_through(camera: Any, x: Float[np.ndarray, " n"], y: Float[np.ndarray, " 
 
 def _model(asset: Asset) -> Model:
     return build_model(asset, ExportOptions(), config=ExportConfig(), cache=cache_folder("shapes"))
-
-
-def _glb(asset: Asset, number: int) -> bytes:
-    """Return the GLB of one part with its materials."""
-    faces = asset.segmentation.faces(number)
-    part = asset.segmentation.parts[number]
-    alone = Asset("part", asset.source, asset.mesh.subset(faces), Segmentation(np.zeros(len(faces), int), (part,)), (), "")
-    return display_glb(displayed(alone, faces=len(faces), pixels=PIXELS)[0])
 
 
 def _vertex_normals(mesh: Mesh) -> np.ndarray:

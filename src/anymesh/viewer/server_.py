@@ -23,7 +23,7 @@ from anymesh import pipeline
 from anymesh.errors import MissingExtraError, OptionError, pip_install
 from anymesh.pipeline.atomic_folder import CORRECTIONS, written_files
 from anymesh.runtime import Progress, silent
-from anymesh.viewer.bench_ import WorkbenchFolders
+from anymesh.viewer.intake.bench_ import WorkbenchFolders
 from anymesh.viewer.live_ import LivePage
 from anymesh.viewer.session import Clock
 

@@ -68,7 +68,7 @@ class ArticulationWork:
     def _run(self, arguments: dict[str, Any]) -> None:
         with self._pool:
             try:
-                self._pool.run("anymesh.viewer.work", "articulated", arguments, on_message=self._note)
+                self._pool.run("anymesh.viewer.intake.work", "articulated", arguments, on_message=self._note)
                 self.share, self.done = 1.0, True
             except ChildError as error:
                 if not self.cancelled:

@@ -16,10 +16,10 @@ from anymesh.correcting import CorrectionError
 from anymesh.errors import AnymeshError
 from anymesh.pipeline.answering import object_name
 from anymesh.pipeline.options import FILES
+from anymesh.viewer.intake.uploads import drop_zone, plain_name, receive
+from anymesh.viewer.intake.work import ArticulationWork
 from anymesh.viewer.panels import SMALL, Page
 from anymesh.viewer.questions.desk_ import AskDesk
-from anymesh.viewer.uploads import drop_zone, plain_name, receive
-from anymesh.viewer.work import ArticulationWork
 
 log = logging.getLogger("anymesh")
 TICK, LOOK = 0.05, 0.25  # [s] between poses, and between checks of the work
