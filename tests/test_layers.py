@@ -23,6 +23,7 @@ CORE = [
     {"cli"},
 ]
 TOOLS = [
+    {"kinds"},
     {"stated", "mechanisms"},
     {"formats", "openusd"},
     {"prompted"},

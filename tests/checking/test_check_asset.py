@@ -66,7 +66,7 @@ def test_a_good_asset_is_in_order(tmp_path):
     assert report.ok
     assert {f.severity for f in report.findings} == {Severity.OK}, "\n".join(report.lines())
     checks = {f.check for f in report.findings}
-    assert checks == {*"schema naming meshes scale joints inertia collision texture direction motion".split()}
+    assert checks == {*"schema naming meshes scale joints inertia usual collision texture direction motion".split()}
     assert [s.engine.split()[0] for s in report.sweeps] == ["mujoco"]
 
 

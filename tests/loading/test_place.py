@@ -5,11 +5,13 @@ import pytest
 from assets import CUBE_FACES, box, mesh_of
 
 from anymesh.errors import OptionError
+from anymesh.kinds.usual import KINDS, usual_size
 from anymesh.loading import LoadedMesh, load, load_mesh, place_mesh
-from anymesh.loading.load import BELIEVED_FACTOR, LONGEST, usual_size
+from anymesh.loading.load import BELIEVED_FACTOR
 from anymesh.loading.upright import up_of
 from anymesh.types import Mesh
 
+USUAL = {"_".join(words): kind.usual for words, kind in KINDS.items() if kind.usual is not None}
 LOW, HIGH = np.array([1.0, 2, 3]), np.array([1.4, 2.5, 3.9])  # 0.4 x 0.5 x 0.9
 SIDES = dict(zip("xyz", HIGH - LOW, strict=True))
 ACROSS = {"x": "yz", "y": "xz", "z": "xy"}  # the file's axes that become the asset's x and y
@@ -200,30 +202,25 @@ def test_the_kind_is_the_last_word_that_is_known(words, kind):
 
 @pytest.mark.parametrize(("factor", "told"), [(1.0, "metres"), (1000.0, "millimetres"), (100.0, "centimetres")])
 def test_a_file_without_a_unit_gets_the_one_that_suits_its_name(factor, told):
-    found = placed(0.9 * LONGEST["microwave"] * factor, path="microwave.obj")
-    assert found.mesh.extents.max() == pytest.approx(0.9 * LONGEST["microwave"])
+    found = placed(0.9 * USUAL["microwave"] * factor, path="microwave.obj")
+    assert found.mesh.extents.max() == pytest.approx(0.9 * USUAL["microwave"])
     assert told in found.notes[1]
     assert found.warnings == ()
 
 
 def test_where_no_unit_suits_it_gets_the_usual_size_and_says_so():
     found = placed(7.3e6, path="microwave.obj")
-    assert found.mesh.extents.max() == pytest.approx(LONGEST["microwave"])
+    assert found.mesh.extents.max() == pytest.approx(USUAL["microwave"])
     assert "size prior: a microwave is about 0.5 m" in found.notes[1]
     assert "7.3e+06 m long" in found.warnings[0]
 
 
 def test_a_unit_in_the_file_counts_for_more_than_its_name_and_less_than_the_category():
-    huge = 2 * BELIEVED_FACTOR * LONGEST["microwave"]
+    huge = 2 * BELIEVED_FACTOR * USUAL["microwave"]
     assert placed(huge, path="microwave.glb", unit=1.0).mesh.extents.max() == pytest.approx(huge)
     told = placed(huge, path="thing.glb", unit=1.0, category="microwave oven")
-    assert told.mesh.extents.max() == pytest.approx(LONGEST["microwave_oven"])
+    assert told.mesh.extents.max() == pytest.approx(USUAL["microwave_oven"])
     assert "the file's unit would make the microwave oven 3 m long" in told.warnings[0]
     right = placed(0.45, path="thing.glb", unit=1.0, category="microwave")
     assert right.mesh.extents.max() == pytest.approx(0.45)
     assert right.warnings == ()
-
-
-def test_the_table_is_in_metres_and_in_lower_case():
-    assert all(word == word.lower() and 0.05 <= size <= 12 for word, size in LONGEST.items())
-    assert np.median(list(LONGEST.values())) < 1

@@ -14,7 +14,7 @@ from pxr import Usd, UsdGeom, UsdPhysics, UsdShade, UsdUtils, UsdValidation
 from anymesh.errors import OptionError
 from anymesh.export.formats import write_formats
 from anymesh.export.options import ExportOptions, Format
-from anymesh.openusd.simready_ import grasp_line, kind_of, simready_file, write_simready
+from anymesh.openusd.simready_ import grasp_line, kind_and_item, simready_file, write_simready
 from anymesh.openusd.writer_ import write_usd, write_usdz
 from anymesh.physics.resistance import Pull
 
@@ -139,7 +139,7 @@ def test_metadata_is_derived_from_the_asset(package, monkeypatch, tmp_path):
     ],
 )
 def test_kinds_have_items_of_wikidata(name, kind):
-    assert kind_of(replace(cabinet(), name=name)) == kind
+    assert kind_and_item(replace(cabinet(), name=name)) == kind
 
 
 def test_many_references_share_what_is_drawn(package):

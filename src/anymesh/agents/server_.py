@@ -93,6 +93,10 @@ def _making(work: ToolRunner) -> tuple[Callable[..., Any], ...]:
             ),
         ] = "auto",
         scale: Annotated[str, Field(description="auto, a factor to metres, or METRES:AXIS such as 0.9:z.")] = "auto",
+        mass: Annotated[float | None, Field(description="Mass of the whole object in kg; by its materials if none.")] = None,
+        at_least: Annotated[
+            int, Field(description="With geometry: least number of parts, however weak the evidence; 1 if it is known to move.")
+        ] = 0,
         formats: Formats | None = None,
         force: Annotated[bool, Field(description="Replace an existing output.")] = False,
         time_limit: Annotated[float, Field(description="Seconds.", gt=0)] = 600.0,
@@ -100,7 +104,7 @@ def _making(work: ToolRunner) -> tuple[Callable[..., Any], ...]:
         """Turn a rigid mesh into an articulated asset. Stops at each open question: answer it, then call again as before."""
         return await work.run(
             ctx, work.tools.articulate, mesh, out, answerer=answerer, parts=parts, category=category, up=up, scale=scale,
-            formats=formats, force=force, time_limit=time_limit, long=True,
+            mass=mass, at_least=at_least, formats=formats, force=force, time_limit=time_limit, long=True,
         )  # fmt: skip
 
     async def answer(

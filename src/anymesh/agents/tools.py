@@ -83,6 +83,8 @@ class AgentTools:
         category: str | None = None,
         up: str = "auto",
         scale: str = "auto",
+        mass: float | None = None,
+        at_least: int = 0,
         formats: str | None = None,
         force: bool = False,
         time_limit: float = DEFAULT_SECONDS,
@@ -98,8 +100,8 @@ class AgentTools:
         who = f"{FILES}{questions}" if answerer == ANSWERERS[0] else answerer
         try:
             asset = pipeline.articulate(
-                source, target, answerer=who, parts=parts, category=category, up=up, scale=scale, formats=formats, force=force,
-                time_limit=time_limit, progress=progress,
+                source, target, answerer=who, parts=parts, category=category, up=up, scale=scale, mass=mass,
+                at_least=at_least, formats=formats, force=force, time_limit=time_limit, progress=progress,
             )  # fmt: skip
         except OpenQuestionError as error:
             (path,) = error.folders

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from hashlib import blake2b
+from typing import Any
 
 import numpy as np
 from jaxtyping import Bool, Float
@@ -16,12 +17,13 @@ from anymesh.checking.report import Finding, failure, warning
 from anymesh.geometry.distance_ import distance_to_triangles, winding_number
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.surface import plain_triangles
+from anymesh.kinds.usual import doubts, kind_of
 from anymesh.physics.convex import hull_of
 from anymesh.physics.decompose import split_components
 from anymesh.physics.openings import openings_of
 from anymesh.types.triangles import unshared
 
-INERTIA = "inertia"
+INERTIA, USUAL = "inertia", "usual"
 REL_TOLERANCE = 1e-6  # relative, for rounded numbers
 LIKE = 0.05  # relative; boxes that differ by less have the same size
 GROWN = 0.1  # share of its diagonal; maximum distance of the centre of mass from the link's box
@@ -78,6 +80,23 @@ def check_inertia(content: Content) -> Iterator[Finding]:
             body = groups[link.name] if link.name in moved else frozenset[str]()
             yield from _fitting(content, link, inertial, body)
     yield from _placeholder(content, given)
+
+
+def check_usual(content: Content, record: Mapping[str, Any]) -> Iterator[Finding]:
+    """Check that size and total mass are plausible for the kind of object that its category or name tells.
+
+    record: asset.json of our own output, else empty; links of others have no label, and a mass that was given is not doubted.
+    """
+    robot, given = content.robot, record.get("given_mass") is not None
+    points = content.at_rest(frozenset(link.name for link in robot.links)).reshape(-1, 3)
+    if not len(points) or not np.isfinite(points).all():
+        return
+    labels = {part["name"]: part["label"] for part in record.get("parts", ())}
+    known = all(link.inertial is not None for link in robot.links if link.visuals or link.collisions)
+    masses = [(labels.get(b.name, ""), b.inertial.mass) for b in robot.links if b.inertial is not None] if known else []
+    kind = kind_of(record.get("category"), record.get("name", robot.name))
+    for text in doubts(kind, np.ptp(points, axis=0), masses, given=given):
+        yield warning(USUAL, "", text)
 
 
 def _possible(link: str, inertial: Inertial) -> Iterator[Finding]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
-from anymesh.checking.bodies import check_collision, check_inertia, still
+from anymesh.checking.bodies import check_collision, check_inertia, check_usual, still
 from anymesh.checking.content import Content, read_content
 from anymesh.checking.engines import check_engine
 from anymesh.checking.engines.driving import SweepReport
@@ -18,6 +18,7 @@ from anymesh.checking.report import CheckReport, Finding, Severity, failure
 from anymesh.checking.schema_ import NAME, SCHEMA, check_asset_json, check_files, check_naming, check_tree
 from anymesh.checking.shapes import check_meshes, check_scale, check_texture
 from anymesh.errors import InputError, MissingExtraError
+from anymesh.runtime import read_json
 
 
 def check_asset(path: str | Path, *, engines: Sequence[str] = ("mujoco",)) -> CheckReport:
@@ -66,6 +67,8 @@ def _still(content: Content) -> Iterator[Finding]:
     yield from _or_ok("scale", [*check_scale(content)], f"the diagonal is {content.diagonal:.3g} m")
     yield from _or_ok("joints", joints, f"{len(robot.moving)} joints move, with axes, limits, effort and velocity")
     yield from _or_ok("inertia", [*check_inertia(content)], _masses(robot))
+    record = read_json(beside) if ours and not any(f.severity is Severity.FAILURE for f in schema) else None
+    yield from _or_ok("usual", [*check_usual(content, record or {})], "size and mass are plausible for what it is")
     rest = _rest(robot)
     collision = [*check_collision(content, rest, ours=ours)]
     fine = "moving links have collision shapes, cavities and round openings are open"

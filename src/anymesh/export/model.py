@@ -9,11 +9,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.entry_points import CHOOSE_MECHANISMS, RESISTANCES, resolve
+from anymesh.entry_points import CHOOSE_MECHANISMS, DOUBTS, KIND_OF, RESISTANCES, resolve
 from anymesh.export.flat_looks import losses, tiled, tinted, with_materials
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.options import Driven, ExportOptions, Shapes, Visuals
@@ -23,15 +24,18 @@ from anymesh.physics.convex import as_hull, planes
 from anymesh.physics.inertia import Inertia, InertiaConfig, MadeOf, link_inertia
 from anymesh.physics.mechanism import Mechanism
 from anymesh.physics.resistance import Resistance, crossing
-from anymesh.physics.substances import Substance, substance_of, usual_substance
+from anymesh.physics.substances import SUBSTANCES, Substance, substance_of, usual_substance
 from anymesh.runtime import Deadline
 from anymesh.types import Asset, Hull, Joint, Mesh, Shape
 from anymesh.types.triangles import normals_and_areas
+from anymesh.vocabulary import recognize
 
 FOLDER = "meshes"
 VOTERS = 5000  # maximum number of triangles that decide on the substances of shapes
 OVERLAP = "their surfaces overlap at rest"
 TIGHT = "their collision shapes touch where the surfaces do not, or while one moves"
+CLOSED_TO = SUBSTANCES["wood"].solid_to  # [m] mean thickness above which bodies of closed furniture and appliances are hollow
+CASE, FRONTS = SUBSTANCES["chipboard"], ("door", "drawer")  # of an unknown object with such parts, which is furniture
 WITHIN = 0.02  # of a joint's range: maximum steady-state error of a drive under its load
 
 
@@ -169,28 +173,69 @@ def build_model(
     collision = collision_shapes(asset, triangles, origins, shapes, cache, deadline=deadline)
     warnings = (*asset.warnings, *collision.warnings, *losses(asset.mesh, asset.segmentation.face_part))
     asset = replace(asset, warnings=tuple(dict.fromkeys(warnings)))
-    bodies = []
+    bodies, usual = [], _Usual.of(asset)
     for link in links:
         shapes, (surface, kept) = collision.shapes[link.name], plain[link.name]
         shapes = tuple(map(as_hull, shapes)) if how.shapes is Shapes.HULLS else shapes
-        shares, made_of = _shares(asset, link)
+        shares, made_of = _shares(asset, link, usual)
         inertia = link_inertia(surface, config, [made_of[k] for k in kept])
         surfaces = _surfaces(link.triangles, made_of, shapes, shares[0].substance)
         bodies.append(ExportLink(link, inertia, shapes, collision.openings.get(link.name), shares, surfaces))
+    bodies = bodies if how.mass is None else _weighing(bodies, how.mass, config)
+    doubts = usual.doubts(asset, bodies, given=how.mass is not None)
+    asset = replace(asset, warnings=tuple(dict.fromkeys((*asset.warnings, *doubts))))
     excluded = [Exclusion(a, b, OVERLAP) for a, b in collision.overlapping]
     excluded += [Exclusion(a, b, TIGHT) for a, b in collision.tight]
     inertias = {body.name: body.inertia for body in bodies}
-    usual = resolve(RESISTANCES)(asset, inertias, how.resistance)
-    chosen, resisting = resolve(CHOOSE_MECHANISMS)(asset, inertias, usual, how.mechanisms)
+    resistances = resolve(RESISTANCES)(asset, inertias, how.resistance)
+    chosen, resisting = resolve(CHOOSE_MECHANISMS)(asset, inertias, resistances, how.mechanisms)
     return Model(asset, tuple(bodies), resisting, how, tuple(excluded), chosen)
 
 
-def _shares(asset: Asset, link: Link) -> tuple[tuple[SubstanceShare, ...], MadeOf]:
+def _weighing(bodies: Sequence[ExportLink], mass: float, config: InertiaConfig) -> list[ExportLink]:
+    """Return the links with a mass [kg] of them all, in proportion."""
+    factor = mass / sum(body.inertia.mass for body in bodies)
+    return [replace(body, inertia=body.inertia.scaled(factor, config)) for body in bodies]
+
+
+@dataclass(frozen=True)
+class _Usual:
+    """What is usual for an object. kind: as in the table of kinds, None if unknown; closed: its solid bodies are hollow."""
+
+    kind: Any
+    closed: bool
+    substance: Substance | None
+
+    @classmethod
+    def of(cls, asset: Asset) -> _Usual:
+        kind = resolve(KIND_OF)(asset.category, asset.name)
+        if kind is not None:
+            return cls(kind, kind.closed, SUBSTANCES.get(kind.substance))
+        words = (recognize(part.label) for part in asset.segmentation.parts)
+        closed = any(word is not None and word.label in FRONTS for word in words)
+        return cls(None, closed, CASE if closed else None)
+
+    def walled(self, substance: Substance | None) -> Substance | None:
+        """Return a substance as the object's bodies have it: hollow if they are thick, with the walls of the kind."""
+        if substance is None or not self.closed:
+            return substance
+        walled = self.kind is not None and self.kind.wall and self.substance and substance.density == self.substance.density
+        sheet = self.kind.wall if walled else substance.sheet
+        return replace(substance, solid_to=min(substance.solid_to, CLOSED_TO), sheet=sheet)
+
+    def doubts(self, asset: Asset, bodies: Sequence[ExportLink], *, given: bool) -> tuple[str, ...]:
+        """Return warnings about an implausible size or mass."""
+        labels = [body.link.part.label or body.name for body in bodies]
+        masses = [(label, body.inertia.mass) for label, body in zip(labels, bodies, strict=True)]
+        return resolve(DOUBTS)(self.kind, asset.mesh.extents, masses, given=given)
+
+
+def _shares(asset: Asset, link: Link, of_object: _Usual) -> tuple[tuple[SubstanceShare, ...], MadeOf]:
     """Return what a link is made of, the most first, and the substance of each of its triangles."""
-    usual = usual_substance(f"{link.name} {link.part.label}", asset.name)
+    usual = of_object.walled(usual_substance(f"{link.name} {link.part.label}") or of_object.substance)
     areas, made_of = dict[tuple[Substance | None, str], float](), list[Substance | None]()
     for p in link.primitives:
-        named = substance_of(asset.mesh.materials[p.material].name)
+        named = of_object.walled(substance_of(asset.mesh.materials[p.material].name))
         answer = (named, "material") if named else (usual, "kind" if usual else "default")
         areas[answer] = areas.get(answer, 0.0) + float(normals_and_areas(p.positions[p.triangles])[1].sum())
         made_of += [answer[0]] * len(p.triangles)

@@ -59,6 +59,7 @@ class Profile(StrEnum):
 
 
 DEFAULT = (Format.URDF, Format.MJCF, Format.SDF, Format.GLB)
+MASSES, GIVEN_MASS = (1e-3, 1e6), "given_mass"  # [kg] of an object; its name in asset.json, where mass is that of the parts
 CHOICES: Mapping[str, type[StrEnum]] = {  # options whose values are words
     "base": Base, "drives": Driven, "visuals": Visuals, "shapes": Shapes, "resistance": ResistanceLevel,
     "profile": Profile,
@@ -91,6 +92,7 @@ class ExportOptions:
     visuals: Visuals = Visuals.OBJ
     shapes: Shapes = Shapes.PRIMITIVES
     profile: Profile = Profile.NONE
+    mass: float | None = None  # [kg] of the whole object, None if what it is made of decides
 
     @classmethod
     def parse(cls, given: Mapping[str, Any], *, before: Mapping[str, Any] | None = None) -> ExportOptions:
@@ -106,7 +108,7 @@ class ExportOptions:
 
     @classmethod
     def _of(cls, record: Mapping[str, Any]) -> ExportOptions:
-        kept = {k: record[k] for k in (f.name for f in fields(cls)) if k in record}
+        kept = {k: record[k] for k in (f.name for f in fields(cls)) if k in record} | {"mass": record.get(GIVEN_MASS)}
         formats = tuple(f for f in Format if f in record.get("files", {})) or DEFAULT
         return cls.parse({**kept, "formats": ",".join(formats)})
 
@@ -114,11 +116,19 @@ class ExportOptions:
         """Return the values for asset.json but the formats, which its files show; most only if they are not the default."""
         values = {f.name: (getattr(self, f.name), f.default) for f in fields(self) if f.name != "formats"}
         stated = {k: v for k, (v, usual) in values.items() if k in ("base", "drives", "resistance") or v != usual}
-        return {k: str(v) if k in CHOICES else v for k, v in stated.items()}
+        return {GIVEN_MASS if k == "mass" else k: str(v) if k in CHOICES else v for k, v in stated.items()}
 
     def with_formats(self, others: tuple[Format, ...]) -> ExportOptions:
         """Return the options with further formats."""
         return replace(self, formats=tuple(f for f in Format if f in self.formats or f in others))
+
+
+def _mass(given: Any) -> float | None:
+    """Return a mass [kg]; None for 0."""
+    number = isinstance(given, int | float) and not isinstance(given, bool)
+    if not number or (given != 0 and not MASSES[0] <= given <= MASSES[1]):
+        raise OptionError(f"--mass: found {given!r}; valid are {MASSES[0]:g} to {MASSES[1]:g} kg, or 0 for none given")
+    return float(given) or None
 
 
 def _value(name: str, given: Any) -> Any:
@@ -128,6 +138,8 @@ def _value(name: str, given: Any) -> Any:
     if name == "mechanisms":
         resolve(PARSE_MECHANISMS)(str(given))
         return str(given)
+    if name == "mass":
+        return _mass(given)
     if name in CHOICES:
         if given not in list(CHOICES[name]):
             raise OptionError(f"--{name}: found {given!r}; valid are {', '.join(CHOICES[name])}")

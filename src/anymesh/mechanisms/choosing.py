@@ -83,7 +83,7 @@ def choose_mechanisms(
     chosen: dict[str, Mechanism] = {}
     for joint in [] if choice == "off" else [j for j in asset.joints if j.name in resisting]:
         part = parts[joint.child]
-        rule, reason = _usual(asset.name, part, joint) if asked is None else _asked(part, joint, asked)
+        rule, reason = _usual(f"{asset.name} {asset.category}", part, joint) if asked is None else _asked(part, joint, asked)
         if rule is not None and (rule.confidence >= SURE or choice == "all"):
             made = _Maker(joint, resisting[joint.name], _weight(asset, inertias, joint))
             m, resisting[joint.name] = made(rule)

@@ -101,7 +101,7 @@ def resistances(
 def kind_of(asset: Asset, joint: Joint) -> str:
     """Return the kind of a joint (a key of `KINDS`) by the words of its part's label and name, else by its type."""
     part = next(p for p in asset.segmentation.parts if p.name == joint.child)
-    words, whole = [*words_of(part.name), *words_of(part.label)], words_of(asset.name)
+    words, whole = [*words_of(part.name), *words_of(part.label)], words_of(f"{asset.name} {asset.category}")
     word = recognize(part.label) or recognize(part.name)
     kind = next((BY_WORD[w] for w in reversed(words) if w in BY_WORD), word.label if word else "")
     if kind == "lid":

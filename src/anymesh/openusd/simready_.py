@@ -5,11 +5,9 @@ simready/<name>/simready_usd/<name>.usda     and beside it what `layered_` descr
 
 from __future__ import annotations
 
-import json
 import os
 import shutil
 from datetime import UTC, datetime
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +19,7 @@ import anymesh
 from anymesh.export.meshes import display_color, widest
 from anymesh.export.model import ExportConfig, ExportLink, Model
 from anymesh.geometry.raycast_ import RayScene
+from anymesh.kinds.usual import kind_of
 from anymesh.openusd.geometry_ import vec
 from anymesh.openusd.layered_ import ENGINES, TEXTURES, LayeredAsset
 from anymesh.openusd.writer_ import bind_surface, load_usd, usd_stage
@@ -30,7 +29,6 @@ from anymesh.rendering.drawing import Window, draw, ground, light_on, material_c
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.types import Asset, JointType
 from anymesh.types.mesh import to_linear
-from anymesh.vocabulary import SMALLER, words_of
 
 SIMREADY = "simready"
 INSIDE = "simready_usd"
@@ -68,20 +66,15 @@ def write_simready(model: Model, folder: Path, config: ExportConfig) -> None:
     Image.fromarray(_thumbnail(model.asset)).save(picture, "PNG")
 
 
-def kind_of(asset: Asset) -> tuple[str, str]:
-    """Return the kind of an object by the words of its name, and its item in Wikidata ("Q" and digits).
-
-    The last word that is a kind counts, as a table lamp is a lamp; an unknown one is an object.
-    """
-    table = json.loads(files("anymesh.openusd").joinpath("kinds.json").read_text(encoding="utf-8"))["kinds"]
-    words = words_of(asset.name)
-    known = [word for word in words if word in table]
-    return (known[-1], table[known[-1]]) if known and not SMALLER & set(words) else OBJECT
+def kind_and_item(asset: Asset) -> tuple[str, str]:
+    """Return the kind of an object and its item in Wikidata ("Q" and digits); a kind without an item is an object."""
+    kind = kind_of(asset.category, asset.name)
+    return (kind.name, kind.wikidata) if kind is not None and kind.wikidata else OBJECT
 
 
 def _add_labels(pxr: Any, stage: Any, model: Model) -> None:
     """Label the asset by its kind, links by what they are, and materials by their names, which say what they are made of."""
-    kind, code = kind_of(model.asset)
+    kind, code = kind_and_item(model.asset)
     top = f"/{model.asset.name}"
     rows = [(top, "class", kind), (top, "wikidata_qcode", code)]
     rows += [(f"{top}/links/{b.name}", "class", b.link.part.label) for b in model.bodies]
@@ -144,7 +137,7 @@ def _metadata(pxr: Any, model: Model) -> dict[str, Any]:
 
     The day is that of SOURCE_DATE_EPOCH, if it is set, so that a build can be repeated.
     """
-    asset, (kind, code) = model.asset, kind_of(model.asset)
+    asset, (kind, code) = model.asset, kind_and_item(model.asset)
     epoch = os.environ.get("SOURCE_DATE_EPOCH")
     day = datetime.now(UTC) if epoch is None else datetime.fromtimestamp(int(epoch), UTC)
     size = np.ptp(asset.mesh.triangles.reshape(-1, 3), axis=0)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -40,13 +40,20 @@ MadeOf = Sequence[Substance | None]
 class Inertia:
     """Mass properties of a link.
 
-    mass [kg]; center: center of mass [m]; tensor: about it, symmetric [kg m^2]; spread: least and greatest mass over it.
+    mass [kg]; center: center of mass [m]; tensor: about it, symmetric [kg m^2]; spread: least and greatest mass over it;
+    wall: mean thickness of the walls of closed components that are hollow, 0 without any [m].
     """
 
     mass: float
     center: Float[np.ndarray, " 3"]
     tensor: Float[np.ndarray, "3 3"]
     spread: tuple[float, float] = (1.0, 1.0)
+    wall: float = 0.0
+
+    def scaled(self, factor: float, config: InertiaConfig) -> Inertia:
+        """Return the properties with a multiple of the mass, which is then known."""
+        light = replace(config, smallest_mass=0.0)
+        return replace(physical(replace(self, mass=self.mass * factor, tensor=self.tensor * factor), light), spread=(1.0, 1.0))
 
 
 def link_inertia(triangles: Float[np.ndarray, "n 3 3"], config: InertiaConfig, made_of: MadeOf | None = None) -> Inertia:
@@ -76,7 +83,7 @@ def raw_inertia(triangles: Float[np.ndarray, "n 3 3"], config: InertiaConfig, ma
     volume = np.bincount(surface_components.label, volumes, surface_components.count)
     flat = np.abs(volume) <= 1e-9 * np.bincount(surface_components.label, np.abs(volumes), surface_components.count)
     wall = config.wall(float(np.linalg.norm(np.ptp(corners, axis=0))))
-    body, sheet_density, closed, spread = _densities(
+    body, sheet_density, closed, spread, walls = _densities(
         surface_components.label, areas, np.abs(volume), surface_components.solid & ~flat, wall, config, made_of
     )
     solid = closed[surface_components.label]
@@ -93,7 +100,9 @@ def raw_inertia(triangles: Float[np.ndarray, "n 3 3"], config: InertiaConfig, ma
     covariance = second - mass * np.outer(center, center)
     tensor = np.trace(covariance) * np.eye(3) - covariance
     least, most = (filled + sheet) @ spread[surface_components.label] / mass
-    return Inertia(mass, center + base, (tensor + tensor.T) / 2, (float(least), float(most)))
+    thickness = walls[surface_components.label]
+    mean = float(thickness @ areas / max(areas[thickness > 0].sum(), 1e-300))
+    return Inertia(mass, center + base, (tensor + tensor.T) / 2, (float(least), float(most)), mean)
 
 
 def _densities(
@@ -104,13 +113,16 @@ def _densities(
     wall: float,
     config: InertiaConfig,
     made_of: MadeOf | None,
-) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Return for each component its density [kg/m^3], the area density of its shell [kg/m^2], if it is solid, its spread."""
+) -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Return for each component its density [kg/m^3], the area density of its shell [kg/m^2], if it is solid, its spread.
+
+    The last are the walls of closed components that are hollow, else 0 [m].
+    """
     count = len(volume)
     body, sheet, solid = np.full(count, config.density), np.full(count, config.shell_density * wall), closed.copy()
-    spread = np.tile(UNKNOWN, (count, 1))
+    spread, walls = np.tile(UNKNOWN, (count, 1)), np.zeros(count)
     if made_of is None or not any(made_of):
-        return body, sheet, solid, spread
+        return body, sheet, solid, spread, walls
     kinds = sorted({m for m in made_of if m is not None}, key=lambda m: (m.density, m.solid_to, m.sheet, m.name))
     number = np.array([len(kinds) if m is None else kinds.index(m) for m in made_of])
     covered = np.zeros((count, len(kinds) + 1))
@@ -120,9 +132,9 @@ def _densities(
         substance = kinds[int(covered[k].argmax())]
         body[k], sheet[k] = substance.density, substance.density * min(substance.sheet, wall)
         if 2 * volume[k] / area[k] > substance.solid_to:  # the area includes both sides of the wall
-            solid[k], sheet[k] = False, substance.density * substance.sheet
+            solid[k], sheet[k], walls[k] = False, substance.density * substance.sheet, substance.sheet * closed[k]
         spread[k] = np.array([1 - substance.spread, 1 + substance.spread]) * (1.0 if solid[k] else WALLS)
-    return body, sheet, solid, spread
+    return body, sheet, solid, spread, walls
 
 
 def physical(body: Inertia, config: InertiaConfig) -> Inertia:
@@ -136,4 +148,4 @@ def physical(body: Inertia, config: InertiaConfig) -> Inertia:
     if short > 0:
         moments[:2] += short / 2
     tensor = (axes * moments) @ axes.T
-    return Inertia(mass, body.center, (tensor + tensor.T) / 2, body.spread)
+    return replace(body, mass=mass, tensor=(tensor + tensor.T) / 2)

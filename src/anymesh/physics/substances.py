@@ -1,6 +1,6 @@
 """What links are made of: by the words of a material's name, else by the kind of the part or of the object.
 
-The values are in `substances.json`, their sources in docs/substances.md.
+The values are in `substances.json` (of kinds of objects in `kinds/kinds.json`), their sources in docs/substances.md.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ import re
 from dataclasses import dataclass
 from importlib.resources import files
 
-from anymesh.vocabulary import SMALLER, words_of
+from anymesh.vocabulary import words_of
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Substance:
 
 _DATA = json.loads(files("anymesh.physics").joinpath("substances.json").read_text(encoding="utf-8"))
 SUBSTANCES = {n: Substance(n, float(d), **f["values"]) for f in _DATA["families"] for n, d in f["densities"].items()}
-_OF_PART, _OF_OBJECT = ({k: SUBSTANCES[s] for s, ks in _DATA[t].items() for k in ks.split()} for t in ("parts", "objects"))
+_OF_PART = {word: SUBSTANCES[name] for name, words in _DATA["parts"].items() for word in words.split()}
 
 
 def substance_of(name: str) -> Substance | None:
@@ -41,10 +41,9 @@ def substance_of(name: str) -> Substance | None:
     return _last(SUBSTANCES, [w.lower() for w in re.findall(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])", name)])
 
 
-def usual_substance(part: str, thing: str) -> Substance | None:
-    """Return what such a part of such an object usually is made of, from the last known word of their names, else None."""
-    real = [] if SMALLER & set(words_of(thing)) else words_of(thing)
-    return _last(_OF_PART, words_of(part)) or _last(_OF_OBJECT, real)
+def usual_substance(part: str) -> Substance | None:
+    """Return what such a part usually is made of, whatever it belongs to, from the last known word of its name, else None."""
+    return _last(_OF_PART, words_of(part))
 
 
 def _last(table: dict[str, Substance], words: list[str]) -> Substance | None:

@@ -220,6 +220,9 @@ class FormatOptions:
     profile: str | None = _option(
         None, "none (usual), or simready: also USD in layers, as NVIDIA's SimReady asks for it, in DIR/simready.", kind=str
     )
+    mass: float | None = _option(
+        None, "Mass of the whole object, 0 for that of its materials and walls.", metavar="KG", kind=float
+    )
 
 
 class Writing(TypedDict, total=False):
@@ -234,6 +237,7 @@ class Writing(TypedDict, total=False):
     visuals: str | None
     shapes: str | None
     profile: str | None
+    mass: float | None
 
 
 class MakingOptions(Answering, Writing):

@@ -21,13 +21,14 @@ PLEASE_CHECK = ", please check"  # how warnings about one part or joint end
 class LoadResult:
     """The mesh in the asset frame, its source file, and warnings.
 
-    metric: whether the scale is the unit stated by the file.
+    metric: whether the scale is the unit stated by the file; category: given kind of object, "" without one.
     """
 
     mesh: Mesh
     source: Source
     warnings: tuple[str, ...] = ()
     metric: bool = False
+    category: str = ""
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,7 +50,7 @@ class RecognitionResult:
         source = replace(
             loaded.source, T_asset_source=S @ loaded.source.T_asset_source, notes=(*loaded.source.notes, self.note)
         )
-        return LoadResult(loaded.mesh.transformed(S), source, loaded.warnings, loaded.metric)
+        return replace(loaded, mesh=loaded.mesh.transformed(S), source=source)
 
 
 @dataclass(frozen=True, eq=False)

@@ -37,6 +37,7 @@ MESH_ARRAYS = tuple(f.name for f in fields(Mesh) if f.name not in ("nodes", "mat
 USUAL = (("wrap", (REPEAT, REPEAT)), ("uv_set", 0), ("strength", 1.0), ("nearest", False), ("unlit", False))  # not stored
 log = logging.getLogger("anymesh")
 FOLDER = "stages"
+UNRECOGNIZED = "object"  # category of an object that nobody named
 EPOCH = (1980, 1, 1, 0, 0, 0)  # date inside every archive, so that equal results are equal files
 
 
@@ -55,6 +56,7 @@ def _pack_load(result: LoadResult) -> tuple[Record, dict[str, np.ndarray]]:
         "source": source_record(result.source),
         "warnings": list(result.warnings),
         "metric": result.metric,
+        "category": result.category,
     }
     return record, arrays
 
@@ -81,7 +83,8 @@ def _pack_mesh(mesh: Mesh) -> tuple[Record, dict[str, np.ndarray]]:
 def _unpack_load(record: Record, arrays: Arrays) -> LoadResult:
     s = record["source"]
     source = Source(s["path"], s["sha256"], np.array(s["T_asset_source"]), s["up"], tuple(s["notes"]))
-    return LoadResult(_unpack_mesh(record, arrays), source, tuple(record["warnings"]), record.get("metric", False))
+    warnings, metric, category = tuple(record["warnings"]), record.get("metric", False), record.get("category", "")
+    return LoadResult(_unpack_mesh(record, arrays), source, warnings, metric, category)
 
 
 def _unpack_mesh(record: Record, arrays: Arrays) -> Mesh:
@@ -322,7 +325,8 @@ def assemble(
 
     correction: manual correction before Stage C; revision: manual correction after it.
     """
-    loaded = recognition.sized(loaded)
+    loaded, recognized = recognition.sized(loaded), recognition.recognition
+    answered = recognized.category if recognized is not None and recognized.category != UNRECOGNIZED else ""
     asset = Asset(
         name=legal_name(Path(loaded.source.path).stem, fallback="asset"),
         source=loaded.source,
@@ -333,6 +337,7 @@ def assemble(
         warnings=_once((*loaded.warnings, *recognition.warnings, *segmentation.warnings, *joints.warnings)),
         timing=timing,
         exchanges=(*recognition.exchanges, *segmentation.exchanges, *joints.exchanges),
+        category=loaded.category or answered,
     )
     asset = asset if correction is None else _corrected(asset, correction)
     if completion is not None:

@@ -76,7 +76,9 @@ def load(run: Run, path: Path, how: PlacementOptions) -> Keyed[LoadResult]:
             p = place_mesh(loaded, up=how.up, scale=how.scale, category=category)
             source = Source(str(path), loaded.sha256, p.T_asset_source, p.up, p.notes)
             scene = resolve(SCENE_WARNING)(p.mesh)
-            placed = LoadResult(p.mesh, source, (*loaded.warnings, *p.warnings, *([scene] if scene else [])), p.metric)
+            placed = LoadResult(
+                p.mesh, source, (*loaded.warnings, *p.warnings, *([scene] if scene else [])), p.metric, category or ""
+            )
             run.folder.save(MESH, key, placed)
     return Keyed(placed, key)
 

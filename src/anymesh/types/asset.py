@@ -87,6 +87,7 @@ class Asset:
     exchanges: tuple[Exchange, ...] = ()  # with a model, in order
     source_face: Int[np.ndarray, " F"] | None = None  # face index in the source, -1 for faces added by Stage C
     notes: tuple[str, ...] = ()  # changes by Stage C, in words
+    category: str = ""  # kind of object as given or answered, "" if only the name tells
 
     def __post_init__(self) -> None:
         names = [p.name for p in self.segmentation.parts]

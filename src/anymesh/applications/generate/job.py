@@ -17,8 +17,9 @@ from anymesh.applications.generate.protocol import Generator3D, MeshRequest, Uni
 from anymesh.errors import OptionError, OutputError
 from anymesh.export.options import ExportOptions
 from anymesh.finishing.finishing import open_completer, open_retexturer
+from anymesh.kinds.usual import usual_size
 from anymesh.loading import place_mesh
-from anymesh.loading.load import LoadedMesh, usual_size
+from anymesh.loading.load import LoadedMesh
 from anymesh.pipeline.answering import choose_answerer
 from anymesh.pipeline.atomic_folder import FOLDER_PREFIX, check_replaceable
 from anymesh.pipeline.options import (

@@ -20,7 +20,7 @@ from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.surface import ground_faces
 from anymesh.geometry.topology import label_connected, weld
 from anymesh.geometry.triangle_set import spread_points
-from anymesh.loading.load import usual_size
+from anymesh.kinds.usual import usual_size
 from anymesh.types import Mesh
 from anymesh.types.triangles import normals_and_areas
 from anymesh.vocabulary import is_fixed_name, recognize, words_of
