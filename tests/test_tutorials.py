@@ -1,6 +1,6 @@
 """Every block of code in README and tutorials runs as it stands there, in order, from the root of the repository.
 
-A comment before a block says what it needs, or with which code it exits: `<!-- needs isaaclab -->`, `<!-- exits with 9 -->`. Blocks
+A comment before a block says what it needs or with which code it exits: `<!-- needs sapien -->`, `<!-- exits with 9 -->`. Blocks
 without a language are not run.
 """
 
@@ -26,16 +26,16 @@ INSTALLS = 2  # blocks of the README that install; .ci/run runs them
 pytestmark = pytest.mark.slow
 
 
-class Block(NamedTuple):
+class CodeBlock(NamedTuple):
     language: str
     code: str
     needs: tuple[str, ...]
     exit_code: int
 
 
-def blocks(path: Path) -> list[Block]:
+def blocks(path: Path) -> list[CodeBlock]:
     written = [
-        Block(language, code, tuple(word.split()) if what == "needs" else (), int(word) if what == "exits with" else 0)
+        CodeBlock(language, code, tuple(word.split()) if what == "needs" else (), int(word) if what == "exits with" else 0)
         for what, word, language, code in BLOCK.findall(path.read_text(encoding="utf-8"))
     ]
     return written[INSTALLS:] if path == README else written
