@@ -1,7 +1,7 @@
 """Every block of code in README and tutorials runs as it stands there, in order, from the root of the repository.
 
-A comment before a block says what it needs or with which code it exits: `<!-- needs sapien -->`, `<!-- exits with 9 -->`. Blocks
-without a language are not run.
+A comment before a block says what it needs, or with which code it exits: `<!-- needs sapien -->`, `<!-- exits with 9 -->`.
+Blocks without a language are not run.
 """
 
 from __future__ import annotations

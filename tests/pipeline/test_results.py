@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from anymesh.pipeline.results import Verdict, summary, verdict
+from anymesh.pipeline.results import JointVerdict, summary, verdict
 from anymesh.types import Joint, JointType, Part, Segmentation
 
 WARNED = "joint door_2_joint: blocked after 3 degrees, please check"
@@ -30,8 +30,8 @@ def test_a_verdict_is_that_of_the_lower_confidence() -> None:
 
 def test_a_joint_with_a_warning_is_never_sure() -> None:
     both = parts(0.9, 0.9)
-    assert verdict(both, joint("door_1", 0.9), (WARNED,)) == Verdict("sure", "")
-    assert verdict(both, joint("door_2", 0.9), (WARNED,)) == Verdict("check", "blocked after 3 degrees")
+    assert verdict(both, joint("door_1", 0.9), (WARNED,)) == JointVerdict("sure", "")
+    assert verdict(both, joint("door_2", 0.9), (WARNED,)) == JointVerdict("check", "blocked after 3 degrees")
     assert verdict(both, joint("door_2", 0.3), (WARNED,)).word == "guess"
 
 

@@ -128,14 +128,14 @@ def joint_result(
     return JointResult(joints, answerer, (*warnings, *unsure), exchanges)
 
 
-class Verdict(NamedTuple):
+class JointVerdict(NamedTuple):
     """How far a joint is to be trusted. word: sure, check or guess; why: in a short phrase, empty where sure."""
 
     word: str
     why: str
 
 
-def verdict(segmentation: Segmentation, joint: Joint, warnings: Sequence[str]) -> Verdict:
+def verdict(segmentation: Segmentation, joint: Joint, warnings: Sequence[str]) -> JointVerdict:
     """Return the verdict on a joint, by the lower one of its confidence and its part's; with a warning it is never sure.
 
     The joint of a stated or corrected motion has confidence 1, which also says that its part moves.
@@ -145,10 +145,10 @@ def verdict(segmentation: Segmentation, joint: Joint, warnings: Sequence[str]) -
     if part.confidence < joint.confidence < 1:
         confidence, doubt = part.confidence, "unsure whether it is a part"
     begin = f"joint {joint.name}: "
-    found = next((w.removeprefix(begin).removesuffix(PLEASE_CHECK) for w in warnings if w.startswith(begin)), "")
+    fault = next((w.removeprefix(begin).removesuffix(PLEASE_CHECK) for w in warnings if w.startswith(begin)), "")
     word = confidence_word(confidence)
-    word = "check" if found and word == "sure" else word
-    return Verdict(word, "" if word == "sure" else found or doubt)
+    word = "check" if fault and word == "sure" else word
+    return JointVerdict(word, "" if word == "sure" else fault or doubt)
 
 
 def summary(segmentation: Segmentation, joints: Sequence[Joint], warnings: Sequence[str]) -> str:
