@@ -34,7 +34,9 @@ READERS = {
 }
 DAE_FRAME = "formats.dae.document:dae_frame"
 LOAD_ZIPPED = "formats.zipped:load_zipped"
-REMEDY = "formats.reading:remedy"
+REMEDY = "formats.advice:remedy"
+ADVISE = "formats.advice:advise"
+ADVISE_ON_CONTENT = "formats.advice:advise_on_content"
 
 # The writers of USD and SDF, the visuals of DAE, and the physics of glTF.
 WRITE_USD = "openusd.writer_:write_usd"

@@ -9,7 +9,7 @@ from PIL import Image
 from tables import check_table
 
 from anymesh.errors import InputError
-from anymesh.formats.reading import OTHERS
+from anymesh.formats.advice import OTHERS
 from anymesh.formats.threemf import read_3mf
 from anymesh.loading import load_mesh
 from anymesh.loading.files import FileMesh, Folder

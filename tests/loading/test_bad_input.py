@@ -26,7 +26,7 @@ HEAD = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n"
 def test_what_is_no_file(tmp_path) -> None:
     assert_refused(tmp_path / "none.glb", "found no file")
     (tmp_path / "folder.glb").mkdir()
-    assert_refused(tmp_path / "folder.glb", "is not a file", ".glb, .gltf, .obj")
+    assert_refused(tmp_path / "folder.glb", "it is a folder; valid is one mesh file")
 
 
 @pytest.mark.parametrize("ending", [".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae"])

@@ -101,9 +101,9 @@ def test_too_much_too_many_and_nothing(tmp_path, monkeypatch) -> None:
             ("x.zip", zipped({f"{n}.txt": b"" for n in range(6)}), "6 files; at most 5"),
             ("x.zip", zipped({"a.txt": b"text"}), "no mesh"),
             ("x.zip", zipped({"a.obj": OBJ, "b.stl": b"x"}), r"2 meshes \(a.obj, b.stl\)"),
-            ("x.zip", b"PK\x03\x04 and no more", "broken, encrypted"),
-            ("x.zip", zipped({"a.obj": OBJ, "inner.zip": b"x"})[:-30], "broken, encrypted"),
-            ("x.blend", b"BLENDER", r"found the format .blend; valid are .glb"),
+            ("x.zip", b"PK\x03\x04 and no more", "broken or of an unknown kind"),
+            ("x.zip", zipped({"a.obj": OBJ, "inner.zip": b"x"})[:-30], "broken or of an unknown kind"),
+            ("x.blend", b"BLENDER", "found the format .blend; it is Blender's; in Blender, choose File"),
             ("mesh", b"", r"\(none\)"),
         ]
     ):

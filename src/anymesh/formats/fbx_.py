@@ -13,7 +13,8 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial.transform import Rotation
 
-from anymesh.errors import InputError, MissingExtraError, pip_install
+from anymesh.errors import InputError, MissingExtraError
+from anymesh.formats.advice import needs_extra
 from anymesh.formats.fbx_materials_ import FbxLook, FbxMaterials, elements
 from anymesh.loading.files import MAX_FACES, FileMesh, Folder
 from anymesh.loading.join import join, rgba, unique_names, unit
@@ -33,7 +34,7 @@ def load_ufbx() -> ModuleType:
     try:
         import ufbx
     except ImportError as error:
-        raise MissingExtraError(f"reading FBX needs ufbx; install it with {pip_install('fbx')}") from error
+        raise MissingExtraError(needs_extra("ufbx")) from error
     return ufbx
 
 

@@ -7,7 +7,8 @@ import struct
 from pathlib import Path
 from typing import Any
 
-from anymesh.errors import InputError, MissingExtraError, pip_install
+from anymesh.errors import InputError, MissingExtraError
+from anymesh.formats.advice import needs_extra
 from anymesh.formats.gltf.buffers import parse_json, split_glb
 from anymesh.formats.gltf.scene import read_gltf
 from anymesh.loading.files import FileMesh, Folder
@@ -24,7 +25,7 @@ def read_step(folder: Folder, work: Path) -> FileMesh:
     try:
         import cascadio
     except ImportError as error:
-        raise MissingExtraError(f"reading STEP needs cascadio; install it with {pip_install('step')}") from error
+        raise MissingExtraError(needs_extra("cascadio")) from error
     name = folder.path.name
     data = folder.path.read_bytes()
     glb = cascadio.load(data, file_type="step", tol_linear=DEFLECTION_MM, tol_angular=TURN_RAD, use_parallel=False)

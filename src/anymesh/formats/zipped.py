@@ -16,6 +16,7 @@ from pathlib import Path, PurePosixPath
 from typing import TypeVar
 
 from anymesh.errors import InputError
+from anymesh.formats.advice import advise
 from anymesh.loading.references import readable
 from anymesh.loading.scene_graph import DETAIL
 
@@ -24,6 +25,7 @@ MAX_FILES = 2000
 MAX_RATIO = 300  # of the bytes of all files to those of the zip, above MIN_BYTES
 MIN_BYTES = 64 << 20
 BLOCK = 1 << 20  # [bytes] unpacked per step
+ENCRYPTED = 0x1  # flag of an entry with a password
 UTF_8 = 0x800  # flag of an entry whose name is UTF-8; others are read as code page 437
 # Of one model in several formats, the one that says most is read.
 BEST_FIRST = tuple(".glb .gltf .usdz .usdc .usd .usda .dae .obj .fbx .ply .3mf .step .stp .stl .off".split())
@@ -64,6 +66,8 @@ def unpack(path: Path, folder: Path) -> None:
             entries = [e for e in archive.infolist() if not e.is_dir()]
             if len(entries) > MAX_FILES:
                 raise InputError(f"the zip holds {len(entries)} files; at most {MAX_FILES} are unpacked")
+            if any(e.flag_bits & ENCRYPTED for e in entries):
+                raise InputError(advise("locked_zip"))
             limit = min(MAX_UNPACKED_BYTES, max(MIN_BYTES, MAX_RATIO * path.stat().st_size))
             left = limit
             for entry in entries:
@@ -74,7 +78,7 @@ def unpack(path: Path, folder: Path) -> None:
         raise
     except Exception as error:  # the library raises many types of errors for a broken archive
         reason = " ".join(f"{type(error).__name__}: {error}".split())[:120]
-        raise InputError(f"the zip cannot be unpacked, it is broken, encrypted or of an unknown kind ({reason})") from None
+        raise InputError(f"the zip cannot be unpacked, it is broken or of an unknown kind ({reason})") from None
 
 
 def _unpack_entry(archive: zipfile.ZipFile, entry: zipfile.ZipInfo, folder: Path, left: int) -> int:
@@ -128,9 +132,8 @@ def only_mesh(folder: Path, formats: Sequence[str], *, outer: bool = True) -> Un
         if ranks.count(min(ranks)) == 1:
             best = ranks.index(min(ranks))
             return Unpacked(meshes[best], folder, tuple(n for k, n in enumerate(names) if k != best))
-    listed = f"{len(meshes)} meshes ({', '.join(names[:4])}{', ...' if len(names) > 4 else ''})" if meshes else "no mesh"
-    valid = f"valid is exactly one of {', '.join(formats)}, with what it refers to"
-    raise InputError(f"the zip holds {listed}; {valid}{'; unpack it and give one of them' if meshes else ''}")
+    listed = f"{len(meshes)} meshes ({', '.join(names[:4])}{', ...' if len(names) > 4 else ''})"
+    raise InputError(advise("zip", listed=listed) if meshes else advise("empty_zip", formats=", ".join(formats)))
 
 
 def _level(path: Path) -> int:

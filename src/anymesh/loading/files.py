@@ -21,7 +21,7 @@ from pathlib import Path, PurePosixPath
 import numpy as np
 from PIL import Image
 
-from anymesh.entry_points import READERS, REMEDY, resolve
+from anymesh.entry_points import ADVISE, ADVISE_ON_CONTENT, READERS, REMEDY, resolve
 from anymesh.errors import InputError, OptionError
 from anymesh.loading.ktx2_ import open_ktx2
 from anymesh.loading.references import ASIDE, SHOWN, Unresolved, readable, resolve_reference
@@ -36,27 +36,29 @@ ARCHIVE = ".zip"
 FORMATS = tuple(READERS)
 MAX_FACES = 20_000_000
 MAX_BYTES = 4 * 1024**3
-LFS, LFS_HINT = (
-    b"version https://git-lfs.github.com/",
-    "is a Git LFS pointer, not the file itself; run `git lfs pull` in its folder",
-)
+BEGIN = 100  # bytes of a file that an error may quote
+LFS = b"version https://git-lfs.github.com/"
+ADDRESS, SLASHES = re.compile(r"(?i)([a-z][a-z0-9+.-]+):/+(?=[^/])"), r"\1://"  # pathlib leaves one slash of two
 ASCII_STL = re.compile(rb"(?is)(\xef\xbb\xbf)?\s*solid\b.{0,2000}facet")
 SIGNS = {  # start of files of other formats
-    "GLB": rb"glTF",
-    "PLY": rb"ply\r?\n",
-    "DAE": rb"(?s).{0,2000}<COLLADA",
-    "OFF": rb"\s*(ST)?C?N?4?OFF",
-    "glTF": rb"(\xef\xbb\xbf)?\s*\{",
+    "a GLB": rb"glTF",
+    "a PLY": rb"ply\r?\n",
+    "a DAE": rb"(?s).{0,2000}<COLLADA",
+    "an OFF": rb"\s*(ST)?C?N?4?OFF",
+    "JSON, as a .gltf": rb"(\xef\xbb\xbf)?\s*\{",
     "a PNG picture": rb"\x89PNG",
     "a JPEG picture": rb"\xff\xd8\xff",
     "a ZIP archive": rb"PK\x03\x04",
     "an FBX": rb"Kaydara FBX",
+    "a Blender file": rb"BLENDER",
     "USD": rb"#usda |PXR-USDC",
     "an ASCII STL": ASCII_STL,
     "a web page": rb"(?i)\s*<(!doctype )?html",
+    "an OBJ": rb"(?s)(.{0,2000}[\r\n])?v +[-.\d]+ +[-.\d]",
 }
 STARTS = {
-    ".glb": rb"glTF", ".gltf": SIGNS["glTF"], ".ply": rb"ply", ".off": SIGNS["OFF"], ".dae": rb"(?s).{0,4088}<COLLADA",
+    ".glb": rb"glTF", ".gltf": SIGNS["JSON, as a .gltf"], ".ply": rb"ply", ".off": SIGNS["an OFF"],
+    ".dae": rb"(?s).{0,4088}<COLLADA",
     **dict.fromkeys((".usd", ".usda", ".usdc"), SIGNS["USD"]), ".usdz": rb"PK", ARCHIVE: rb"PK\x03\x04",
     **dict.fromkeys((".step", ".stp"), rb"\s*ISO-10303-21"), ".3mf": rb"PK", ".fbx": rb"(?s)Kaydara FBX|.{0,4088}FBXHeader",
 }  # fmt: skip
@@ -107,7 +109,8 @@ class Folder:
         """Return the bytes of a file that the mesh requires. Raise InputError if it cannot be read."""
         content = self._bytes(uri)
         if isinstance(content, Unresolved):
-            raise InputError(f"{self.path.name} refers to {readable(uri)[:SHOWN]!r}, which {content.reason}")
+            advice = resolve(ADVISE)("buffer", uri=readable(uri)[:SHOWN], reason=content.reason)
+            raise InputError(f"{self.path.name} {advice}")
         return content
 
     def read_or_warn(self, uri: str, what: str) -> bytes | None:
@@ -127,7 +130,7 @@ class Folder:
         except OSError as error:
             return Unresolved(f"cannot be opened ({error.strerror})")
         if data.startswith(LFS):
-            return Unresolved(LFS_HINT)
+            return Unresolved(resolve(ADVISE)("lfs").removeprefix("it "))
         self._digests[os.path.relpath(file, self._bases[-1])] = hashlib.sha256(data).hexdigest()
         return data
 
@@ -204,9 +207,11 @@ def quiet_decoder() -> Generator[None]:
 def check_file(path: Path, formats: Sequence[str] = FORMATS) -> bytes:
     """Return the bytes of the file if they are plausible for its format. Raise InputError otherwise."""
     if not path.exists():
+        if ADDRESS.match(str(path)):
+            raise InputError(f"{ADDRESS.sub(SLASHES, str(path))}: {resolve(ADVISE)('url')}")
         raise InputError(f"found no file {path}")
     if not path.is_file():
-        raise InputError(f"{path} is not a file; a mesh file is expected ({', '.join(formats)})")
+        raise InputError(f"{path}: {resolve(ADVISE)('folder')}")
     suffix = path.suffix.lower()
     if suffix not in formats:
         remedy = resolve(REMEDY)(suffix) or f"valid are {', '.join(formats)}"
@@ -221,10 +226,10 @@ def check_file(path: Path, formats: Sequence[str] = FORMATS) -> bytes:
     except OSError as error:
         raise InputError(f"{path.name} cannot be opened: {error.strerror}") from None
     if data.startswith(LFS):
-        raise InputError(f"{path.name} {LFS_HINT}")
+        raise InputError(f"{path.name}: {resolve(ADVISE)('lfs')}")
     if not _plausible(suffix, data):
-        seems = next((f"; it looks like {kind}" for kind, sign in SIGNS.items() if re.match(sign, data)), "")
-        raise InputError(f"{path.name}: found no {suffix[1:].upper()} file inside{seems}; is the extension right?")
+        kind = next((kind for kind, sign in SIGNS.items() if re.match(sign, data)), "")
+        raise InputError(f"{path.name}: {resolve(ADVISE_ON_CONTENT)(suffix, kind, data[:BEGIN])}")
     return data
 
 

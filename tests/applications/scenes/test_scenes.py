@@ -157,7 +157,7 @@ def split(kitchen, tmp_path_factory):
 
 def test_without_the_option_a_warning_says_how_many_objects_there_are(kitchen, tmp_path) -> None:
     asset = anymesh.articulate(kitchen, tmp_path / "out", parts="none", formats="glb")
-    assert "this is a scene of 4 objects, taken as one; --scene split articulates each" in asset.warnings
+    assert "a scene of 4 objects is taken as one; --scene split articulates each" in asset.warnings
 
 
 def test_equal_objects_are_one_asset_with_its_placements(split) -> None:

@@ -15,6 +15,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Float, Int
 
+from anymesh.formats.advice import advise
 from anymesh.geometry.boxes import box_pairs, within
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.surface import ground_faces
@@ -177,7 +178,7 @@ def find_objects(mesh: Mesh) -> tuple[SceneObject, ...]:
 def scene_warning(mesh: Mesh) -> str | None:
     """Return what to say about a mesh that is a scene of several objects; None for a single object."""
     count = sum(not o.fixed for o in find_objects(mesh))
-    return f"this is a scene of {count} objects, taken as one; --scene split articulates each" if count > 1 else None
+    return advise("scene", count=count) if count > 1 else None
 
 
 class _Scene:

@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Int
 
+from anymesh.formats.advice import advise
 from anymesh.formats.gltf.buffers import MAX_DECODED, DataError
 from anymesh.loading.files import MAX_FACES
 
@@ -33,9 +34,7 @@ def draco_attributes(data: bytes, ids: dict[str, int]) -> tuple[dict[str, np.nda
     try:
         import DracoPy  # ty: ignore[import-not-found]
     except ImportError:  # no wheel for Macs with Intel processors
-        raise DataError(
-            "its Draco data needs DracoPy, which is not installed; `pip install DracoPy`, or save it without"
-        ) from None
+        raise DataError(advise("draco")) from None
     if max(counts := _draco_counts(data)) > 3 * MAX_FACES:
         raise DataError(f"its Draco data states {max(counts)} vertices or triangles; at most {3 * MAX_FACES} are read")
     try:

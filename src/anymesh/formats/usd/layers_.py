@@ -13,7 +13,8 @@ from pathlib import Path, PurePosixPath
 from types import ModuleType
 from typing import Any
 
-from anymesh.errors import InputError, MissingExtraError, pip_install
+from anymesh.errors import InputError, MissingExtraError
+from anymesh.formats.advice import needs_extra
 from anymesh.formats.packages import unpack
 from anymesh.loading.files import Folder
 from anymesh.loading.references import SHOWN
@@ -37,7 +38,7 @@ def load_pxr() -> ModuleType:
         import pxr.UsdShade
         import pxr.UsdSkel
     except ImportError as error:
-        raise MissingExtraError(f"reading USD needs OpenUSD; install it with {pip_install('usd')}") from error
+        raise MissingExtraError(needs_extra("pxr")) from error
     return pxr
 
 

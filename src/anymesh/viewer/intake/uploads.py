@@ -13,6 +13,7 @@ from html import escape
 from pathlib import Path
 
 from anymesh.errors import InputError
+from anymesh.formats.advice import remedy
 from anymesh.formats.zipped import MAX_UNPACKED_BYTES, only_mesh, unpack
 from anymesh.loading.files import FORMATS
 
@@ -70,7 +71,8 @@ def receive(name: str, content: bytes, folder: Path) -> Upload:
     plain = plain_name(name)
     suffix = Path(plain).suffix.lower()
     if suffix not in (*FORMATS, ".zip"):
-        raise InputError(f"{plain}: found the format {suffix or '(none)'}; valid are {', '.join(FORMATS)}, and .zip")
+        way = remedy(suffix) or f"valid are {', '.join(FORMATS)}, and .zip"
+        raise InputError(f"{plain}: found the format {suffix or '(none)'}; {way}")
     path = folder / plain
     path.write_bytes(content)
     if suffix != ".zip":
