@@ -5,6 +5,8 @@ from types import SimpleNamespace
 
 from correctable import write_output
 
+from anymesh.viewer.intake.work import StageState
+
 CUBE = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n"
 
 
@@ -13,11 +15,12 @@ class FakeWork:
 
     made: list = []  # noqa: RUF012
 
-    def __init__(self, mesh, out, **options):
+    def __init__(self, mesh, out, pool=None, **options):
         self.asked_mesh, self.out, self.options = mesh, out, options
         self.mesh = self.error = None
         self.done = self.cancelled = False
         self.words, self.share, self.begun = "finding the parts", 0.3, True
+        self.stages = [StageState("reading the mesh", 0.2, True), StageState("finding the parts", 3.0, False)]
         FakeWork.made.append(self)
 
     @property

@@ -27,6 +27,7 @@ pytest.importorskip("viser", reason="needs the extra view")
 def page(monkeypatch):
     monkeypatch.setattr(bench_, "ArticulationWork", FakeWork)
     monkeypatch.setattr(bench_, "LOOK", 0.02)
+    monkeypatch.setattr(bench_, "warm_pool", lambda: None)
     FakeWork.made = []
     with serve(None, port=8400, author="Ada", clock=lambda: "2024-05-01T12:00:00+00:00") as serving:
         yield serving.page
@@ -189,6 +190,7 @@ def test_a_motion_plays_while_it_is_chosen(page):
 
 def test_kept_assets_get_names_of_their_own_and_the_same_mesh_the_same_questions(monkeypatch, tmp_path):
     monkeypatch.setattr(bench_, "ArticulationWork", FakeWork)
+    monkeypatch.setattr(bench_, "warm_pool", lambda: None)
     FakeWork.made = []
     source = tmp_path / "in" / "cube.obj"
     source.parent.mkdir()
@@ -207,6 +209,7 @@ def test_kept_assets_get_names_of_their_own_and_the_same_mesh_the_same_questions
 
 def test_what_was_handed_over_is_removed_at_the_end(monkeypatch):
     monkeypatch.setattr(bench_, "ArticulationWork", FakeWork)
+    monkeypatch.setattr(bench_, "warm_pool", lambda: None)
     with serve(None, port=8440, author="Ada", clock=lambda: "") as serving:
         assert "removed at the end" in serving.notes[0]
         upload(serving.page)

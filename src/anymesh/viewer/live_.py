@@ -16,6 +16,7 @@ from anymesh.formats.packed import zip_bytes
 from anymesh.types import Asset, Joint, JointType
 from anymesh.viewer.correct_ import CorrectionTools, CorrectPanel
 from anymesh.viewer.intake.bench_ import Workbench, WorkbenchFolders
+from anymesh.viewer.intake.welcome import contents, title
 from anymesh.viewer.looks import has_looks
 from anymesh.viewer.panels import Page, head, joint_table, scale_of
 from anymesh.viewer.review_ import ReviewPanel
@@ -141,6 +142,7 @@ class LivePage:
         self._began = 0.0
         self.gui.main_panel.dock_right()
         self.gui.main_panel.set_width(390)
+        self._title = self.gui.add_html("")
         self._head = self.gui.add_html("")
         self.bench = None if bench is None else Workbench(self, bench)
         self._buttons = self.gui.add_button_group("Edits", ("Undo", "Redo", "Save"))
@@ -179,7 +181,7 @@ class LivePage:
         with self._lock:
             self.session = self.playing = None
             self.view.clear()
-            self._head.content = ""
+            self._head.content = self._title.content = ""
             self._show_controls()
 
     def _show_controls(self) -> None:
@@ -238,6 +240,8 @@ class LivePage:
     def tell_head(self) -> None:
         """Update the head of the page."""
         if self.session is not None:
+            asset = self.session.asset
+            self._title.content = title(asset.name, asset.mesh, contents(asset))
             unsaved = max(len(self.session.history.done), 1) if self.session.unsaved else 0
             self._head.content = head(self.session.asset, unsaved=unsaved, note=self.view.note(), tool=self.tools.hint)
 

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from anymesh.types import Asset, Mesh, Part, Segmentation, Source
 from anymesh.viewer.report_asset import display_glb, displayed
 from anymesh.viewer.scene import MAX_DISPLAY_FACES
 
+FROM_Y_UP = (0.5**0.5, 0.5**0.5, 0.0, 0.0)  # wxyz; a GLB has Y up
 PIXELS = 2048  # longest side of a texture
 POINTS = 20_000  # sampled on an object for its shadow
 SIDE = 128  # [px] of the shadow's picture
@@ -49,6 +51,13 @@ def mesh_glb(mesh: Mesh, name: str = "object") -> bytes:
     source = Source("", "", np.eye(4), "z")
     alone = Asset("part", source, mesh, Segmentation(np.zeros(len(mesh.faces), int), (Part(name, name),)), (), "")
     return display_glb(displayed(alone, faces=len(mesh.faces), pixels=PIXELS)[0])
+
+
+def with_base_colors(mesh: Mesh) -> Mesh:
+    """Return the mesh with the pictures of its base colours only, which is ready sooner."""
+    slot = "base_color"
+    kept = (replace(m, textures={slot: m.textures[slot]} if slot in m.textures else {}) for m in mesh.materials)
+    return replace(mesh, materials=tuple(kept))
 
 
 class Shadow:

@@ -16,7 +16,7 @@ from anymesh.export.options import ExportOptions
 from anymesh.rendering.viewpoints import away
 from anymesh.runtime import cache_folder
 from anymesh.types import Asset, JointType, Mesh, Segmentation
-from anymesh.viewer.looks import Ground, mesh_glb
+from anymesh.viewer.looks import FROM_Y_UP, Ground, mesh_glb
 from anymesh.viewer.scene import DisplayMesh, Surfaces, box_lines, color_of, inertia_box, joint_lines, shade_of, shape_surface
 from anymesh.viewer.session import part_poses
 
@@ -24,7 +24,6 @@ AXIS, SENSE, RANGE, SELECTED, CHOSEN = (190, 20, 40), (190, 20, 40), (30, 110, 2
 INERTIA = (140, 70, 200)
 THIN, THICK = 2.0, 3.0  # [px] line widths
 SEE_THROUGH = 0.35  # opacity of overlays
-FROM_Y_UP = (0.5**0.5, 0.5**0.5, 0.0, 0.0)  # wxyz; a GLB has Y up
 DISTANCE, FOV = 2.3, np.deg2rad(35)  # of the first view: distance in diagonals; vertical field of view
 LIFT = 1e-3  # offset of chosen faces from the surface, as a share of the diagonal
 

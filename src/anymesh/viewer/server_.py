@@ -139,7 +139,7 @@ def serve(
             folder, notes = stack.enter_context(_articulated(place, root, progress))
         one = folder is not None and written_files(folder) is not None
         with contextlib.redirect_stdout(io.StringIO()):  # the library's own banner
-            server = start_server(host, port, "anymesh" if place is None else f"anymesh: {place.name}")
+            server = start_server(host, port, "Articulate AnyMesh")
         try:
             page = LivePage(server, author=author, clock=clock, review=None if one else folder, bench=bench)
         except BaseException:

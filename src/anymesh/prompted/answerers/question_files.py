@@ -26,7 +26,7 @@ from anymesh.types.exchange import Picture
 NAME = "files"  # model name in keys and transcripts, the same for every folder
 FORMAT = "anymesh-question-1"
 QUESTION, ANSWER, REFUSED, SCHEMA, WORDS = "question.json", "answer.json", "refused.md", "schema.json", "question.md"
-SHEET, CHECK, OWNER, SUGGESTION = "sheet.png", "check.npz", "object.json", "suggestion.json"
+SHEET, CHECK, OWNER, SUGGESTION, EARLIER = "sheet.png", "check.npz", "object.json", "suggestion.json", "earlier.json"
 LEAVE = "geometry"  # an answer.json with this word leaves the question to geometry
 LEFT = f"left to {LEAVE}"  # verdict on such a question
 LARGEST_ANSWER = 1_000_000  # [bytes]
@@ -93,6 +93,23 @@ class QuestionFolder:
         """Write the answer suggested by geometry."""
         with writing(self.path):
             write_whole(self.path / SUGGESTION, text.encode())
+
+    def earlier(self) -> str | None:
+        """Read the answer that was taken back; None if there is none."""
+        return self._text(EARLIER)
+
+    def write_earlier(self, text: str) -> None:
+        """Write an answer that is filled in when the question is asked again."""
+        with writing(self.path):
+            write_whole(self.path / EARLIER, text.encode())
+
+    def take_back(self) -> None:
+        """Open the question again, and keep its answer as the earlier one unless it was left to geometry."""
+        answer = self.answer()
+        if answer is not None and not is_left_to_geometry(answer):
+            self.write_earlier(answer)
+        (self.path / ANSWER).unlink(missing_ok=True)
+        self.accept()
 
     def refuse(self, reason: str) -> None:
         """Write the reason why the answer is not valid to refused.md."""

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import math
 import threading
+import time
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -22,23 +24,45 @@ WORDS = {
     "joints": "finding how they move",
     "export": "writing the files",
 }
+ITEMS = ("segment", "joints")  # stages that say what they work on
 CRASHED = "processing of this mesh ended unexpectedly ({}); it may need more memory than there is, or a library crashed"
+
+
+@dataclass(frozen=True)
+class StageState:
+    """A stage of the work in words. seconds: how long it has taken, None before it begins; over: whether it is done."""
+
+    words: str
+    seconds: float | None
+    over: bool
+
+
+def warm_pool() -> ChildPool:
+    """Return a pool whose child imports already what the work needs, so that a mesh is seen at once."""
+    pool = _pool()
+    pool.warm("anymesh.viewer.intake.work", "anymesh.pipeline", "anymesh.loading")
+    return pool
+
+
+def _pool() -> ChildPool:
+    return ChildPool(1, ChildLimits(seconds=math.inf, memory=0))
 
 
 class ArticulationWork:
     """One run of `articulate`.
 
     `mesh`: the placed mesh, once it is loaded; `error`: why it failed, in words; `done`: whether the asset is in the folder
-    `out`.
+    `out`. pool: of `warm_pool`, which ends with the work.
     """
 
-    def __init__(self, mesh: Path, out: Path, **options: Any) -> None:
+    def __init__(self, mesh: Path, out: Path, pool: ChildPool | None = None, **options: Any) -> None:
         self.out = out
         self.mesh: Mesh | None = None
         self.error: str | None = None
         self.done = self.cancelled = False
         self.stage, self.item, self.share = "start", "", 0.0
-        self._pool = ChildPool(1, ChildLimits(seconds=math.inf, memory=0))
+        self._began = {"start": time.monotonic()}  # stage -> when it began [s]
+        self._pool = pool or _pool()
         self._thread = threading.Thread(target=self._run, args=({"mesh": mesh, "out": out, **options},), daemon=True)
         self._thread.start()
 
@@ -56,7 +80,19 @@ class ArticulationWork:
     def words(self) -> str:
         """Description of the current stage."""
         stage = WORDS.get(self.stage, self.stage)
-        return f"{stage} ({self.item})" if self.item and self.stage in ("segment", "joints") else stage
+        return f"{stage} ({self.item})" if self.item and self.stage in ITEMS else stage
+
+    @property
+    def stages(self) -> list[StageState]:
+        """The stages in order, with the time that each has taken."""
+        began = [self._began.get(name) for name in STAGES]
+        states = []
+        for k, (name, begin) in enumerate(zip(STAGES, began, strict=True)):
+            end = next((b for b in began[k + 1 :] if b is not None), None)
+            words = f"{WORDS[name]}: {self.item}" if self.item and name == self.stage and name in ITEMS else WORDS[name]
+            seconds = None if begin is None else (end or time.monotonic()) - begin
+            states.append(StageState(words, seconds, begin is not None and (end is not None or self.done)))
+        return states
 
     def cancel(self) -> None:
         """End the work immediately."""
@@ -80,6 +116,7 @@ class ArticulationWork:
             (self.mesh,) = fields
             return
         self.stage, self.item, done, total = fields
+        self._began.setdefault(self.stage, time.monotonic())
         begin, end = STAGES.get(self.stage, (self.share, self.share))
         self.share = max(self.share, begin + (end - begin) * min(done / max(total, 1), 1.0))
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,7 @@ from anymesh.viewer.questions.scene_ import QuestionScene, closer_view
 
 WAITING = "Geometry is working out a suggestion; you need not wait for it."
 SUGGESTED = "Filled in as geometry would answer; change what is wrong."
+AGAIN = "Filled in as you answered before; change what is wrong."
 
 
 def find_open_question(folder: Path) -> QuestionFolder | None:
@@ -58,11 +60,27 @@ class OpenQuestion:
         if form is None:
             return None
         asked = cls(folder, form)
-        asked.take_suggestion()
+        if not asked._take_earlier():
+            asked.take_suggestion()
         refusal = folder.refusal()
         if refusal is not None:
             asked.note = " ".join(refusal.removeprefix("# Refused").split())
         return asked
+
+    def _take_earlier(self) -> bool:
+        """Fill in the answer that was taken back; return whether there is one."""
+        text = self.folder.earlier()
+        if text is None:
+            return False
+        with suppress(ValueError, TypeError, LookupError, AttributeError):
+            self.form.fill(json.loads(text))
+            self.note, self._suggested = AGAIN, True
+        return self._suggested
+
+    def keep(self) -> None:
+        """Keep what a person has entered, for when the question is asked again."""
+        if self.form.touched:
+            self.folder.write_earlier(json.dumps(self.form.answer()))
 
     def take_suggestion(self) -> bool:
         """Fill in geometry's suggestion once available, unless the person has started; return whether it became available."""
@@ -100,7 +118,8 @@ class AskDesk:
         self._scene, self._panel = QuestionScene(page.server), AskPanel(page.gui, page.act)
         self._folder, self._mesh = Path(), None
         self._asked: OpenQuestion | None = None
-        self._count, self._leave_rest, self._began = 0, False, 0.0
+        self._given: list[tuple[QuestionFolder, bool]] = []  # answered in this run, and whether by the person
+        self._leave_rest, self._began = False, 0.0
         page.server.scene.on_click()(lambda event: page.act(lambda: self._clicked(event)))
 
     @property
@@ -108,24 +127,64 @@ class AskDesk:
         """Whether a question is on the page."""
         return self._asked is not None
 
+    @property
+    def can_go_back(self) -> bool:
+        """Whether the person has answered a question of this run."""
+        return any(by_person for _, by_person in self._given)
+
+    @property
+    def mesh(self) -> Mesh | None:
+        """The mesh that is drawn."""
+        return self._mesh
+
     def begin(self, folder: Path) -> None:
         """Start with the questions that a run writes to a folder."""
         self.end()
-        self._folder, self._count, self._leave_rest = folder, 0, False
+        self._folder, self._given = folder, []
 
     def end(self) -> None:
         """Remove everything from the page."""
-        self._asked, self._mesh = None, None
-        self._panel.close()
+        self.stop()
+        self._mesh, self._leave_rest = None, False
         self._scene.clear()
 
+    def stop(self) -> None:
+        """Close the open question, keep what was entered in it, and leave the mesh."""
+        if self._asked is not None:
+            self._asked.keep()
+            self._asked.folder.mark(outdated=True)
+            self._close()
+
+    def restart(self) -> None:
+        """Ask all questions of this run again, with the answers filled in."""
+        self.stop()
+        while self._given:
+            self._take_back()
+        self._leave_rest = False
+
+    def go_back(self) -> None:
+        """Open the last question that the person answered again; what was left to geometry after it is asked again."""
+        self.stop()
+        while self.can_go_back:
+            folder, by_person = self._take_back()
+            if by_person:
+                self._asked = OpenQuestion.of(folder.mark(outdated=False))
+                break
+        self._leave_rest = False
+        self._show()
+
+    def _take_back(self) -> tuple[QuestionFolder, bool]:
+        folder, by_person = self._given.pop()
+        folder.take_back()
+        return folder.mark(outdated=True), by_person
+
     def show_mesh(self, mesh: Mesh) -> bool:
-        """Draw the mesh of the run; return whether it is new."""
-        new = self._mesh is not mesh
-        if new:
-            self._mesh = mesh
-            self._scene.show_mesh(mesh)
-        return new
+        """Draw the mesh of the run; return whether it differs from the drawn one."""
+        if self._mesh is mesh or _equal(self._mesh, mesh):
+            return False
+        self._mesh = mesh
+        self._scene.show_mesh(mesh)
+        return True
 
     def look(self) -> None:
         """Show a new question, or apply geometry's suggestion to the open one."""
@@ -149,10 +208,10 @@ class AskDesk:
         folder = find_open_question(self._folder)
         if folder is None:
             return
-        self._count += 1
         asked = OpenQuestion.of(folder)
         if asked is None or self._leave_rest:
             folder.write_answer(LEAVE)
+            self._given.append((folder, False))
             return
         self._asked = asked
         self._show()
@@ -169,7 +228,7 @@ class AskDesk:
                 lambda event: azimuth_of(event.client.camera),
             )
             self._follow_form()
-            self._panel.show(self._asked.form, self._count, self._asked.note, choices)
+            self._panel.show(self._asked.form, len(self._given) + 1, self._asked.note, choices)
 
     def _follow_form(self) -> None:
         """Draw the current state of the form."""
@@ -213,7 +272,17 @@ class AskDesk:
         self._leave()
 
     def _done(self) -> None:
+        if self._asked is not None:
+            self._given.append((self._asked.folder, True))
+        self._close()
+
+    def _close(self) -> None:
         self._asked = None
         self._panel.close()
         if self._mesh is not None:
             self._scene.show_mesh(self._mesh)
+
+
+def _equal(a: Mesh | None, b: Mesh) -> bool:
+    """Return whether two meshes are the same one, loaded twice."""
+    return a is not None and np.array_equal(a.vertices, b.vertices) and np.array_equal(a.faces, b.faces)

@@ -15,6 +15,7 @@ from anymesh.prompted.questions.prompting import ArrowTable, MotionTable, PartSh
 from anymesh.rendering.marks import axis_line
 from anymesh.rendering.viewpoints import away
 from anymesh.types import JointType, Mesh
+from anymesh.viewer.looks import FROM_Y_UP, has_looks, is_drawable, mesh_glb, with_base_colors
 from anymesh.viewer.questions.forms import SPLIT, ArrowsForm, Form, MarksForm, MotionsForm, PartsForm, PointsForm
 from anymesh.viewer.scene import Color, color_of, surface
 
@@ -163,10 +164,13 @@ class QuestionScene:
         self._marks, self._moving, self._shown = {}, None, None
 
     def show_mesh(self, mesh: Mesh) -> None:
-        """Draw only the mesh."""
+        """Draw only the mesh, with its materials."""
         self._take(mesh)
         self.clear()
-        self._add(mesh, np.arange(len(mesh.faces)), REST)
+        if is_drawable(mesh) and has_looks(mesh):
+            self._keep(self._scene.add_glb(self._name(), mesh_glb(with_base_colors(mesh)), wxyz=FROM_Y_UP, cast_shadow=False))
+        else:
+            self._add(mesh, np.arange(len(mesh.faces)), REST)
 
     def _take(self, mesh: Mesh) -> None:
         if self._mesh is not mesh:
