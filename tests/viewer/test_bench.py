@@ -49,7 +49,7 @@ def test_a_mesh_is_worked_on_shown_corrected_and_downloaded(page):
     assert page.bench._bar.value == 30
     work.finish()
     until(lambda: page._download.visible)
-    assert not page.bench._cancel.visible
+    until(lambda: not page.bench._cancel.visible)
     page.act(lambda: (page.select("door"), page.correct(FlipSign("door"))))
     sent = []
     page.act(lambda: page.download(SimpleNamespace(send_file_download=lambda *a, **k: sent.append(a))))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Callable
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -13,12 +14,13 @@ import numpy as np
 from anymesh.correcting import Correction
 from anymesh.errors import AnymeshError
 from anymesh.formats.packed import zip_bytes
+from anymesh.pipeline.results import JointVerdict, verdict
 from anymesh.types import Asset, Joint, JointType
 from anymesh.viewer.correct_ import CorrectionTools, CorrectPanel
 from anymesh.viewer.intake.bench_ import Workbench, WorkbenchFolders
 from anymesh.viewer.intake.welcome import contents, title
 from anymesh.viewer.looks import has_looks
-from anymesh.viewer.panels import Page, head, joint_table, scale_of
+from anymesh.viewer.panels import SMALL, Page, badge, head, joint_table, scale_of
 from anymesh.viewer.review_ import ReviewPanel
 from anymesh.viewer.scene import swayed
 from anymesh.viewer.scene_ import SceneView
@@ -37,6 +39,7 @@ class PlayPanel:
         self._page, gui = page, page.gui
         self._made: list[tuple[Any, ...]] | None = None
         self._sliders: dict[str, Any] = {}
+        self._doubts: list[Any] = []
         self._chosen = False  # whether a person has chosen between materials and colours of parts
         with tab:
             self._all = gui.add_checkbox("Play all", False, hint="Space")
@@ -52,6 +55,7 @@ class PlayPanel:
                 self._axes = gui.add_checkbox("Axes and limits", True)
                 self._collision = gui.add_checkbox("Collision shapes", False)
                 self._inertia = gui.add_checkbox("Inertia", False, hint="Boxes of even density with the mass and moments")
+                self._explode = gui.add_slider("Exploded", 0.0, 1.0, 0.01, 0.0)
             self._explode.on_update(_by_hand(lambda: page.act(self._set_explode)))
             for box in (self._textures, self._axes, self._collision, self._inertia):
                 box.on_update(_by_hand(lambda: page.act(self._set_shown)))
@@ -61,13 +65,14 @@ class PlayPanel:
     def refresh(self, session: Session) -> None:
         """Update the sliders for the joints of the displayed asset."""
         asset = session.shown
-        made = [(j.name, j.child, j.type, j.limits) for j in asset.joints]
-        if made != self._made:
-            self._made = made
-            for slider in self._sliders.values():
-                slider.remove()
+        made = [(j, verdict(asset.segmentation, j, asset.warnings)) for j in asset.joints if j.type is not JointType.FIXED]
+        if [(j.name, j.child, j.type, j.limits, j.confidence, v) for j, v in made] != self._made:
+            self._made = [(j.name, j.child, j.type, j.limits, j.confidence, v) for j, v in made]
+            for control in (*self._sliders.values(), *self._doubts):
+                control.remove()
             with self._joints:
-                self._sliders = {j.name: self._slider(session, j) for j in asset.joints if j.type is not JointType.FIXED}
+                self._doubts = []
+                self._sliders = {j.name: self._row(session, j, v) for j, v in made}
         self._why.content = joint_table(asset)
 
     def choose_looks(self, asset: Asset) -> None:
@@ -80,13 +85,20 @@ class PlayPanel:
         if self._all.value != playing:
             self._all.value = playing
 
+    def _row(self, session: Session, joint: Joint, found: JointVerdict) -> Any:
+        """Add the slider of a joint, below a line on why it is not sure."""
+        if found.word != "sure":
+            line = f"{badge(joint.confidence, found.word)} {escape(found.word)}: {escape(found.why)}"
+            self._doubts.append(self._page.gui.add_html(f"<div {SMALL}>{line}</div>"))
+        return self._slider(session, joint)
+
     def _slider(self, session: Session, joint: Joint) -> Any:
         scale, unit = scale_of(joint)
         low, high = (scale * v for v in (joint.limits or (-np.pi, np.pi)))
         at = float(np.clip(scale * session.positions.get(joint.name, 0.0), low, high))
         slider = self._page.gui.add_slider(
             f"{joint.child} {unit}", min=round(low, 2), max=round(high, 2), step=round((high - low) / STEPS, 4) or 1e-3,
-            initial_value=round(at, 2), hint=f"{joint.name}, confidence {joint.confidence:.2f}: {joint.reason}",
+            initial_value=round(at, 2),
         )  # fmt: skip
 
         def moved() -> None:
@@ -116,6 +128,13 @@ class PlayPanel:
         view.textured, view.axes = self._textures.value, self._axes.value
         view.collision, view.inertia = self._collision.value, self._inertia.value
         self._page.refresh()
+
+
+def saved_line(unsaved: int, saved: str) -> str:
+    """Return HTML that says whether corrections are saved. unsaved: their number; saved: what the last save wrote."""
+    if unsaved:
+        return f'<div {SMALL}><b style="color:#b35c00">{unsaved} correction{"s" * (unsaved != 1)} not saved</b> (Ctrl-S)</div>'
+    return f'<div {SMALL}><span style="color:#2b8a3e">✓ {escape(saved)}</span></div>' if saved else ""
 
 
 def _by_hand(what: Any) -> Any:
@@ -149,10 +168,12 @@ class LivePage:
         self._buttons.on_click(
             lambda event: self.act({"Undo": self.undo, "Redo": self.redo, "Save": self.save}[event.target.value])
         )
+        self._state = self.gui.add_html("")
+        self._saved = ""  # what the last save wrote
         self._download = self.gui.add_button("Download zip", hint="The asset with all its files; saves corrections first")
         self._download.on_click(lambda event: self.act(lambda: self.download(event.client)))
         tabs = self.gui.add_tab_group()
-        self._of_asset = (self._buttons, self._download, tabs)  # hidden while there is no asset
+        self._of_asset = (self._buttons, self._state, self._download, tabs)  # hidden while there is no asset
         first = None if review is None else tabs.add_tab("Review")
         self.play = PlayPanel(self, tabs.add_tab("Play"))
         correct = tabs.add_tab("Correct")
@@ -170,7 +191,7 @@ class LivePage:
         """Show the asset of an output folder. Raise OutputError if there is none."""
         with self._lock:
             self.session = Session(folder, self._author, self._clock)
-            self.playing = None
+            self.playing, self._saved = None, ""
             self.view.look_at(self.session.asset.mesh)
             self.play.choose_looks(self.session.asset)
             self.refresh()
@@ -218,11 +239,11 @@ class LivePage:
             except AnymeshError as error:
                 self.show_message(str(error), bad=True)
 
-    def show_message(self, text: str, *, bad: bool = False) -> None:
+    def show_message(self, text: str, title: str = "Done", *, bad: bool = False) -> None:
         """Show a message in every tab."""
         for client in self.server.get_clients().values():
             client.add_notification(
-                "Not done" if bad else "Done", text, auto_close_seconds=MESSAGE_SECONDS, color="red" if bad else "green"
+                "Not done" if bad else title, text, auto_close_seconds=MESSAGE_SECONDS, color="red" if bad else "green"
             )
 
     def refresh(self) -> None:
@@ -243,7 +264,8 @@ class LivePage:
             asset = self.session.asset
             self._title.content = title(asset.name, asset.mesh, contents(asset))
             unsaved = max(len(self.session.history.done), 1) if self.session.unsaved else 0
-            self._head.content = head(self.session.asset, unsaved=unsaved, note=self.view.note(), tool=self.tools.hint)
+            self._head.content = head(asset, unsaved=0, note=self.view.note(), tool=self.tools.hint)
+            self._state.content = saved_line(unsaved, self._saved)
 
     def correct(self, correction: Correction) -> None:
         """Apply a correction to the displayed asset."""
@@ -265,8 +287,9 @@ class LivePage:
     def save(self) -> None:
         if self.session is not None:
             self.session.save()
+            self._saved = f"Saved at {self._clock()[11:16]} to {self.session.folder}"
             self.refresh()
-            self.show_message(f"saved to {self.session.folder}")
+            self.show_message(f"All files are written to {self.session.folder}", "Saved")
 
     def escape(self) -> None:
         """Leave the current tool, preview and chosen faces; if there are none, clear the selection."""

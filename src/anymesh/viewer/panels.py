@@ -14,6 +14,7 @@ import numpy as np
 
 from anymesh.correcting import Correction
 from anymesh.names import confidence_word
+from anymesh.pipeline.results import verdict
 from anymesh.rendering.preview import extent
 from anymesh.types import Asset, Joint, JointType
 from anymesh.viewer.scene import color_of
@@ -23,9 +24,9 @@ COLORS = {"sure": "#2b8a3e", "check": "#b35c00", "guess": "#c92a2a"}  # green, a
 SMALL = 'style="font-size:0.8em;line-height:1.35;padding:0 0.8em 0.4em;overflow-wrap:anywhere"'
 
 
-def badge(value: float) -> str:
-    """Return a confidence as a coloured label."""
-    word = confidence_word(value)
+def badge(value: float, word: str = "") -> str:
+    """Return a confidence as a coloured label. word: sure, check or guess, by default as the confidence says."""
+    word = word or confidence_word(value)
     style = f"background:{COLORS[word]};color:#fff;border-radius:3px;padding:0 0.35em"
     return f'<span title="{word}" style="{style}">{value:.2f}</span>'
 
@@ -52,14 +53,15 @@ def _line(color: str, text: str) -> str:
 def joint_table(asset: Asset) -> str:
     """Return a table of joints with range, confidence and reason, least confident first."""
     number = {p.name: k for k, p in enumerate(asset.segmentation.parts)}
-    rows = [_row(number[j.child], j) for j in sorted(asset.joints, key=lambda j: j.confidence)]
+    rows = [_row(number[j.child], j, asset) for j in sorted(asset.joints, key=lambda j: j.confidence)]
     return f"<div {SMALL}>{''.join(rows) or 'Nothing moves.'}</div>"
 
 
-def _row(number: int, joint: Joint) -> str:
+def _row(number: int, joint: Joint, asset: Asset) -> str:
     r, g, b = color_of(number)
     dot = f'<span style="display:inline-block;width:0.8em;height:0.8em;border-radius:2px;background:rgb({r},{g},{b})"></span>'
-    summary = f"{badge(joint.confidence)} {dot} <b>{escape(joint.child)}</b> {joint.type} {escape(extent(joint))}"
+    found = verdict(asset.segmentation, joint, asset.warnings)
+    summary = f"{badge(joint.confidence, found.word)} {dot} <b>{escape(joint.child)}</b> {joint.type} {escape(extent(joint))}"
     return f'<div style="margin-top:0.3em">{summary}<br><span style="opacity:0.75">{escape(joint.reason)}</span></div>'
 
 
@@ -73,7 +75,7 @@ def selection(asset: Asset, name: str | None) -> str:
     joint = next((j for j in asset.joints if j.child == name), None)
     if joint is None:
         return f"<div {SMALL}>{summary}<br>The root: it carries the others and has no joint.</div>"
-    return f"<div {SMALL}>{summary}{_row(number, joint)}parent: {escape(joint.parent)}</div>"
+    return f"<div {SMALL}>{summary}{_row(number, joint, asset)}parent: {escape(joint.parent)}</div>"
 
 
 def scale_of(joint: Joint) -> tuple[float, str]:

@@ -20,6 +20,7 @@ from anymesh.formats.zipped import MAX_UNPACKED_BYTES
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.loading.files import FORMATS
+from anymesh.pipeline.results import verdict
 from anymesh.rendering.drawing import Window, draw, light_on, material_colors, render_target, sample, smoothed
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.types import Asset, JointType, Mesh
@@ -139,7 +140,9 @@ def title(name: str, mesh: Mesh, details: str = "") -> str:
 
 
 def contents(asset: Asset) -> str:
-    """Return in words how many parts and moving joints an asset has."""
-    moving = sum(j.type is not JointType.FIXED for j in asset.joints)
+    """Return in words how many parts and moving joints an asset has, and how many of these are to be checked."""
+    moving = [j for j in asset.joints if j.type is not JointType.FIXED]
     parts = len(asset.segmentation.parts)
-    return f"{parts} part{'s' * (parts != 1)}, {moving} moving joint{'s' * (moving != 1)}"
+    doubtful = sum(verdict(asset.segmentation, j, asset.warnings).word != "sure" for j in moving)
+    words = f"{parts} part{'s' * (parts != 1)}, {len(moving)} moving joint{'s' * (len(moving) != 1)}"
+    return words + (f", {doubtful} to check" if doubtful else "")
