@@ -18,6 +18,7 @@ from anymesh.prompted.answerers.question_files import QuestionStore
 from anymesh.prompted.models.vision import Request
 from anymesh.prompted.questions.saved_question import pack_question
 from anymesh.viewer.intake import bench_
+from anymesh.viewer.intake.welcome import examples
 from anymesh.viewer.server_ import serve
 
 pytest.importorskip("viser", reason="needs the extra view")
@@ -167,6 +168,132 @@ def test_one_question_or_all_that_follow_are_left_to_geometry(page):
     second, _ = put(folder, "motions")
     until(lambda: second.answer() == "geometry")
     assert not page.bench._desk.busy
+
+
+def answered(page, kind):
+    """Answer the open question as geometry would."""
+    desk = page.bench._desk
+    until(lambda: desk.busy and desk._asked.folder.kind == kind)
+    until(lambda: desk._asked._suggested)
+    page.act(desk._answer)
+    until(lambda: not desk.busy)
+
+
+def kind_of(name):
+    return questions()[name][0].kind
+
+
+def test_back_asks_the_last_question_again_and_the_work_starts_from_there(page):
+    folder, desk = asking(page), page.bench._desk
+    assert not page.bench._back.visible
+    recognized, answer = put(folder, "recognize")
+    answered(page, kind_of("recognize"))
+    marks, _ = put(folder, "marks")
+    answered(page, kind_of("marks"))
+    points, _ = put(folder, "points")
+    until(lambda: desk.busy and page.bench._back.visible)
+    page.act(page.bench.go_back)
+    assert FakeWork.made[0].cancelled
+    assert FakeWork.made[1].options == FakeWork.made[0].options
+    assert desk._asked.folder.path == marks.path
+    assert "as you answered before" in desk._asked.note
+    assert desk._asked.form.groups["door", 1] == {1}
+    assert marks.answer() is None
+    page.act(page.bench.go_back)
+    assert desk._asked.folder.path == recognized.path
+    assert desk._asked.form.category == "cabinet"
+    assert not page.bench._back.visible
+    desk._asked.form.category = "wardrobe"
+    page.act(desk._answer)
+    assert json.loads(recognized.answer()) == answer | {"category": "wardrobe"}
+    FakeWork.made[-1].mesh = MESH
+    put(folder, "marks")  # the run asks it again, as it depends on the first answer
+    until(lambda: desk.busy and desk._asked.folder.path == marks.path)
+    assert desk._asked.form.groups["door", 1] == {1}
+    assert QuestionStore(folder).find(points.key).outdated
+
+
+def test_what_was_left_to_geometry_is_asked_again_after_back(page):
+    folder, desk = asking(page), page.bench._desk
+    kinds, _ = put(folder, "kinds")
+    until(lambda: desk.busy)
+    page.act(desk._leave_all)
+    motions, _ = put(folder, "motions")
+    until(lambda: motions.answer() == "geometry")
+    page.act(page.bench.go_back)
+    assert desk._asked.folder.path == kinds.path
+    assert motions.answer() is None
+    answered(page, kind_of("kinds"))
+    FakeWork.made[-1].mesh = MESH
+    put(folder, "motions")
+    until(lambda: desk.busy and desk._asked.folder.path == motions.path)
+
+
+def test_cancel_keeps_the_mesh_and_fills_the_answers_in_at_the_next_start(page):
+    folder, desk = asking(page), page.bench._desk
+    put(folder, "recognize")
+    answered(page, kind_of("recognize"))
+    put(folder, "marks")
+    until(lambda: desk.busy and desk._asked._suggested)
+    desk._asked.form.set_marks("1 2")
+    page.act(page.bench.cancel)
+    assert not desk.busy
+    assert desk.mesh is MESH
+    assert len(desk._scene._nodes) == 1
+    assert page.bench._again.visible
+    assert "kept" in said(page)
+    page.act(page.bench.start_again)
+    assert len(FakeWork.made) == 2
+    assert FakeWork.made[1].options["answerer"] == FakeWork.made[0].options["answerer"]
+    FakeWork.made[1].mesh = MESH
+    put(folder, "recognize")
+    until(lambda: desk.busy)
+    assert "as you answered before" in desk._asked.note
+    assert desk._asked.form.category == "cabinet"
+    page.act(desk._answer)
+    put(folder, "marks")
+    until(lambda: desk.busy and desk._asked.folder.kind == kind_of("marks"))
+    assert desk._asked.form.groups["door", 1] == {1, 2}
+    FakeWork.made[1].finish()
+    until(lambda: page.session is not None)
+    page.act(page.bench.start_again)  # also once it is done
+    assert len(FakeWork.made) == 3
+    assert FakeWork.made[2].out != FakeWork.made[1].out
+
+
+def test_the_mesh_is_shown_while_the_stages_are_listed(page):
+    assert "Drop a mesh here" in page.bench._over.content
+    upload(page)
+    assert "Drop a mesh here" not in page.bench._over.content
+    work = FakeWork.made[0]
+    until(lambda: "✓" in said(page) and "3 s" in said(page))
+    work.mesh = MESH
+    until(lambda: page.bench._desk.mesh is MESH and page.view._ground._nodes)
+    until(lambda: "anymesh-title" in page.bench._over.content)
+    work.finish()
+    until(lambda: page.session is not None)
+    until(lambda: "moving joints" in page._title.content)
+
+
+def test_examples_are_on_the_empty_page_and_start_by_a_click(page):
+    for example in examples():
+        repository = Path(__file__).parents[2] / "examples" / "meshes" / example.path.name
+        assert example.path.read_bytes() == repository.read_bytes()
+        assert example.picture in page.bench._over.content
+        assert example.picture.startswith("data:image/png;base64,")
+    page.act(lambda: page.bench._try("toy car"))
+    assert FakeWork.made[0].asked_mesh.name == "toy_car.glb"
+
+
+def test_saving_is_said_on_the_page(page):
+    upload(page)
+    FakeWork.made[0].finish()
+    until(lambda: page.session is not None)
+    assert page._state.content == ""
+    page.act(lambda: (page.select("door"), page.correct(FlipSign("door"))))
+    assert "1 correction not saved" in page._state.content
+    page.act(page.save)
+    assert "Saved at 12:00" in page._state.content
 
 
 def test_a_defect_is_told_and_the_page_goes_on(page, monkeypatch):

@@ -85,10 +85,10 @@ class PlayPanel:
         if self._all.value != playing:
             self._all.value = playing
 
-    def _row(self, session: Session, joint: Joint, found: JointVerdict) -> Any:
+    def _row(self, session: Session, joint: Joint, outcome: JointVerdict) -> Any:
         """Add the slider of a joint, below a line on why it is not sure."""
-        if found.word != "sure":
-            line = f"{badge(joint.confidence, found.word)} {escape(found.word)}: {escape(found.why)}"
+        if outcome.word != "sure":
+            line = f"{badge(joint.confidence, outcome.word)} {escape(outcome.word)}: {escape(outcome.why)}"
             self._doubts.append(self._page.gui.add_html(f"<div {SMALL}>{line}</div>"))
         return self._slider(session, joint)
 

@@ -60,8 +60,8 @@ def joint_table(asset: Asset) -> str:
 def _row(number: int, joint: Joint, asset: Asset) -> str:
     r, g, b = color_of(number)
     dot = f'<span style="display:inline-block;width:0.8em;height:0.8em;border-radius:2px;background:rgb({r},{g},{b})"></span>'
-    found = verdict(asset.segmentation, joint, asset.warnings)
-    summary = f"{badge(joint.confidence, found.word)} {dot} <b>{escape(joint.child)}</b> {joint.type} {escape(extent(joint))}"
+    outcome = verdict(asset.segmentation, joint, asset.warnings)
+    summary = f"{badge(joint.confidence, outcome.word)} {dot} <b>{escape(joint.child)}</b> {joint.type} {escape(extent(joint))}"
     return f'<div style="margin-top:0.3em">{summary}<br><span style="opacity:0.75">{escape(joint.reason)}</span></div>'
 
 

@@ -11,6 +11,7 @@ from importlib.resources import files
 from typing import Any
 
 from anymesh.names import confidence_word
+from anymesh.pipeline.results import verdict
 from anymesh.rendering.preview import extent
 from anymesh.types import Asset, Exchange, Joint, JointType
 from anymesh.viewer.report_asset import ReportEntry, picture_key
@@ -26,10 +27,10 @@ def html_text(text: object) -> str:
     return escape("".join(c if c.isprintable() or c in "\n\t" else "\ufffd" for c in str(text)))
 
 
-def sure(confidence: float) -> str:
-    """Return a confidence with a coloured mark."""
-    word = confidence_word(confidence)
-    return f'<span class="mark {word}" title="confidence {confidence:.2f}: {word}">{confidence:.2f}</span>'
+def sure(confidence: float, word: str = "") -> str:
+    """Return a confidence with a coloured mark. word: sure, check or guess, by default as the confidence says."""
+    word = word or confidence_word(confidence)
+    return f'<span class="mark {word}" aria-label="confidence {confidence:.2f}: {word}">{confidence:.2f} {word}</span>'
 
 
 def warnings(entry: ReportEntry) -> str:
@@ -46,7 +47,7 @@ def sliders(asset: Asset) -> str:
     Values are in rad or m; the script shows degrees and cm.
     """
     number = _numbers(asset)
-    rows = [_slider(k, joint, color_class(number[joint.child])) for k, joint in enumerate(asset.joints)]
+    rows = [_slider(k, joint, color_class(number[joint.child]), asset) for k, joint in enumerate(asset.joints)]
     return f'<ol class="joints">{"".join(rows)}</ol>' if rows else '<p class="none">Nothing moves.</p>'
 
 
@@ -61,7 +62,7 @@ def joint_table(asset: Asset) -> str:
             html_text(j.type),
             f"{html_text(j.parent)} → {html_text(j.child)}",
             html_text(extent(j)),
-            sure(j.confidence),
+            sure(j.confidence, verdict(asset.segmentation, j, asset.warnings).word),
             html_text(j.reason),
         )
         for j in asset.joints
@@ -115,15 +116,18 @@ def _question(number: int, exchange: Exchange, entry: ReportEntry) -> str:
     )
 
 
-def _slider(number: int, joint: Joint, color: str) -> str:
-    name, travel = html_text(joint.name), html_text(extent(joint))
-    reason, kind = html_text(joint.reason), html_text(joint.type)
-    head = f'<i class="chip {color}"></i><b title="{reason}">{name}</b> <small>{kind} {travel}</small>'
+def _slider(number: int, joint: Joint, color: str, asset: Asset) -> str:
+    """Return a row without tooltips, which would cover the slider; why a joint is not sure is said in words."""
+    name, travel, kind = html_text(joint.name), html_text(extent(joint)), html_text(joint.type)
+    outcome = verdict(asset.segmentation, joint, asset.warnings)
+    why = f'<p class="why">{html_text(outcome.why)}</p>' if outcome.why else ""
+    mark = sure(joint.confidence, outcome.word)
+    head = f'<i class="chip {color}"></i><b>{name}</b> <small>{kind} {travel}</small>{mark}{why}'
     if joint.type is JointType.FIXED:
-        return f'<li data-joint="{number}">{head}{sure(joint.confidence)}</li>'
+        return f'<li data-joint="{number}">{head}</li>'
     low, high = joint.limits or (-3.141592653589793, 3.141592653589793)
     return (
-        f'<li data-joint="{number}">{head}{sure(joint.confidence)}<div><button class="play" title="Play {name}" '
+        f'<li data-joint="{number}">{head}<div><button class="play" '
         f'aria-label="Play {name}">▶</button><input type="range" min="{low!r}" max="{high!r}" step="any" value="0" '
         f'aria-label="{name}"><output></output></div></li>'
     )

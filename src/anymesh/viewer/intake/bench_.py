@@ -47,7 +47,7 @@ class WorkbenchFolders:
 
 
 @dataclass(frozen=True)
-class Job:
+class MeshJob:
     """A mesh to work on. root: folder with the files that it refers to; questions: folder of the questions about it."""
 
     mesh: Path
@@ -63,7 +63,7 @@ class Workbench:
         self._numbers = itertools.count(1)
         self._pool: ChildPool | None = warm_pool()
         self._work: ArticulationWork | None = None
-        self._job: Job | None = None  # the last one
+        self._job: MeshJob | None = None  # the last one
         self._message = ("", False)
         self._shows: str | None = None
         gui.add_html(script())
@@ -93,7 +93,7 @@ class Workbench:
         """Start the work on a mesh. Raise CorrectionError if another is in progress, or if corrections would be lost."""
         self._check_free()
         self._page.shut()
-        self._job = Job(mesh, root, self._questions(mesh))
+        self._job = MeshJob(mesh, root, self._questions(mesh))
         self._desk.begin(self._job.questions)
         self._begin(self._job)
 
@@ -120,7 +120,7 @@ class Workbench:
         if self._page.session is not None and self._page.session.unsaved:
             raise CorrectionError("save the corrections of this one first (Ctrl-S), or undo them (Ctrl-Z)")
 
-    def _begin(self, job: Job) -> None:
+    def _begin(self, job: MeshJob) -> None:
         options: dict[str, Any] = {"root": job.root, "up": self._up}
         if self._who == MYSELF:
             options |= {"answerer": f"{FILES}{job.questions}", "wait": True, "suggest": True}
