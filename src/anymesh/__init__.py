@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from anymesh.applications.scan import scan
     from anymesh.applications.scenes import articulate_scene
     from anymesh.checking import check_asset
+    from anymesh.correcting.editable import load
     from anymesh.finishing.finishing import finish
     from anymesh.pipeline import articulate, export_asset, joints, segment
     from anymesh.types import Asset, Joint, JointType, Mesh, Part, Segmentation
@@ -44,6 +45,7 @@ __all__ = [
     "finish",
     "generate",
     "joints",
+    "load",
     "make_env",
     "plan",
     "scan",
@@ -56,6 +58,10 @@ def __getattr__(name: str) -> object:
     if name in API:
         return resolve(f"{API[name]}:{name}")
     raise AttributeError(f"module 'anymesh' has no attribute {name!r}")
+
+
+def __dir__() -> list[str]:
+    return sorted(__all__)
 
 
 def load_ipython_extension(shell: object) -> None:

@@ -86,6 +86,7 @@ API = {
     "scan": "applications.scan",
     "articulate_scene": "applications.scenes",
     "show": "viewer.report",
+    "load": "correcting.editable",
 }
 
 # The commands, in the order of `anymesh --help`.
@@ -100,6 +101,7 @@ COMMANDS = {
     "models": "prompted.command_line:models",
     "mcp": "agents.command_line:mcp",
     "skill": "agents.command_line:skill",
+    "correct": "correcting.command_line:correct",
     "finish": "finishing.command_line:finish",
     "scan": "applications.scan.command_line:scan",
     "report": "viewer.command_line:report",

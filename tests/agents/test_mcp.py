@@ -112,12 +112,20 @@ async def finish(agent: Agent, work: Path, told: dict[str, Any], pictures: list[
     upper = {"correction": "set_limits", "part": "lid", "lower": 0.0, "upper": 1.0}
     corrected, _ = await agent.call("correct", asset="out", corrections=[upper])
     assert (corrected["joints"][0]["limits"], corrected["corrections"]) == ([0.0, 1.0], 1)
+    given = [{"part": "lid", "motion": 1, "limits": "0,1rad"}, {"part": "lid_joint", "right": True}]
+    told, _ = await agent.call("correct", asset="out", corrections=given)
+    assert [(r["part"], r["change"], r["confidence"]) for r in told["changed"]] == [("lid", "changed", 1.0)]
+    refused, _ = await agent.call("correct", asset="out", corrections=[{"part": "lid", "flip": True}, {"part": "li"}])
+    assert "valid" in refused["error"] or "parts are" in refused["error"]
+    told, _ = await agent.call("correct", asset="out", corrections=[{"undo": True}, {"undo": True}])
+    assert (told["joints"][0]["limits"], told["corrections"]) == ([0.0, 1.0], 1)
     report, _ = await agent.call("check", asset="out")
     assert (report["ok"], report["path"]) == (True, "out")
     made, _ = await agent.call("export", asset="out", formats="urdf,mjcf", archive="out.zip")
     assert set(made["files"]) >= {"urdf", "mjcf"}
     assert (work / "out.zip").stat().st_size > 1000
-    motions, _ = await agent.call("inspect", asset="out", motions_of="lid")
+    motions, _ = await agent.call("inspect", asset="out", motions_of="lid", regions_of="base")
+    assert (motions["motions"][0]["number"], motions["regions"][0]["number"]) == (1, 1)
     assert motions["motions"][0]["correction"] == "choose_motion"
     assert motions["joints"][0]["limits"] == [0.0, 1.0]
 

@@ -17,6 +17,7 @@ from pydantic import ConfigDict, Field
 
 from anymesh import __version__
 from anymesh.agents.tools import AgentTools, Places, ToolResult, skill_text
+from anymesh.correcting.operations import operations_text
 from anymesh.errors import AnymeshError
 
 Content = list[str | Image]
@@ -25,10 +26,10 @@ AssetPath = Annotated[str, Field(description="Folder of an asset that articulate
 OutPath = Annotated[str, Field(description="Folder to write the asset to; open questions lie in OUT.questions beside it.")]
 Formats = Annotated[str, Field(description="Of urdf, mjcf, usd, sdf, glb, with commas between.")]
 CORRECTIONS = (
-    "Each is an object with `correction` and its fields; lengths in metres, angles in radians, in the asset frame: "
-    "{change_type, part, type}, {set_axis, part, axis, origin}, {flip_sign, part}, {set_limits, part, lower, upper}, "
-    "{change_parent, part, parent}, {merge_parts, part, into}, {split_components, part}, {relabel, part, label}, "
-    "{rename, part, name}, or a motion as `inspect` lists it with motions_of ({choose_motion, ...})."
+    "Each is an object with `part` (a part or joint) and operations, as of `anymesh correct`, such as "
+    '{"part": "door_1", "motion": 3, "limits": "0,110", "copies": true}; operations, in the order in which they apply:\n'
+    f"{operations_text()}\n"
+    "Or a motion as `inspect` lists it with motions_of ({correction: choose_motion, ...})."
 )
 
 
@@ -156,9 +157,10 @@ def _looking(work: ToolRunner) -> tuple[Callable[..., Any], ...]:
         ctx: Context,
         asset: AssetPath,
         motions_of: Annotated[str | None, Field(description="A part whose free motions are listed, likeliest first.")] = None,
+        regions_of: Annotated[str | None, Field(description="A part whose regions are listed, which may be new parts.")] = None,
     ) -> Content:
         """Show parts, joints, confidence and warnings of an asset, and its preview picture."""
-        return await work.run(ctx, work.tools.inspect, asset, motions_of=motions_of)
+        return await work.run(ctx, work.tools.inspect, asset, motions_of=motions_of, regions_of=regions_of)
 
     async def check(
         ctx: Context,

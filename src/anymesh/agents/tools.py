@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
 from anymesh import pipeline
 from anymesh.checking import check_asset
-from anymesh.correcting import CorrectionError, open_asset, ranked_motions, save_asset
+from anymesh.correcting import CorrectionError, EditableAsset, History, corrections_of, open_asset, ranked_motions
+from anymesh.correcting.editable import now
 from anymesh.correcting.history import pack_entry, unpack_log
+from anymesh.correcting.listing import motion_rows, named_part, region_rows
 from anymesh.errors import InputError, OpenQuestionError, OptionError, OutputError
 from anymesh.pipeline.options import FILES
 from anymesh.prompted.answerers.file_answerer import open_in, record_answer
@@ -133,8 +133,8 @@ class AgentTools:
             {"answered": self._places.shown(folder), "checked_whole": recorded.whole, "next": "call `articulate` again"}
         )
 
-    def inspect(self, asset: str, *, motions_of: str | None = None) -> ToolResult:
-        """Return parts, joints, confidence and warnings of an asset, with its preview; optionally a part's free motions."""
+    def inspect(self, asset: str, *, motions_of: str | None = None, regions_of: str | None = None) -> ToolResult:
+        """Return parts, joints, confidence and warnings of an asset, its preview, and a part's motions or regions if asked."""
         folder = self._places.inside(asset)
         record = read_json(folder / "asset.json")
         if record is None:
@@ -149,8 +149,14 @@ class AgentTools:
             "files": record["files"],
             "corrections": len(open_asset(folder).history.done),
         }
+        edited = open_asset(folder).history.asset
         if motions_of is not None:
-            summary["motions"] = [_packed(motion) for motion in ranked_motions(open_asset(folder).history.asset, motions_of)]
+            part = named_part(edited, motions_of)
+            motions = ranked_motions(edited, part)
+            rows = motion_rows(edited, part, motions)
+            summary["motions"] = [row | _packed(m) for row, m in zip(rows, motions, strict=True)]
+        if regions_of is not None:
+            summary["regions"] = region_rows(edited, regions_of)
         preview = folder / "preview.png"
         pictures = (
             ((f"preview of {asset}: at rest, parts coloured, opened", preview.read_bytes()),) if preview.is_file() else ()
@@ -158,19 +164,24 @@ class AgentTools:
         return ToolResult(summary, pictures)
 
     def correct(self, asset: str, corrections: Sequence[Mapping[str, Any]]) -> ToolResult:
-        """Apply corrections, all or none, and write the asset again."""
-        folder = self._places.inside(asset, below=True)
-        opened = open_asset(folder)
-        now = datetime.now(UTC).isoformat(timespec="seconds")
+        """Apply operations or corrections, all or none, and write the asset again; also return what changed.
+
+        Each is an object with `part` and the operations of `anymesh correct`, or a correction as `inspect` lists motions.
+        """
+        opened = open_asset(self._places.inside(asset, below=True))
         if not corrections:
-            raise CorrectionError("found no correction; each is an object such as {'correction': 'flip_sign', 'part': 'door'}")
-        if strange := [c for c in corrections if not isinstance(c, Mapping)]:
-            raise CorrectionError(f"a correction is an object, found {str(strange[0])[:60]!r}")
+            raise CorrectionError("found no correction; each is an object such as {'part': 'door', 'flip': true}")
         history = opened.history
-        for entry in unpack_log([{"how": "by numbers", **c, "time": now, "author": AUTHOR} for c in corrections]):
-            history = history.do(entry)
-        save_asset(dataclasses.replace(opened, history=history))
-        return self.inspect(asset)
+        for c in corrections:
+            if not isinstance(c, Mapping):
+                raise CorrectionError(f"a correction is an object, found {str(c)[:60]!r}")
+            history = _corrected(history, c)
+        edited = EditableAsset(opened, AUTHOR)
+        edited.take(history)
+        changed = edited.changes()
+        edited.save()
+        shown = self.inspect(asset)
+        return ToolResult({"changed": changed, **shown.record}, shown.pictures)
 
     def check(self, asset: str, engines: Sequence[str] = ("mujoco",)) -> ToolResult:
         """Check an asset for use in simulators, and drive every joint."""
@@ -217,6 +228,16 @@ class AgentTools:
             caption = f"all {len(single)} pictures; `open_questions` with pictures='all' gives each at full size"
             return ToolResult(record, ((caption, (question.path / "sheet.png").read_bytes()),))
         return ToolResult(record, tuple((f"{k}. {p.caption}".strip(), p.png) for k, p in enumerate(single, 1)))
+
+
+def _corrected(history: History, correction: Mapping[str, Any]) -> History:
+    """Apply one object of an agent."""
+    if "correction" in correction:
+        return history.do(*unpack_log([{"how": "by numbers", **correction, "time": now(), "author": AUTHOR}]))
+    operations = {name: value for name, value in correction.items() if name != "part"}
+    if operations.pop("undo", False):
+        history = history.undo()
+    return history.do_all(corrections_of(history.asset, correction.get("part"), operations), now(), AUTHOR)
 
 
 def _packed(motion: Any) -> dict[str, Any]:

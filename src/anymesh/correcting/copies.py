@@ -26,7 +26,8 @@ from anymesh.types import Asset, Joint, JointType
 MAX_SIZE_DIFFERENCE = 0.03  # of area and spread, relative
 MAX_MISFIT = 0.01  # mean distance of the surfaces of copies, over the diagonal
 PLACE_REACH = 0.25  # of the diagonal: how far around a part its place is compared
-MISFIT_STEP = 0.01  # of the diagonal: places that differ by less fit alike
+DETAIL = 0.1  # share of the surface that tells poses apart, such as a handle
+MISFIT_STEP = 0.004  # of the diagonal: poses that differ by less fit alike
 MAX_BOX_RATIO = 0.5  # axis-aligned boxes of copies differ by less; a protrusion such as a handle is not of the box
 NEIGHBOURS = 0.1  # of the diagonal: maximum gap between leaves whose free edges meet
 MAX_ROW_OFFSET = 0.25  # of the offset: share along the opening direction, as for rows in articulation/part_contexts.py
@@ -84,10 +85,11 @@ class _Surface:
         near = abs(self.area - other.area) <= MAX_SIZE_DIFFERENCE * self.area
         return near and bool((np.abs(self.spread - other.spread) <= MAX_SIZE_DIFFERENCE * self.spread.max()).all())
 
-    def misfit(self, other: _Surface, T: Float[np.ndarray, "4 4"]) -> float:
-        """Return the mean distance of the surfaces under a pose, over the diagonal."""
+    def misfit(self, other: _Surface, T: Float[np.ndarray, "4 4"], share: float = 1.0) -> float:
+        """Return the mean distance of the surfaces under a pose, over the diagonal. share: of the points, the farthest ones."""
         there, back = _moved(T, self.points), _moved(np.linalg.inv(T), other.points)
-        return float(max(other.tree.distance(there).mean(), self.tree.distance(back).mean())) / max(self.diagonal, 1e-300)
+        off = (np.sort(d)[-max(1, int(share * len(d))) :] for d in (other.tree.distance(there), self.tree.distance(back)))
+        return max(float(d.mean()) for d in off) / max(self.diagonal, 1e-300)
 
     def poses(self, other: _Surface) -> list[Float[np.ndarray, "4 4"]]:
         """Return the poses that map this surface onto the other: shifts first, then mirror images, then the others."""
@@ -157,8 +159,8 @@ class _Place:
         self._around = points[around][:: max(1, int(around.sum()) // SAMPLES)]
 
     def best(self, other: _Surface, poses: Sequence[np.ndarray]) -> Float[np.ndarray, "4 4"]:
-        """Return the pose with the best surroundings; of equal ones the first, but leaves that meet are mirror images."""
-        steps = np.round([self._misfit(T) / MISFIT_STEP for T in poses])
+        """Return the pose that fits best with its surroundings; of equal ones the first, but leaves that meet are mirrored."""
+        steps = np.round([(self._own.misfit(other, T, DETAIL) + self._misfit(T)) / MISFIT_STEP for T in poses])
         best = [T for T, step in zip(poses, steps, strict=True) if step == steps.min()]
         return next((T for T in best if self._leaves(other, T)), best[0])
 

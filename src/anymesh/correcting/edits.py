@@ -276,7 +276,17 @@ def rename(asset: Asset, c: Rename) -> Asset:
     others = {p.name.lower() for p in asset.segmentation.parts if p.name != c.part}
     if legal_name(c.name) != c.name or c.name.lower() in others or c.name == c.part:
         raise CorrectionError(f"the name {c.name!r} is not legal, or taken; valid is {_new_name(asset, c.name)!r}")
-    return _with_part(asset, c.part, replace(part, name=c.name))
+    return _with_joint_name(_with_part(asset, c.part, replace(part, name=c.name)), f"{c.part}{JOINT}", f"{c.name}{JOINT}")
+
+
+def _with_joint_name(asset: Asset, old: str, new: str) -> Asset:
+    """Rename a joint that is named after its part, and its warnings, unless another joint has the new name."""
+    if new.lower() in {j.name.lower() for j in asset.joints}:
+        return asset
+    joints = tuple(replace(j, name=new) if j.name == old else j for j in asset.joints)
+    begin, now = UNSURE.format(old), UNSURE.format(new)
+    warnings = tuple(now + w.removeprefix(begin) if w.startswith(begin) else w for w in asset.warnings)
+    return replace(asset, joints=joints, warnings=warnings)
 
 
 def _with_part(asset: Asset, name: str, part: Part) -> Asset:

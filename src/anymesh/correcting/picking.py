@@ -86,27 +86,36 @@ class PickedPart:
         """Return the face indices of the picked superpoint; if the part is dense, of the surface up to its creases."""
         if len(self.faces) > DENSE:
             return self.faces[self._region(SMOOTH)]
+        label = self.patches()
+        return self.faces[label == label[self._at]]
+
+    def patches(self) -> Int[np.ndarray, " n"]:
+        """Return the patch of each face of the part: superpoints, or if the part is dense, the surface up to its creases."""
+        if len(self.faces) > DENSE:
+            return self._connected(SMOOTH)
         ends = self._mesh.vertices[self._mesh.faces[self.faces]].reshape(-1, 3, 3)
         length = np.linalg.norm(
             self._mesh.vertices[self._pairs.vertices[:, 0]] - self._mesh.vertices[self._pairs.vertices[:, 1]], axis=1
         )
         area = np.maximum(self._mesh.face_areas[self.faces], 1e-300)
-        label = superpoints(self._normals, area, self._pairs.faces, length, STRENGTH) if len(ends) > 1 else np.zeros(1, int)
-        return self.faces[label == label[self._at]]
+        return superpoints(self._normals, area, self._pairs.faces, length, STRENGTH) if len(ends) > 1 else np.zeros(1, int)
 
     def _region(self, most: float, *, of_first: bool = False) -> np.ndarray:
         """Return which faces are connected to the picked one across edges that bend by less than `most` [rad].
 
         of_first: also require normals within `most` of the picked face's, so that a plane does not continue around a corner.
         """
+        label = self._connected(most, of_first=of_first)
+        return label == label[self._at]
+
+    def _connected(self, most: float, *, of_first: bool = False) -> np.ndarray:
         a, b = self._pairs.faces.T
         level = np.einsum("ij,ij->i", self._normals[a], self._normals[b]) > np.cos(most)
         if of_first:
             like = self._normals @ self._normals[self._at] > np.cos(most)
             like[self._at] = True
             level &= like[a] & like[b]
-        label = label_connected(len(self.faces), self._pairs.faces[level])
-        return label == label[self._at]
+        return label_connected(len(self.faces), self._pairs.faces[level])
 
     def _border(self, region: np.ndarray) -> np.ndarray:
         """Return the end points (m, 2, 3) of the edges between a region and its complement."""
