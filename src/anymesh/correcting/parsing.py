@@ -108,7 +108,7 @@ def _text(value: Any) -> str:
     return text
 
 
-class Plan:
+class CorrectionPlan:
     """Corrections in the making. asset: as it is after them; part: that the operations are about, None if there is none."""
 
     def __init__(self, asset: Asset, part: str | None) -> None:
@@ -144,7 +144,7 @@ def corrections_of(asset: Asset, part: str | None, operations: Mapping[str, Any]
     unknown = [name for name in operations if name not in HANDLERS]
     if unknown:
         raise CorrectionError(f"unknown operation {unknown[0]!r}; valid are {', '.join(HANDLERS)}")
-    plan = Plan(asset, part)
+    plan = CorrectionPlan(asset, part)
     for operation in OPERATIONS:
         value = operations.get(operation.name)
         if value is not None and value is not False and operation.name in HANDLERS:
@@ -154,7 +154,7 @@ def corrections_of(asset: Asset, part: str | None, operations: Mapping[str, Any]
     return tuple(plan.corrections)
 
 
-def _merge(plan: Plan, value: Any, _: Mapping[str, Any]) -> None:
+def _merge(plan: CorrectionPlan, value: Any, _: Mapping[str, Any]) -> None:
     names = BETWEEN.split(_text(value).strip())
     if len(names) != 2:
         raise CorrectionError(f"merge takes two parts: the first is merged into the second; found {_text(value)[:80]!r}")
@@ -163,7 +163,7 @@ def _merge(plan: Plan, value: Any, _: Mapping[str, Any]) -> None:
     plan.part = second if plan.part == first else plan.part
 
 
-def _new_part(plan: Plan, value: Any, operations: Mapping[str, Any]) -> None:
+def _new_part(plan: CorrectionPlan, value: Any, operations: Mapping[str, Any]) -> None:
     region, faces = operations.get("region"), operations.get("faces")
     if (region is None) == (faces is None):
         raise CorrectionError("a new part needs the numbers of its regions, or those of its faces")
@@ -178,7 +178,7 @@ def _new_part(plan: Plan, value: Any, operations: Mapping[str, Any]) -> None:
     plan.part = plan.asset.segmentation.parts[-1].name
 
 
-def _only_with_new_part(_: Plan, __: Any, operations: Mapping[str, Any]) -> None:
+def _only_with_new_part(_: CorrectionPlan, __: Any, operations: Mapping[str, Any]) -> None:
     if operations.get("new_part") is None:
         raise CorrectionError("regions and faces are those of a new part; also give the name of the new part")
 
@@ -195,13 +195,13 @@ def _numbers(value: Any, what: str, most: int, least: int) -> Int[np.ndarray, " 
     return np.concatenate(runs)
 
 
-def _parent(plan: Plan, value: Any, _: Mapping[str, Any]) -> None:
+def _parent(plan: CorrectionPlan, value: Any, _: Mapping[str, Any]) -> None:
     parent = named_part(plan.asset, _text(value))
     if plan.joint.parent != parent:
         plan.add(ChangeParent(plan.name, parent))
 
 
-def _motion(plan: Plan, value: Any, _: Mapping[str, Any]) -> None:
+def _motion(plan: CorrectionPlan, value: Any, _: Mapping[str, Any]) -> None:
     motions = ranked_motions(plan.asset, plan.name)
     text = _text(value)
     if not (text.isascii() and text.isdigit() and 1 <= int(text) <= len(motions)):
@@ -211,7 +211,7 @@ def _motion(plan: Plan, value: Any, _: Mapping[str, Any]) -> None:
     plan.add(motions[int(text) - 1])
 
 
-def _type(plan: Plan, value: Any, _: Mapping[str, Any]) -> None:
+def _type(plan: CorrectionPlan, value: Any, _: Mapping[str, Any]) -> None:
     type_ = TYPES.get(_text(value).strip().lower())
     if type_ is None:
         raise CorrectionError(f"{_text(value)[:40]!r} is not a type of joint; valid are {', '.join(JointType)}")
@@ -219,13 +219,13 @@ def _type(plan: Plan, value: Any, _: Mapping[str, Any]) -> None:
         plan.add(ChangeType(plan.name, JointType(type_)))
 
 
-def _axis(plan: Plan, value: Any, operations: Mapping[str, Any]) -> None:
+def _axis(plan: CorrectionPlan, value: Any, operations: Mapping[str, Any]) -> None:
     through = operations.get("through")
     origin = plan.joint.origin if through is None else _point(through)
     plan.add(SetAxis(plan.name, vector(axis_of(value)), vector(origin)))
 
 
-def _through(plan: Plan, value: Any, operations: Mapping[str, Any]) -> None:
+def _through(plan: CorrectionPlan, value: Any, operations: Mapping[str, Any]) -> None:
     if operations.get("axis") is None:
         plan.add(SetAxis(plan.name, vector(plan.joint.axis), vector(_point(value)), "through a point"))
 
@@ -234,11 +234,11 @@ def _point(value: Any) -> Float[np.ndarray, " 3"]:
     return _triple(value, "a point", "three lengths such as 0.3,0,50cm", "m")
 
 
-def _limits(plan: Plan, value: Any, _: Mapping[str, Any]) -> None:
+def _limits(plan: CorrectionPlan, value: Any, _: Mapping[str, Any]) -> None:
     plan.add(SetLimits(plan.name, *limits_of(value, plan.joint.type, plan.asset.mesh.diagonal)))
 
 
-def _press(plan: Plan, value: Any, _: Mapping[str, Any]) -> None:
+def _press(plan: CorrectionPlan, value: Any, _: Mapping[str, Any]) -> None:
     travel = abs(limits_of(value, JointType.PRISMATIC, plan.asset.mesh.diagonal)[1])
     slides = plan.joint.type is JointType.PRISMATIC
     axis = inwards(plan.asset, plan.name, plan.joint.axis if slides else None)
@@ -264,30 +264,30 @@ def inwards(asset: Asset, part: str, axis: Float[np.ndarray, " 3"] | None) -> Fl
     return ways[max(opposite, key=lambda k: seen[opposite[k]] - seen[k])]
 
 
-def _copies(plan: Plan, _: Any, operations: Mapping[str, Any]) -> None:
+def _copies(plan: CorrectionPlan, _: Any, operations: Mapping[str, Any]) -> None:
     if not operations.get("remove"):
         plan.add(*same_for_copies(plan.asset, plan.name))
 
 
-def _remove(plan: Plan, _: Any, operations: Mapping[str, Any]) -> None:
+def _remove(plan: CorrectionPlan, _: Any, operations: Mapping[str, Any]) -> None:
     copies = copies_of(plan.asset, plan.name, regions=False) if operations.get("copies") else ()
     plan.add(RemovePart(plan.name), *(RemovePart(copy.part) for copy in copies))
     plan.part = None
 
 
-def _label(plan: Plan, value: Any, _: Mapping[str, Any]) -> None:
+def _label(plan: CorrectionPlan, value: Any, _: Mapping[str, Any]) -> None:
     if plan.asset.segmentation.parts[part_number(plan.asset, plan.name)].label != _text(value).strip():
         plan.add(Relabel(plan.name, _text(value)))
 
 
-def _rename(plan: Plan, value: Any, _: Mapping[str, Any]) -> None:
+def _rename(plan: CorrectionPlan, value: Any, _: Mapping[str, Any]) -> None:
     name = _text(value)
     if name != plan.name:
         plan.add(Rename(plan.name, name))
         plan.part = name
 
 
-HANDLERS: dict[str, Callable[[Plan, Any, Mapping[str, Any]], None]] = {
+HANDLERS: dict[str, Callable[[CorrectionPlan, Any, Mapping[str, Any]], None]] = {
     "merge": _merge,
     "split": lambda plan, _, __: plan.add(SplitComponents(plan.name)),
     "new_part": _new_part,
