@@ -52,3 +52,8 @@ def test_the_lines_say_what_was_found_and_what_to_do() -> None:
     table = dict(rows())
     assert len(table) == len(CASES) + len(LIBRARIES) + len(set(OTHERS.values()))
     assert [line for line in table.values() if "; " not in line or "\n" in line or "{" in line] == []
+
+
+def test_the_page_has_the_same_lines() -> None:
+    page = (Path(__file__).parents[2] / "docs" / "your-mesh.md").read_text(encoding="utf-8").replace("`", "")
+    assert [row for row in rows() if "| {} | {} |".format(*row).replace("`", "") not in page] == []
