@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float, UInt8
 
-from anymesh.articulation.estimate import estimate_joints, part_motions
+from anymesh.articulation.estimate import estimate_joint, part_motions
 from anymesh.evaluation.drawing import contact_sheet, draw_joint
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.evaluation.record import what_is_off
@@ -56,11 +56,11 @@ def picture(failure: Failure, sample: EvalSample) -> tuple[UInt8[np.ndarray, "H 
     rows = failure.rows
     segmentation = sample.segmentation()
     whole = object_shape(sample.mesh, labels=sample.labels)
-    motions = [
-        (i, over, context, replace(motions, scores=failure.scores) if i == rows.number else motions)
-        for i, over, context, motions in part_motions(whole, segmentation)
-    ]
-    joints = estimate_joints(segmentation, motions)
+    names = [part.name for part in segmentation.parts]
+    joints = tuple(
+        estimate_joint(context, names[i], names[over], replace(m, scores=failure.scores) if i == rows.number else m)
+        for i, over, context, m in part_motions(whole, segmentation)
+    )
     result = next(j for j in score(sample, segmentation, joints).joints if j.part == rows.part)
     true = next(j for j in sample.truth.joints if j.child == rows.part)
     predicted = next(j for j in joints if j.child == rows.part)

@@ -35,13 +35,13 @@ def fail_joints(monkeypatch, told: str) -> None:
         except ValueError as error:
             raise ValueError(told) from error
 
-    monkeypatch.setattr(solving, "estimate_joints", fails)
+    monkeypatch.setattr(solving, "vetted_joints", fails)
 
 
 def counted(monkeypatch) -> list[str]:
     """The stages that are computed from now on."""
     made: list[str] = []
-    for name in ("segment_parts", "estimate_joints"):
+    for name in ("segment_parts", "vetted_joints"):
         true = getattr(solving, name)
         monkeypatch.setattr(solving, name, lambda *a, true=true, name=name, **k: made.append(name) or true(*a, **k))
     return made
@@ -79,7 +79,7 @@ def test_finished_stages_are_kept_and_a_rerun_resumes_after_them(folder, monkeyp
     assert not (folder / "out").exists()
     made = counted(monkeypatch)
     assert run(CALL) == 0
-    assert made == ["estimate_joints"]
+    assert made == ["vetted_joints"]
     assert (folder / "out" / "asset.json").exists()
     assert not list(folder.glob(".out.*"))
 

@@ -51,16 +51,6 @@ class PartMotions(NamedTuple):
     motions: CandidateMotions
 
 
-def estimate_joints(segmentation: Segmentation, motions: Iterable[PartMotions]) -> tuple[Joint, ...]:
-    """Return one joint for every part but the root, in the order of the parts.
-
-    motions: as from `part_motions`.
-    """
-    parts = segmentation.parts
-    joints = {m.part: estimate_joint(m.context, parts[m.part].name, parts[m.parent].name, m.motions) for m in motions}
-    return tuple(joints[i] for i in sorted(joints))
-
-
 def part_motions(
     whole: ObjectShape, segmentation: Segmentation, deadline: Deadline | None = None, most_swept: int = MAX_SWEPT
 ) -> Iterator[PartMotions]:

@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from anymesh.articulation.vetting import TOLERANCE, stops
 from anymesh.checking.content import Content, rigid_groups
 from anymesh.checking.engines import sweep_in
 from anymesh.checking.engines.driving import SweepReport, resisting_of
@@ -15,7 +16,7 @@ from anymesh.checking.engines.robot import MOVING, Robot, RobotJoint
 from anymesh.checking.report import Finding, Severity, failure, warning
 from anymesh.errors import InputError, MissingExtraError
 from anymesh.geometry.simplify_ import simplify
-from anymesh.geometry.sweep import Obstacles, free_amount
+from anymesh.geometry.sweep import Obstacles
 from anymesh.geometry.topology import triangle_set_of
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.types import JointType, Motion
@@ -26,13 +27,7 @@ UNIT = 1e-3  # tolerance of the length of an axis
 MAX_RANGE_RAD = 4 * np.pi  # [rad] a wider range of a hinge is probably in degrees, or a mistake
 TRAVEL = 3.0  # share of the object's diagonal; a longer slide is probably in other units
 DIRECTION = "direction"
-TOLERANCE = 0.01  # share of the object's diagonal: allowed penetration
-STOPPED = 0.5  # share of the distance to a limit; a link that stops earlier penetrates its parent
-FREER = 2.0  # ratio of the free distances from which the axis counts as reversed
-OVERTRAVEL = 0.1  # share of the way that is blocked; a joint that moves further the other way is not reversed
-STEPS = 24
 FACES = 20_000
-MIN_MOTION_RATIO = 0.02  # share of the object's diagonal or of a turn; shorter motions are not checked
 MOTION = "motion"
 
 
@@ -127,25 +122,15 @@ def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: Triangle
     axis = T[:3, :3] @ joint.axis / np.linalg.norm(joint.axis)
     slides = joint.type == "prismatic"
     motion = Motion(JointType.PRISMATIC if slides else JointType.REVOLUTE, axis, T[:3, 3], joint.name)
-    obstacles = Obstacles(part, rest, TOLERANCE * content.diagonal)
+    own = rigid_groups(content.robot)[joint.child]
+    alone = content.at_rest(own) if own != content.robot.carried(joint.child) else np.zeros((0, 3, 3))
+    link = triangle_set_of(simplify(alone, FACES)) if len(alone) else None
     unit = "m" if slides else "rad"
-    for sign, most in ((1, joint.range[1]), (-1, -joint.range[0])):
-        if most < MIN_MOTION_RATIO * (content.diagonal if slides else 2 * np.pi):
-            continue
-        free = free_amount(obstacles, motion, sign, most, STEPS)[0]
-        if free >= STOPPED * most:
-            continue
-        other = free_amount(obstacles, motion, -sign, most, STEPS)[0]
-        way = "positive" if sign > 0 else "negative"
-        problem = f"{way} motion drives {joint.child!r} into {joint.parent!r} after {free:.3g} of {most:.3g} {unit}"
-        covered = -joint.range[0] if sign > 0 else joint.range[1]  # what the joint may move the other way already
-        reversed_ = other >= FREER * free and other >= STOPPED * most and covered <= OVERTRAVEL * most
-        alone = content.at_rest(rigid_groups(content.robot)[joint.child])  # without what it carries, such as a latch
-        if reversed_ and len(alone):
-            latch = Obstacles(triangle_set_of(simplify(alone, FACES)), rest, TOLERANCE * content.diagonal)
-            reversed_ = free_amount(latch, motion, sign, most, STEPS)[0] < STOPPED * most
-        if reversed_:
-            free_for = f"the opposite direction is free for {other:.3g} {unit}"
+    for stop in stops(Obstacles(part, rest, TOLERANCE * content.diagonal), motion, joint.range, content.diagonal, link):
+        way = "positive" if stop.sign > 0 else "negative"
+        problem = f"{way} motion drives {joint.child!r} into {joint.parent!r} after {stop.free:.3g} of {stop.most:.3g} {unit}"
+        if stop.reversed:
+            free_for = f"the opposite direction is free for {stop.other:.3g} {unit}"
             yield failure(DIRECTION, joint.name, f"{problem}; {free_for}, so the axis is reversed")
         else:
             yield warning(DIRECTION, joint.name, f"{problem}; the visible surfaces meet")

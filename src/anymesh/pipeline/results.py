@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -119,12 +120,18 @@ def segmentation_result(
 
 
 def joint_result(
-    joints: tuple[Joint, ...], answerer: str, warnings: tuple[str, ...] = (), exchanges: tuple[Exchange, ...] = ()
+    joints: tuple[Joint, ...],
+    answerer: str,
+    warnings: tuple[str, ...] = (),
+    exchanges: tuple[Exchange, ...] = (),
+    doubts: Mapping[str, str] = MappingProxyType({}),
 ) -> JointResult:
-    """Return the result of Stage B, with a warning for each joint of low confidence."""
-    unsure = tuple(
-        f"joint {j.name}: low confidence ({j.confidence:.2f}){PLEASE_CHECK}" for j in joints if j.confidence < LOW_CONFIDENCE
-    )
+    """Return the result of Stage B, with a warning for each joint that failed a test or has a low confidence.
+
+    doubts: what the tests found, by the child of the joint.
+    """
+    why = {j.child: f"low confidence ({j.confidence:.2f})" for j in joints if j.confidence < LOW_CONFIDENCE} | dict(doubts)
+    unsure = tuple(f"joint {j.name}: {why[j.child]}{PLEASE_CHECK}" for j in joints if j.child in why)
     return JointResult(joints, answerer, (*warnings, *unsure), exchanges)
 
 

@@ -11,8 +11,9 @@ from typing import Protocol
 import numpy as np
 from jaxtyping import Bool
 
-from anymesh.articulation.estimate import PartMotions, choose_motion, estimate_joints, part_motions, with_labels_of
+from anymesh.articulation.estimate import PartMotions, choose_motion, part_motions, with_labels_of
 from anymesh.articulation.rank_motions import label_of
+from anymesh.articulation.vetting import vetted_joints
 from anymesh.config import Config
 from anymesh.entry_points import PROMPTED_STAGES, STATED_JOINTS, STATED_PARTS, resolve
 from anymesh.geometry.boxes import straight_mesh, turned_back
@@ -69,8 +70,8 @@ class GeometryStages:
         self, segmentation: Segmentation, recognition: Recognition | None, progress: Progress = silent, grounded: bool = False
     ) -> JointResult:
         """Run Stage B."""
-        joints = estimate_joints(segmentation, self.motions(segmentation, progress))
-        return joint_result(joints, self.name, self.deadline.warnings())
+        vetted = vetted_joints(segmentation, self.motions(segmentation, progress))
+        return joint_result(vetted.joints, self.name, self.deadline.warnings(), doubts=vetted.doubts)
 
     def parts(self, progress: Progress = silent) -> Segmentation:
         """Return the parts found by geometry, computed once.

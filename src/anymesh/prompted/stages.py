@@ -115,7 +115,7 @@ class PromptedStages:
         reground = self._regrounding(questions, segmentation) if grounded and recognition is not None else None
         made = prompt_joints(questions, self._geometry.shape_for, segmentation, reground)
         warnings = (*answerer.warnings, *made.warnings, *self.deadline.warnings())
-        estimated = joint_result(made.joints, answerer.name, warnings, answerer.exchanges)
+        estimated = joint_result(made.joints, answerer.name, warnings, answerer.exchanges, made.doubts)
         return replace(estimated, segmentation=made.segmentation if made.segmentation is not segmentation else None)
 
     def _regrounding(self, questions: Questions, segmentation: Segmentation) -> Reground:

@@ -6,7 +6,7 @@ All parts are asked about together, so that an object takes one call per kind of
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from anymesh.articulation.estimate import joint_of
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import answered_range, away_from_closed, opening_as_answered
 from anymesh.articulation.rank_motions import PartMotionScores
+from anymesh.articulation.vetting import faults
 from anymesh.config import FACING_COSINE, Config
 from anymesh.geometry.surface import ObjectShape
 from anymesh.prompted.motions.cases import (
@@ -104,12 +105,14 @@ Reground = Callable[[Mapping[str, PartFit]], Segmentation | None]  # parts by na
 class PromptedJoints:
     """One joint for every part but the root, in the order of the parts.
 
-    segmentation: with the answered labels, and the parts as grounded again; warnings: contradictions between answers.
+    segmentation: with the answered labels, and the parts as grounded again; warnings: contradictions between answers; doubts:
+    what tests of the joints found, by the child's name.
     """
 
     joints: tuple[Joint, ...]
     segmentation: Segmentation
     warnings: tuple[str, ...] = ()
+    doubts: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)
@@ -174,7 +177,8 @@ def prompt_joints(
     questions.progress("joints", "limits", 3, 4)
     verify = questions.config.verify
     joints = tuple(_joint(c, chosen_motions.chosen[c.number], verify) for c in chosen_motions.cases)
-    return PromptedJoints(joints, chosen_motions.segmentation, contradictions(chosen_motions.cases, joints))
+    doubts = faults({c.name: c.context for c in chosen_motions.cases}, joints)
+    return PromptedJoints(joints, chosen_motions.segmentation, contradictions(chosen_motions.cases, joints), doubts)
 
 
 def _ask(
