@@ -48,6 +48,8 @@ def test_a_usual_box_of_each_closed_kind_weighs_what_is_usual():
         (("thing", "scene", "Chairs"), "chair"),
         (("fridge", "cabinet_2"), "fridge"),
         (("scissors",), "scissors"),
+        (("kitchencabinet",), "cabinet"),
+        (("kitchencounter_straight_A",), "kitchen_counter"),
         (("car", "toy_car"), "toy_car"),
         (("mini car", "car"), None),
         (("carpet",), None),

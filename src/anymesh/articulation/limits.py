@@ -181,7 +181,7 @@ def _answered_revolute(context: PartContext, c: Candidate, answered: Range) -> R
     lower, upper = -answered[0], answered[1]
     if max(c.opening, c.closing) < MIN_FREE_ANGLE_RAD:
         return (0.0 - lower, upper)
-    ahead, back = _free_within(context, c, lower, upper, 3 * FINE_STEPS)
+    ahead, back = free_within(context, c, lower, upper, 3 * FINE_STEPS)
     if ahead + back < MIN_HINGE_RANGE_RAD:
         return (0.0 - lower, upper)
     return (0.0 - back, ahead)
@@ -200,7 +200,7 @@ def _answered_prismatic(context: PartContext, c: Candidate, answered: Range) -> 
     depth = context.depth_in_parent(motion.axis)
     if c.slide_direction is SlideDirection.OUTWARDS and depth > MIN_DEPTH_IN_PARENT_RATIO * upper:
         upper = min(upper, depth)
-    ahead, back = _free_within(context, c, lower, upper, 2 * FINE_STEPS)
+    ahead, back = free_within(context, c, lower, upper, 2 * FINE_STEPS)
     if upper < lower and c.slide_direction is SlideDirection.OUTWARDS:
         back = min(lower, extent)
     if ahead + back < MIN_SLIDE_FREE_RATIO * (lower + upper):
@@ -208,7 +208,7 @@ def _answered_prismatic(context: PartContext, c: Candidate, answered: Range) -> 
     return (0.0 - back, ahead)
 
 
-def _free_within(context: PartContext, c: Candidate, lower: float, upper: float, steps: int) -> tuple[float, float]:
+def free_within(context: PartContext, c: Candidate, lower: float, upper: float, steps: int) -> tuple[float, float]:
     """Return the free motion ahead, up to `upper`, and back, up to `lower` [rad or m]."""
     motion = c.opening_motion
     obstacles = context.obstacles_of(motion)

@@ -67,14 +67,25 @@ def _kinds(rows: Sequence[dict[str, Any]]) -> dict[tuple[str, ...], Kind]:
 
 _DATA = json.loads(files("anymesh.kinds").joinpath("kinds.json").read_text(encoding="utf-8"))
 KINDS = _kinds(_DATA["kinds"])
+ONE_WORD = frozenset(words[0] for words in KINDS if len(words) == 1)
+ROOMS = tuple(_DATA["rooms"].split())
 PARTS: dict[str, Range] = {label: _floats(mass) for label, mass in _DATA["parts"].items()}
 
 
 def kind_of(*texts: str | None) -> Kind | None:
     """Return the kind that the first of some texts names that names one, such as a category and a name; None without one."""
-    known = [words_of(text) for text in texts if text]
+    known = [[part for word in words_of(text) for part in _apart(word)] for text in texts if text]
     smaller = any(SMALLER & set(words) for words in known)
     return next((kind for words in known if (kind := _last(words, smaller=smaller)) is not None), None)
+
+
+def _apart(word: str) -> list[str]:
+    """Return a room and a kind that are written as one word ("kitchencabinet") apart."""
+    for room in ROOMS:
+        rest = word.removeprefix(room)
+        if rest != word not in ONE_WORD and (rest in ONE_WORD or (room, rest) in KINDS):
+            return [room, rest]
+    return [word]
 
 
 def _last(words: list[str], *, smaller: bool) -> Kind | None:

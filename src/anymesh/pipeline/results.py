@@ -45,13 +45,13 @@ class RecognitionResult:
 
     def sized(self, loaded: LoadResult) -> LoadResult:
         """Return the loaded mesh in the answered size."""
-        if self.scale == 1:
+        if self.scale == 1 and not self.note:
             return loaded
         S = np.diag([self.scale] * 3 + [1.0])
         source = replace(
             loaded.source, T_asset_source=S @ loaded.source.T_asset_source, notes=(*loaded.source.notes, self.note)
         )
-        return replace(loaded, mesh=loaded.mesh.transformed(S), source=source)
+        return replace(loaded, mesh=loaded.mesh if self.scale == 1 else loaded.mesh.transformed(S), source=source)
 
 
 @dataclass(frozen=True, eq=False)

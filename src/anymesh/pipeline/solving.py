@@ -142,8 +142,8 @@ class StageAnswerer(Protocol):
     def recognize(self, *, sized: bool = False, metric: bool = False) -> RecognitionResult:
         """Recognize the object and its movable parts.
 
-        sized: the answered size sets the scale, unless the file states its unit (metric). In that case a contradicting size
-        gives a warning.
+        sized: the answered size sets the scale, unless the file states its unit (metric). A contradicting size that does not
+        set it gives a warning.
         """
         ...
 

@@ -98,7 +98,7 @@ def recognize(run: Run, loaded: Keyed[LoadResult], parts: str, *, sized: bool) -
     key = stage_key(RECOGNITION, previous=loaded.key, config=settings)
     recognized = run.answered(RECOGNITION, key, "recognize", lambda: solver.answers.recognize(sized=sized, metric=metric))
     final = recognized.sized(loaded.result)
-    return (solver if final is loaded.result else run.solver(final.mesh)), Keyed(recognized, key)
+    return (solver if final.mesh is loaded.result.mesh else run.solver(final.mesh)), Keyed(recognized, key)
 
 
 def find_parts(run: Run, solver: Solver, recognized: Keyed[RecognitionResult], parts: str) -> Keyed[SegmentationResult]:

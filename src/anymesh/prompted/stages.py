@@ -8,6 +8,7 @@ from functools import cached_property, partial
 from anymesh.articulation.estimate import stays_free
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.pipeline.solving import GeometryStages
+from anymesh.prompted.answerers.question_files import NAME as FILES
 from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer, reference_of
 from anymesh.prompted.grounding.cloud import seen_points
 from anymesh.prompted.grounding.ground import Ground, ground_by_masks, ground_exactly, ground_parts
@@ -17,7 +18,7 @@ from anymesh.prompted.grounding.sam_onnx_ import load_sam
 from anymesh.prompted.grounding.views import EXACT, MIN_RECOGNITION_PATCH_RATIO, SampledObject, inner_faces, sample_object
 from anymesh.prompted.motions.joints import Questions, Reground, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
-from anymesh.prompted.questions.recognition import answered_scale, ask_recognition
+from anymesh.prompted.questions.recognition import GIVEN, answered_scale, ask_recognition
 from anymesh.runtime import Progress, silent
 from anymesh.types import Picture, Segmentation
 from anymesh.types.motion import Recognition
@@ -61,16 +62,16 @@ class PromptedStages:
     def recognize(self, *, sized: bool = False, metric: bool = False) -> RecognitionResult:
         """Recognize the object and its movable parts by a visual answerer.
 
-        sized: the answered size sets the scale, unless the file states its unit (metric). In that case a contradicting size
-        gives a warning.
+        sized: the answered size sets the scale, unless the file states its unit (metric). A contradicting size that does not
+        set it gives a warning.
         """
         _ = self._ground  # report unusable weights before anything is asked
         answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._reference_parts))
         azimuths = [azimuth for azimuth, _ in self.config.directions]
         recognition = ask_recognition(self._view_pictures, answerer, self.config.category, self.config.parts_list, azimuths)
-        scale, note, doubt = (
-            answered_scale(recognition, float(self.mesh.extents.max()), metric=metric) if sized else (1.0, "", ())
-        )
+        kept = GIVEN if not sized else "the file's unit" if metric else ""
+        size, measured = float(self.mesh.extents.max()), answerer.name == FILES
+        scale, note, doubt = answered_scale(recognition, size, kept=kept, measured=measured)
         return RecognitionResult(recognition, answerer.name, scale, note, (*answerer.warnings, *doubt), answerer.exchanges)
 
     def _view_pictures(self) -> tuple[Picture, ...]:

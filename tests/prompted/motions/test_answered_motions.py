@@ -13,6 +13,7 @@ from made import EDGE, PULL, X, Y, Z, slide, turn
 from scenes import door, prism
 
 from anymesh.articulation.estimate import MAX_LATE_SWEPT, MAX_SWEPT, part_motions, stays_free
+from anymesh.articulation.evidence import sweep_candidates
 from anymesh.prompted.motions import lines
 from anymesh.prompted.motions.cases import PartCase, labels_by_name, make_cases, relabelled, unlabelled
 from anymesh.prompted.motions.joints import _joint, as_answered, normal_outwards
@@ -92,8 +93,29 @@ def test_the_normal_of_the_contact_is_taken_outwards(sign: float) -> None:
 )
 def test_the_type_of_a_joint_follows_from_the_motion_and_the_answer(best, endless, moves, verify, kind) -> None:
     case = replace(case_of("left"), answer=KindAnswer(ALONG, endless))
-    found = _joint(case, Choice(best, "so", 0.7, moves=moves), verify)
+    found, told = _joint(case, Choice(best, "so", 0.7, moves=moves), verify)
+    assert told == ""
     assert (found.type, found.confidence, found.reason, found.child) == (kind, 0.7, "so", case.name)
+
+
+@pytest.mark.parametrize(
+    ("name", "motion", "limits", "words"),
+    [
+        ("drawer", slide(-Y), (0.0, 0.1), ""),
+        ("drawer", slide(-Y), (0.0, 0.9), "0 to 90 cm was answered, 0 to "),
+        ("left", turn(-Z, (0.598, -0.012, 0)), (0.0, 1.0), ""),
+        ("left", turn(Z, (0.3, 0.2, 0)), (0.0, 1.0), "0 to 57.3 degrees was answered, it was kept, though geometry blocks it"),
+        ("left", turn(-Z, (0.598, -0.012, 0)), (0.0, 0.01), "the answer 0 to 0.573 degrees is no range"),
+    ],
+)
+def test_an_answered_range_that_is_not_free_is_told_and_lowers_the_confidence(name, motion, limits, words) -> None:
+    case = replace(case_of(name), recognized=RecognizedLabel("part", motion.kind, None, limits))
+    best = max(sweep_candidates(case.context, [("asked", motion)]), key=lambda c: c.outward)
+    joint, told = _joint(case, Choice(best, "so", 0.8), "motion")
+    assert words in told
+    assert bool(told) is bool(words)
+    assert (joint.confidence < 0.8) is ("was answered" in words and best.is_free)
+    assert not told or told.startswith(f"joint {joint.name}: ")
 
 
 STACK = {"base": [box((0, 0, 0), (2, 2, 0.2))], "low": [box((0.5, 0.5, 0.2), (1.5, 1.5, 1))]}

@@ -10,14 +10,22 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from anymesh.articulation.candidate_motions import SlideDirection
+from anymesh.articulation.candidate_motions import Candidate, SlideDirection
 from anymesh.articulation.estimate import joint_of
 from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.limits import answered_range, away_from_closed, opening_as_answered
+from anymesh.articulation.limits import (
+    FINE_STEPS,
+    answered_range,
+    away_from_closed,
+    free_within,
+    opening_as_answered,
+    pressed,
+)
 from anymesh.articulation.rank_motions import PartMotionScores
 from anymesh.articulation.vetting import faults
 from anymesh.config import FACING_COSINE, Config
 from anymesh.geometry.surface import ObjectShape
+from anymesh.pipeline.results import PLEASE_CHECK
 from anymesh.prompted.motions.cases import (
     PartCase,
     ask_each,
@@ -40,7 +48,14 @@ from anymesh.prompted.motions.lines import (
     with_more,
 )
 from anymesh.prompted.motions.offers import moves_as
-from anymesh.prompted.motions.verify import Choice, MotionQuestioner, answered_confidence, answers_a_line, choose_motions
+from anymesh.prompted.motions.verify import (
+    BLOCKED_RATIO,
+    Choice,
+    MotionQuestioner,
+    answered_confidence,
+    answers_a_line,
+    choose_motions,
+)
 from anymesh.prompted.pictures.visual_prompts import Shot, VisualPrompts
 from anymesh.prompted.questions.prompting import (
     ArrowTable,
@@ -57,6 +72,7 @@ from anymesh.types.motion import Recognition
 from anymesh.types.questions import VisualAnswerer
 
 MIN_GUIDED_SHARE = 0.4  # minimum share of the sideways directions in which an outward slide is guided
+MIN_KEPT = 0.9  # share of an answered range that is free; less gets a warning. Answers are round numbers
 INTO_POINTS = 8  # candidates for an axis into the surface, half of which stand for axes
 
 
@@ -176,9 +192,11 @@ def prompt_joints(
         chosen_motions = chosen_motions.with_changed(_ask(questions, shape_of, again, fits=False, only=set(wrong)))
     questions.progress("joints", "limits", 3, 4)
     verify = questions.config.verify
-    joints = tuple(_joint(c, chosen_motions.chosen[c.number], verify) for c in chosen_motions.cases)
+    made = [_joint(c, chosen_motions.chosen[c.number], verify) for c in chosen_motions.cases]
+    joints, changed = tuple(joint for joint, _ in made), tuple(warning for _, warning in made if warning)
     doubts = faults({c.name: c.context for c in chosen_motions.cases}, joints)
-    return PromptedJoints(joints, chosen_motions.segmentation, contradictions(chosen_motions.cases, joints), doubts)
+    warnings = (*contradictions(chosen_motions.cases, joints), *changed)
+    return PromptedJoints(joints, chosen_motions.segmentation, warnings, doubts)
 
 
 def _ask(
@@ -282,7 +300,8 @@ def _surface_directions(questions: Questions, cases: list[PartCase], segmentatio
     return {c.number: prismatic(tables[c.number].directions[rows[c.number]], c.context, "arrow picked") for c in sliding}
 
 
-def _joint(case: PartCase, choice: Choice, verify: str) -> Joint:
+def _joint(case: PartCase, choice: Choice, verify: str) -> tuple[Joint, str]:
+    """Return the joint of a part, and a warning if its limits are not as answered, else ""."""
     kind = JointType.FIXED
     if choice.moves:
         turns = choice.best.motion.kind is JointType.REVOLUTE
@@ -290,4 +309,30 @@ def _joint(case: PartCase, choice: Choice, verify: str) -> Joint:
         kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if endless else JointType.REVOLUTE
     answered = answered_range(case.recognized, kind)
     best = away_from_closed(case.context, choice.best) if answered is None else opening_as_answered(choice.best, answered)
-    return joint_of(case.context, case.name, case.parent, best, kind, choice.confidence, choice.reason, answered)
+    joint = joint_of(case.context, case.name, case.parent, best, kind, choice.confidence, choice.reason, answered)
+    if answered is None:
+        stated = case.recognized.limits if case.recognized is not None and case.recognized.moves is kind else None
+        unused = f"joint {joint.name}: the answer {_range_words(kind, stated)} is no range{PLEASE_CHECK}" if stated else ""
+        return joint, unused
+    return (joint, "") if pressed(best, answered) else _as_answered(case, best, joint, answered)
+
+
+def _as_answered(case: PartCase, best: Candidate, joint: Joint, answered: tuple[float, float]) -> tuple[Joint, str]:
+    """Return the joint with less confidence if less than the answered range is free, and a warning with both."""
+    written = joint.limits or answered
+    asked, told = answered[1] - answered[0], _range_words(joint.type, answered)
+    if written[1] - written[0] < MIN_KEPT * asked:
+        share, end = (written[1] - written[0]) / asked, f"{_range_words(joint.type, written)} is free and was written"
+    else:
+        share = sum(free_within(case.context, best, -answered[0], answered[1], 2 * FINE_STEPS)) / asked
+        end = "it was kept, though geometry blocks it"
+    if share >= MIN_KEPT:
+        return joint, ""
+    confidence = joint.confidence * max(share, BLOCKED_RATIO if best.is_free else 1.0)
+    return replace(joint, confidence=confidence), f"joint {joint.name}: {told} was answered, {end}{PLEASE_CHECK}"
+
+
+def _range_words(kind: JointType, limits: tuple[float, float]) -> str:
+    slides = kind is JointType.PRISMATIC
+    low, high = (100 * v if slides else float(np.degrees(v)) for v in limits)
+    return f"{low:.3g} to {high:.3g} {'cm' if slides else 'degrees'}"

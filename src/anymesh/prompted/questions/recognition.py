@@ -16,9 +16,10 @@ from anymesh.types.questions import VisualAnswerer
 
 MAX_LABELS = 24  # kinds of part per answer
 SIZES = (0.002, 200.0)  # [m] range of the size of an object
-ROUGH = 1.5  # an answered size is a guess: the mesh keeps its own size if both agree within this factor
-DOUBTFUL = 2.5  # factor between the answered size and that of a file with a unit above which there is a warning
-FAR = 10.0  # the same for a file without a unit
+ROUGH = 1.5  # a model's size is a guess: the mesh keeps its own size if both agree within this factor
+GIVEN = "--scale"  # that the scale of the user is kept
+EXACT = 1.01  # the same of an answer in a file, which may be a person's measure
+FAR = 10.0  # factor between the answered size and that of a file without a unit above which there is a warning
 WORD = re.compile(r"(?=.{1,40}$)[a-z][a-z0-9]*([ _'-][a-z0-9]+){0,4}")
 
 
@@ -146,19 +147,24 @@ def ask_recognition(
     return answerer.ask(Recognize(DrawnPictures(pictures), category, tuple(azimuths)))
 
 
-def answered_scale(recognition: Recognition, size: float, *, metric: bool) -> tuple[float, str, tuple[str, ...]]:
-    """Return the scale factor from an answered size, with a note, and warnings.
+def answered_scale(
+    recognition: Recognition, size: float, *, kept: str = "", measured: bool = False
+) -> tuple[float, str, tuple[str, ...]]:
+    """Return the scale factor from an answered size, with a note on what became of the answer, and warnings.
 
-    size: longest side of the mesh [m]; metric: its file states a unit, which is kept.
+    size: longest side of the mesh [m]; kept: what is kept against the answer, in words, such as the unit of the file, "" for
+    nothing; measured: the answer may be a measure rather than a guess.
     """
     if recognition.size is None:
         return 1.0, "", ()
     factor = recognition.size / size
     basis = f"answered: a {recognition.category} is about {recognition.size:g} m long; the mesh was {size:.3g} m"
-    if 1 / ROUGH <= factor <= ROUGH:
+    to_use, near = f"to use the answer, give --scale {recognition.size:g}:longest", EXACT if measured and not kept else ROUGH
+    if 1 / EXACT <= factor <= EXACT or (kept == GIVEN and 1 / near <= factor <= near):
         return 1.0, "", ()
-    if metric:
-        doubt = f"the file's unit was kept ({basis}); if it is wrong, give --scale"
-        return 1.0, "", () if 1 / DOUBTFUL <= factor <= DOUBTFUL else (doubt,)
+    if 1 / near <= factor <= near:
+        return 1.0, f"size kept ({basis}); {to_use}", ()
+    if kept:
+        return 1.0, "", (f"{kept} was kept ({basis}); {to_use}",)
     note = f"scale {factor:g} ({basis})"
     return factor, note, () if 1 / FAR <= factor <= FAR else (f"{note}; if that is wrong, give --scale",)
