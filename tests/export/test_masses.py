@@ -61,6 +61,7 @@ def test_the_body_of_closed_furniture_is_a_shell_with_its_inertia(asset, substan
 def test_walls_of_a_kind_replace_those_of_its_substance_alone():
     volume, _ = shell(0.006)
     assert built(case("safe", material="dark metal")).bodies[0].inertia.mass == pytest.approx(7850 * volume)
+    assert built(case("car", material="dark metal")).bodies[0].inertia.wall == pytest.approx(0.005 * 1.8 / 4.4)
     wooden = built(case("safe", material="oak")).bodies[0].inertia
     assert wooden.wall == pytest.approx(SUBSTANCES["oak"].sheet)
 

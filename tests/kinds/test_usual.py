@@ -71,7 +71,7 @@ def test_one_warning_says_what_is_usual_and_what_to_do():
     )
     assert told("car", [0.44, 0.2, 0.15], [("base", 0.22)]) == (
         "mass 0.22 kg and longest side 0.44 m; a car usually has 800 to 2,500 kg and is 2.5 to 6 m long; "
-        "say --mass KG or --scale",
+        "say --mass KG or --scale 4.4:longest",
     )
     assert "height 0.08 m" in told("desk", [1.4, 0.7, 0.08], [("base", 30.0)])[0]
 

@@ -36,6 +36,7 @@ OVERLAP = "their surfaces overlap at rest"
 TIGHT = "their collision shapes touch where the surfaces do not, or while one moves"
 CLOSED_TO = SUBSTANCES["wood"].solid_to  # [m] mean thickness above which bodies of closed furniture and appliances are hollow
 CASE, FRONTS = SUBSTANCES["chipboard"], ("door", "drawer")  # of an unknown object with such parts, which is furniture
+LARGEST_CASE = 2.7  # [m] longest side of furniture, as of a wardrobe; larger things with doors are buildings and gates
 WITHIN = 0.02  # of a joint's range: maximum steady-state error of a drive under its load
 
 
@@ -200,27 +201,33 @@ def _weighing(bodies: Sequence[ExportLink], mass: float, config: InertiaConfig) 
 
 @dataclass(frozen=True)
 class _Usual:
-    """What is usual for an object. kind: as in the table of kinds, None if unknown; closed: its solid bodies are hollow."""
+    """What is usual for an object.
+
+    kind: as in the table of kinds, None if unknown; closed: its solid bodies are hollow; wall: of bodies of the substance, None
+    for that of the substance [m].
+    """
 
     kind: Any
     closed: bool
     substance: Substance | None
+    wall: float | None = None
 
     @classmethod
     def of(cls, asset: Asset) -> _Usual:
-        kind = resolve(KIND_OF)(asset.category, asset.name)
+        kind, longest = resolve(KIND_OF)(asset.category, asset.name), float(max(asset.mesh.extents))
         if kind is not None:
-            return cls(kind, kind.closed, SUBSTANCES.get(kind.substance))
+            size = 1.0 if kind.usual is None else min(1.0, longest / kind.usual)  # walls of small models are thin
+            return cls(kind, kind.closed, SUBSTANCES.get(kind.substance), None if kind.wall is None else kind.wall * size)
         words = (recognize(part.label) for part in asset.segmentation.parts)
-        closed = any(word is not None and word.label in FRONTS for word in words)
+        closed = longest <= LARGEST_CASE and any(word is not None and word.label in FRONTS for word in words)
         return cls(None, closed, CASE if closed else None)
 
     def walled(self, substance: Substance | None) -> Substance | None:
         """Return a substance as the object's bodies have it: hollow if they are thick, with the walls of the kind."""
         if substance is None or not self.closed:
             return substance
-        walled = self.kind is not None and self.kind.wall and self.substance and substance.density == self.substance.density
-        sheet = self.kind.wall if walled else substance.sheet
+        walled = self.wall is not None and self.substance is not None and substance.density == self.substance.density
+        sheet = self.wall if self.wall is not None and walled else substance.sheet
         return replace(substance, solid_to=min(substance.solid_to, CLOSED_TO), sheet=sheet)
 
     def doubts(self, asset: Asset, bodies: Sequence[ExportLink], *, given: bool) -> tuple[str, ...]:

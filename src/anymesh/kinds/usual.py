@@ -116,11 +116,11 @@ def doubts(
         problems.append(f"mass {_number(total)} kg")
         usual.append(f"has {_range(kind.mass)} kg")
         remedies.append("--mass KG")
-    for range_, size, word in _sizes(kind, extents):
-        if _is_off(size, range_) and "--scale" not in remedies:
-            problems.append(f"{word} {_number(size)} m")
-            usual.append(f"is {_range(range_)} m {'high' if word == 'height' else 'long'}")
-            remedies.append("--scale")
+    off = [(range_, size, word) for range_, size, word in _sizes(kind, extents) if _is_off(size, range_)]
+    for range_, size, word in off[:1]:
+        problems.append(f"{word} {_number(size)} m")
+        usual.append(f"is {_range(range_)} m {'high' if word == 'height' else 'long'}")
+        remedies.append("--scale" if kind is None or kind.usual is None else f"--scale {kind.usual:g}:longest")
     if problems and kind is not None:
         return (f"{' and '.join(problems)}; {kind.words} usually {' and '.join(usual)}; say {' or '.join(remedies)}",)
     return (*_absurd(extents, total if known else 0.0), *(_doubted_parts(kind, masses) if known else ()))
