@@ -21,6 +21,7 @@ from anymesh.viewer.intake.bench_ import Workbench, WorkbenchFolders
 from anymesh.viewer.intake.welcome import contents, title
 from anymesh.viewer.looks import has_looks
 from anymesh.viewer.panels import SMALL, Page, badge, head, joint_table, scale_of
+from anymesh.viewer.parts.panel_ import PartPanel
 from anymesh.viewer.review_ import ReviewPanel
 from anymesh.viewer.scene import swayed
 from anymesh.viewer.scene_ import SceneView
@@ -59,7 +60,7 @@ class PlayPanel:
             self._explode.on_update(_by_hand(lambda: page.act(self._set_explode)))
             for box in (self._textures, self._axes, self._collision, self._inertia):
                 box.on_update(_by_hand(lambda: page.act(self._set_shown)))
-            with gui.add_folder("Why"):
+            with gui.add_folder("Why", expand_by_default=False):
                 self._why = gui.add_html("")
 
     def refresh(self, session: Session) -> None:
@@ -170,19 +171,24 @@ class LivePage:
         )
         self._state = self.gui.add_html("")
         self._saved = ""  # what the last save wrote
-        self._download = self.gui.add_button("Download zip", hint="The asset with all its files; saves corrections first")
-        self._download.on_click(lambda event: self.act(lambda: self.download(event.client)))
+        self.part = PartPanel(self)
         tabs = self.gui.add_tab_group()
-        self._of_asset = (self._buttons, self._state, self._download, tabs)  # hidden while there is no asset
+        self._download = self.gui.add_button(
+            "Download zip", color="gray", hint="The asset with all its files; saves corrections first"
+        )
+        self._download.on_click(lambda event: self.act(lambda: self.download(event.client)))
+        # hidden while there is no asset
+        self._of_asset = (self._buttons, self._state, self._download, self.part.html, tabs)
         first = None if review is None else tabs.add_tab("Review")
         self.play = PlayPanel(self, tabs.add_tab("Play"))
         correct = tabs.add_tab("Correct")
-        self._panels: list[Any] = [self.play, CorrectPanel(self, correct)]
         self.tools = CorrectionTools(self, correct)
-        self._panels.append(self.tools)
+        self.part.use(self.tools)
+        self._panels: list[Any] = [self.part, self.play, CorrectPanel(self, correct), self.tools]
         self._keys()
         if review is not None:
             self._panels.append(ReviewPanel(self, first, review, reviewer=author, clock=clock, open_=self.open))
+        self.part.add_channel()
         self._show_controls()
         self._player = threading.Thread(target=self._run, daemon=True)
         self._player.start()
@@ -223,6 +229,7 @@ class LivePage:
         if self.bench is not None:
             self.bench.close()
         self._ended.set()
+        self.part.close()
         self._player.join()
         self.server.stop()
 
@@ -230,6 +237,10 @@ class LivePage:
     def asset(self) -> Asset | None:
         """The displayed asset, with the previewed correction."""
         return None if self.session is None else self.session.shown
+
+    def is_browsing(self) -> bool:
+        """Return whether arrow keys go through the motions of a part."""
+        return self.part.browsing
 
     def act(self, what: Callable[[], None]) -> None:
         """Run a person's action under the lock; errors are shown, and nothing changes then."""
@@ -267,10 +278,10 @@ class LivePage:
             self._head.content = head(asset, unsaved=0, note=self.view.note(), tool=self.tools.hint)
             self._state.content = saved_line(unsaved, self._saved)
 
-    def correct(self, correction: Correction) -> None:
-        """Apply a correction to the displayed asset."""
+    def correct(self, *corrections: Correction, joined: bool = False) -> None:
+        """Apply corrections to the displayed asset as one step, or joined to the step before."""
         if self.session is not None:
-            self.session.correct(correction)
+            self.session.correct(*corrections, joined=joined)
             self.playing = None
             self.refresh()
 
@@ -295,7 +306,8 @@ class LivePage:
         """Leave the current tool, preview and chosen faces; if there are none, clear the selection."""
         if self.session is None:
             return
-        busy = self.tools.leave() or self.session.preview is not None or len(self.session.chosen) > 0
+        left = [self.tools.leave(), self.part.leave()]
+        busy = any(left) or self.session.preview is not None or len(self.session.chosen) > 0
         self.session.preview, self.session.chosen = None, np.zeros(0, np.int64)
         self.playing = None if busy else self.playing
         if not busy:
@@ -312,6 +324,7 @@ class LivePage:
         """Move a joint back and forth ("" for all, None to stop)."""
         self.playing, self._began = joint, time.monotonic()
         if joint is None and self.session is not None:
+            self.session.moving = {}
             self.view.pose(self.session.positions, self.session.explode)
         self.play.tell_playing(joint == "")
 
@@ -324,6 +337,7 @@ class LivePage:
                     continue
                 phase = (time.monotonic() - self._began) / SECONDS % 1
                 moved = {j.name: swayed(j, phase) for j in session.shown.joints if self.playing in ("", j.name)}
+                session.moving = moved
                 self.view.pose({**session.positions, **moved}, session.explode)
 
     def _keys(self) -> None:

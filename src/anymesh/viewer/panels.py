@@ -102,6 +102,10 @@ class Page(Protocol):
     view: Any
     session: Session | None
 
+    def is_browsing(self) -> bool:
+        """Return whether arrow keys go through the motions of a part."""
+        ...
+
     def act(self, what: Callable[[], None]) -> None:
         """Run a person's action under the lock; errors are shown, and nothing changes then."""
         ...
@@ -122,12 +126,16 @@ class Page(Protocol):
         """Update the head of the page."""
         ...
 
-    def correct(self, correction: Correction) -> None:
-        """Apply a correction to the displayed asset."""
+    def correct(self, *corrections: Correction, joined: bool = False) -> None:
+        """Apply corrections to the displayed asset as one step, or joined to the step before."""
         ...
 
     def select(self, name: str | None) -> None:
         """Select the part to correct."""
+        ...
+
+    def show_message(self, text: str, *, bad: bool = False) -> None:
+        """Show a message in every tab."""
         ...
 
     def play_joint(self, joint: str | None) -> None:

@@ -198,8 +198,8 @@ class ReviewPanel:
             control.on_update(lambda event, what=what: page.act(what) if event.client is not None else None)
         for verdict, key in zip(Verdict, "ARC", strict=True):
             page.key(f"Verdict: {verdict}", key, lambda verdict=verdict: self._decide(verdict))
-        page.key("Next item", "arrowright", lambda: self._go(1))
-        page.key("Item before", "arrowleft", lambda: self._go(-1))
+        for label, key, step in (("Next item", "arrowright", 1), ("Item before", "arrowleft", -1)):
+            page.key(label, key, lambda step=step: None if page.is_browsing() else self._go(step))
         self._filtered()
 
     def refresh(self, session: Session) -> None:

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.correcting.corrections import Vector, vector
 from anymesh.export.model import ExportConfig, Model, build_model
 from anymesh.export.notation import quaternion
 from anymesh.export.options import ExportOptions
 from anymesh.rendering.viewpoints import away
 from anymesh.runtime import cache_folder
 from anymesh.types import Asset, JointType, Mesh, Segmentation
+from anymesh.types.camera import Camera
 from anymesh.viewer.looks import FROM_Y_UP, Ground, mesh_glb
 from anymesh.viewer.scene import DisplayMesh, Surfaces, box_lines, color_of, inertia_box, joint_lines, shade_of, shape_surface
 from anymesh.viewer.session import part_poses
@@ -26,6 +26,7 @@ THIN, THICK = 2.0, 3.0  # [px] line widths
 SEE_THROUGH = 0.35  # opacity of overlays
 DISTANCE, FOV = 2.3, np.deg2rad(35)  # of the first view: distance in diagonals; vertical field of view
 LIFT = 1e-3  # offset of chosen faces from the surface, as a share of the diagonal
+PICTURE = 1000  # [px] height of the picture that stands for a tab's
 
 
 class SceneView:
@@ -186,17 +187,17 @@ class SceneView:
                 self._overlays.append(self._mesh(self._below(part.name), placed, color, opacity))
 
 
-def ray_through(camera: Any, x: Float[np.ndarray, " n"], y: Float[np.ndarray, " n"]) -> tuple[Vector, np.ndarray]:
-    """Return a tab's camera position, and directions (n, 3) through picture points, 0..1 from the upper left corner."""
+def camera_of(camera: Any) -> Camera:
+    """Return the camera of a tab, as one of a picture of its shape."""
     w, i, j, k = camera.wxyz
-    half = np.tan(camera.fov / 2)
-    local = np.stack([(2 * x - 1) * half * camera.aspect, (2 * y - 1) * half, np.ones(len(x))], 1)
-    R = np.array([
+    T = np.eye(4)
+    T[:3, :3] = [
         [1 - 2 * (j * j + k * k), 2 * (i * j - k * w), 2 * (i * k + j * w)],
         [2 * (i * j + k * w), 1 - 2 * (i * i + k * k), 2 * (j * k - i * w)],
         [2 * (i * k - j * w), 2 * (j * k + i * w), 1 - 2 * (i * i + j * j)],
-    ])  # fmt: skip
-    return vector(camera.position), local @ R.T
+    ]
+    T[:3, 3] = camera.position
+    return Camera(T, float(camera.fov), max(1, round(PICTURE * camera.aspect)), PICTURE)
 
 
 def _model(asset: Asset) -> Model:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import threading
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -47,8 +48,20 @@ def part_poses(asset: Asset, positions: Mapping[str, float], explode: float) -> 
     return poses
 
 
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """First hits of rays: face (-1 where nothing is hit), and the distance in lengths of the ray's direction."""
+
+    face: Int[np.ndarray, " n"]
+    distance: Float[np.ndarray, " n"]
+
+
 class Session:
-    """An open asset. positions: joint name -> [rad or m]; chosen: faces picked for a move or a split."""
+    """An open asset.
+
+    positions, moving: joint name -> [rad or m], as set and, while they play, as displayed; chosen: faces picked for a move or a
+    split; face: the one clicked last.
+    """
 
     def __init__(self, folder: Path, author: str, clock: Clock) -> None:
         self._opened: Opened = open_asset(folder)
@@ -57,9 +70,12 @@ class Session:
         self.selected: str | None = None
         self.preview: Correction | None = None
         self.positions: dict[str, float] = {}
+        self.moving: dict[str, float] = {}
         self.explode = 0.0
         self.chosen: Int[np.ndarray, " n"] = np.zeros(0, np.int64)
+        self.face: int | None = None
         self._ready: tuple[Segmentation, Ready] | None = None
+        self._making_ready = threading.Lock()
         self._scenes: tuple[Segmentation, list[RayScene]] | None = None
 
     @property
@@ -89,9 +105,17 @@ class Session:
         """Return the joint that carries the selected part, without the preview."""
         return next((j for j in self.asset.joints if j.child == self.selected), None)
 
-    def correct(self, correction: Correction) -> None:
-        """Apply a correction. Raise CorrectionError if it is not applicable; then nothing changes."""
-        self._go(self.history.do(HistoryEntry(correction, self._clock(), self._author)))
+    def correct(self, *corrections: Correction, joined: bool = False) -> None:
+        """Apply corrections as one step. Raise CorrectionError if one is not applicable; then nothing changes.
+
+        joined: they are undone together with the step before.
+        """
+        history = self.history.do_all(corrections, self._clock(), self._author)
+        if joined:
+            first = len(self.history.done)
+            done = (*history.done[:first], replace(history.done[first], joined=True), *history.done[first + 1 :])
+            history = replace(history, done=done)
+        self._go(history)
 
     def undo(self) -> None:
         self._go(self.history.undo())
@@ -110,7 +134,7 @@ class Session:
 
     def _settle(self) -> None:
         """Reset state that no longer fits the asset."""
-        self.preview, self.chosen = None, np.zeros(0, np.int64)
+        self.preview, self.chosen, self.moving = None, np.zeros(0, np.int64), {}
         if self.selected not in {p.name for p in self.asset.segmentation.parts}:
             self.selected = None
         self.positions = {j.name: self._within(j) for j in self.asset.joints}
@@ -123,9 +147,14 @@ class Session:
         """Return the ranked free motions of the selected part. Raise CorrectionError for the root, or without a selection."""
         if self.selected is None:
             raise CorrectionError("select a part first")
-        if self._ready is None or self._ready[0] is not self.asset.segmentation:
-            self._ready = (self.asset.segmentation, made_ready(self.asset))
-        return ranked_motions(self.asset, self.selected, ready=self._ready[1])
+        return ranked_motions(self.asset, self.selected, ready=self.ready(self.asset))
+
+    def ready(self, asset: Asset) -> Ready:
+        """Return an asset of this session prepared for its motions; threads may ask for it at once."""
+        with self._making_ready:
+            if self._ready is None or self._ready[0] is not asset.segmentation:
+                self._ready = (asset.segmentation, made_ready(asset))
+            return self._ready[1]
 
     def hit(self, origin: Float[np.ndarray, " 3"], direction: Float[np.ndarray, " 3"]) -> Hit | None:
         """Return the first hit of a ray, in the displayed pose and exploded view; None if there is none."""
@@ -133,18 +162,37 @@ class Session:
 
     def hits(self, origins: Float[np.ndarray, "n 3"], directions: Float[np.ndarray, "n 3"]) -> list[Hit | None]:
         """Return the hits of many rays, as `hit` does."""
-        nearest = np.full(len(origins), np.inf)
-        what: list[Hit | None] = [None] * len(origins)
-        poses = part_poses(self.asset, self.positions, self.explode)
-        for number, scene in enumerate(self._parts_to_hit()):
-            back = np.linalg.inv(poses[self.asset.segmentation.parts[number].name])
-            start, way = origins @ back[:3, :3].T + back[:3, 3], directions @ back[:3, :3].T
-            seen = scene.first_hit(start, way)
-            faces = self.asset.segmentation.faces(number)
-            for k in np.flatnonzero(seen.distance < nearest):
-                nearest[k] = seen.distance[k]
-                what[k] = Hit(int(faces[seen.face[k]]), number, start[k] + seen.distance[k] * way[k])
+        seen, poses = self.seen(origins, directions), self.poses()
+        what: list[Hit | None] = []
+        for face, far, origin, way in zip(seen.face, seen.distance, origins, directions, strict=True):
+            if face < 0:
+                what.append(None)
+                continue
+            number = int(self.asset.segmentation.face_part[face])
+            back = np.linalg.inv(poses[number])
+            what.append(Hit(int(face), number, back[:3, :3] @ (origin + far * way) + back[:3, 3]))
         return what
+
+    def poses(self) -> list[Float[np.ndarray, "4 4"]]:
+        """Return the displayed pose of each part, relative to rest."""
+        poses = part_poses(self.asset, {**self.positions, **self.moving}, self.explode)
+        return [poses[p.name] for p in self.asset.segmentation.parts]
+
+    def seen(self, origins: Float[np.ndarray, "n 3"], directions: Float[np.ndarray, "n 3"]) -> Seen:
+        """Return what rays hit first, in the displayed pose and exploded view."""
+        nearest, face = np.full(len(origins), np.inf), np.full(len(origins), -1)
+        for number, (scene, pose) in enumerate(zip(self._parts_to_hit(), self.poses(), strict=True)):
+            back = np.linalg.inv(pose)
+            hits = scene.first_hit(origins @ back[:3, :3].T + back[:3, 3], directions @ back[:3, :3].T)
+            closer = hits.distance < nearest
+            nearest[closer] = hits.distance[closer]
+            face[closer] = self.asset.segmentation.faces(number)[hits.face[closer]]
+        return Seen(face, nearest)
+
+    def displayed(self) -> Float[np.ndarray, "F 3 3"]:
+        """Return the triangles in the displayed pose and exploded view [m]."""
+        T = np.stack(self.poses())[self.asset.segmentation.face_part]
+        return np.einsum("fij,fkj->fki", T[:, :3, :3], self.asset.mesh.triangles) + T[:, None, :3, 3]
 
     def _parts_to_hit(self) -> list[RayScene]:
         segmentation, mesh = self.asset.segmentation, self.asset.mesh
