@@ -13,8 +13,8 @@ from anymesh.correcting.edits import apply, components_of, joint_of_part, part_n
 from anymesh.correcting.motions import motion_words, ranked_motions, told_apart
 from anymesh.correcting.picking import PickedPart
 from anymesh.names import listed
-from anymesh.rendering.preview import extent
 from anymesh.types import Asset, Joint
+from anymesh.types.motion import extent
 
 MAX_REGIONS = 200  # regions that are listed
 

@@ -28,6 +28,7 @@ from anymesh.rendering.marks import AxisShape, axis_shapes, draw_axes, font
 from anymesh.rendering.viewpoints import SKETCH, orbit_camera
 from anymesh.types import Asset, Joint, JointType, Mesh
 from anymesh.types.camera import Camera
+from anymesh.types.motion import extent
 
 PALETTE = np.array(  # distinguishable with colour vision deficiencies (after Okabe and Ito, and lighter mixes)
     [[230, 159, 0], [86, 180, 233], [0, 158, 115], [240, 228, 66], [0, 114, 178], [213, 94, 0], [204, 121, 167],
@@ -135,15 +136,6 @@ def opened_view(asset: Asset) -> tuple[Mesh, Camera]:
     """Return the mesh with its joints opened as in the preview, and the view that `best_camera` chooses."""
     opened = posed(asset, {j.name: shown_position(j) for j in asset.joints})
     return opened, best_camera(asset, opened, [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)])
-
-
-def extent(joint: Joint) -> str:
-    """Format the range of a joint in degrees or centimetres."""
-    if joint.limits is None:
-        return "" if joint.type is JointType.FIXED else "endless"
-    if joint.type is JointType.PRISMATIC:
-        return f"{100 * joint.limits[0]:.1f}..{100 * joint.limits[1]:.1f} cm"
-    return f"{np.degrees(joint.limits[0]):.0f}..{np.degrees(joint.limits[1]):.0f} deg"
 
 
 def describe(joint: Joint, part: float) -> str:

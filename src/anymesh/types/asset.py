@@ -9,9 +9,12 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.entry_points import ASSET_HTML, resolve
+from anymesh.types.brief import Brief
 from anymesh.types.exchange import Exchange
 from anymesh.types.mesh import Mesh
 from anymesh.types.motion import Joint
+
+SHOWN = 7  # parts or joints that are printed
 
 
 @dataclass(frozen=True)
@@ -53,13 +56,17 @@ class Segmentation:
         if missing:
             raise ValueError(f"parts without faces: {missing}")
 
+    def __repr__(self) -> str:
+        names = ", ".join(p.name for p in self.parts[:SHOWN]) + (", ..." if len(self.parts) > SHOWN else "")
+        return f"Segmentation of {len(self.face_part)} faces into {len(self.parts)} parts: {names}"
+
     def faces(self, part: int) -> Int[np.ndarray, " n"]:
         """Return the face indices of one part."""
         return np.flatnonzero(self.face_part == part)
 
 
 @dataclass(frozen=True, eq=False)
-class Source:
+class Source(Brief):
     """The file that an asset was made from.
 
     T_asset_source: (4, 4), from file coordinates as stored to the asset frame [m, Z up].
@@ -105,6 +112,12 @@ class Asset:
                     raise ValueError(f"joints do not form a tree rooted at {names[0]!r}: {name!r} does not reach it")
                 seen.add(at)
                 at = parent[at]
+
+    def __repr__(self) -> str:
+        head = f"Asset {self.name!r}: {len(self.segmentation.parts)} parts, {len(self.mesh.faces)} faces, by {self.answerer}"
+        more = [f"  and {len(self.joints) - SHOWN} more joints"] if len(self.joints) > SHOWN else []
+        warned = [f"  {len(self.warnings)} warnings"] if self.warnings else []
+        return "\n".join((head, *(f"  {joint!r}" for joint in self.joints[:SHOWN]), *more, *warned))
 
     def _repr_html_(self) -> str:
         """Return what a notebook shows of the asset: its report, in a frame."""

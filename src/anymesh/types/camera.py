@@ -7,9 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Float32
 
+from anymesh.types.brief import Brief
+
 
 @dataclass(frozen=True, eq=False)
-class Camera:
+class Camera(Brief):
     """A pinhole camera that looks along its +z, with x to the right and y down.
 
     T_world_camera: (4, 4) rigid; fov: vertical [rad]; width, height [px].

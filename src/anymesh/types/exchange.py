@@ -8,13 +8,15 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import overload
 
+from anymesh.types.brief import Brief
+
 FALLBACK_VERDICT = "answered instead"  # suffix of the verdict if a model gave no valid answer
 NOT_ASKED = "not asked"  # prefix of the verdict if a model was given up before the question
 PNG = b"\x89PNG\r\n\x1a\n"
 
 
 @dataclass(frozen=True)
-class Picture:
+class Picture(Brief):
     """A PNG file's bytes, and its caption ("view 3, from the right")."""
 
     png: bytes
@@ -31,7 +33,7 @@ class Picture:
 
 
 @dataclass(frozen=True)
-class Exchange:
+class Exchange(Brief):
     """One call to a model: its question and pictures, its answer, its cost, and the verdict on it."""
 
     kind: str  # kind of the question ("recognize", "marks", ...)

@@ -14,6 +14,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Float32, Int, UInt8
 from PIL import Image
 
+from anymesh.types.brief import Brief
 from anymesh.types.motion import StatedJoint
 from anymesh.types.triangles import face_cross
 
@@ -22,7 +23,7 @@ TEXTURE_SLOTS = ("base_color", "metallic_roughness", "normal", "occlusion", "emi
 
 
 @dataclass(frozen=True)
-class Texture:
+class Texture(Brief):
     """An encoded image, as the bytes of its file, and how a material lays it on."""
 
     data: bytes
@@ -56,7 +57,7 @@ class Texture:
 
 
 @dataclass(frozen=True)
-class Material:
+class Material(Brief):
     """A metallic-roughness material (glTF 2.0 meaning; factors multiply textures)."""
 
     name: str = "material"
@@ -105,7 +106,7 @@ def _cofactors(linear: np.ndarray) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False)
-class Mesh:
+class Mesh(Brief):
     """Triangles of the whole object in one frame, with the node and material of every face.
 
     vertices: (V, 3) [units of its frame]; faces: (F, 3) into vertices; face_node: (F,) into nodes;
@@ -243,7 +244,7 @@ def to_srgb(linear: np.ndarray | Sequence[float]) -> Float[np.ndarray, ...]:
 
 
 @dataclass(frozen=True, eq=False)
-class Box:
+class Box(Brief):
     """A box. center [m]; rotation: columns are the box's axes in the link frame, right-handed; size: full side lengths [m]."""
 
     center: Float[np.ndarray, " 3"]
@@ -252,7 +253,7 @@ class Box:
 
 
 @dataclass(frozen=True, eq=False)
-class Cylinder:
+class Cylinder(Brief):
     """A cylinder.
 
     center [m]; rotation: columns are its axes in the link frame, the last one along the cylinder; radius, length [m].
@@ -265,7 +266,7 @@ class Cylinder:
 
 
 @dataclass(frozen=True, eq=False)
-class Hull:
+class Hull(Brief):
     """A convex polyhedron. vertices [m]; faces: outward triangles into them."""
 
     vertices: Float[np.ndarray, "V 3"]

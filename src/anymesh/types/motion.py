@@ -8,6 +8,8 @@ from enum import StrEnum
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.types.brief import Brief, brief
+
 
 class JointType(StrEnum):
     """Kind of motion of a part relative to its parent: the joint types that are written to every format."""
@@ -23,7 +25,7 @@ MOVING = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.PRISMATIC)
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class Motion(Brief):
     """A candidate motion.
 
     kind: REVOLUTE or PRISMATIC; axis: unit, asset frame; origin: a point on the axis [m, asset frame] (any point for a slide).
@@ -90,7 +92,7 @@ class Handle:
 
 
 @dataclass(frozen=True, eq=False)
-class KnownJoint:
+class KnownJoint(Brief):
     """A joint that a data set, an annotation or an answer gives, in its own frame and unit; positive opens.
 
     axis: of any length but zero; limits: (lower, upper) [rad or length], None if the joint is continuous or its range unknown.
@@ -176,6 +178,20 @@ class Joint:
             raise ValueError(
                 f"joint {self.name!r}: limits must be finite and contain the rest pose 0 and a range, found {self.limits}"
             )
+
+    def __repr__(self) -> str:
+        axis = f"axis {brief(self.axis)} through {brief(self.origin)}"
+        motion = " ".join(f"{self.type} {extent(self)}".split())
+        return f"Joint {self.name!r}: {self.child} on {self.parent}, {motion}, {axis}, confidence {self.confidence:.2f}"
+
+
+def extent(joint: Joint) -> str:
+    """Format the range of a joint in degrees or centimetres."""
+    if joint.limits is None:
+        return "" if joint.type is JointType.FIXED else "endless"
+    if joint.type is JointType.PRISMATIC:
+        return f"{100 * joint.limits[0]:.1f}..{100 * joint.limits[1]:.1f} cm"
+    return f"{np.degrees(joint.limits[0]):.0f}..{np.degrees(joint.limits[1]):.0f} deg"
 
 
 @dataclass(frozen=True)
