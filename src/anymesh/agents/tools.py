@@ -19,6 +19,7 @@ from anymesh.pipeline.options import FILES
 from anymesh.prompted.answerers.file_answerer import open_in, record_answer
 from anymesh.prompted.answerers.question_files import QuestionFolder, find_questions
 from anymesh.runtime import DEFAULT_SECONDS, Progress, read_json, silent
+from anymesh.types import Brief
 
 AUTHOR = "agent"  # in the log of corrections
 QUESTIONS = ".questions"  # suffix of the folder with an output's questions, beside the output
@@ -60,7 +61,7 @@ class Places:
 
 
 @dataclass(frozen=True)
-class ToolResult:
+class ToolResult(Brief):
     """Result of a tool: JSON values, and PNG pictures with captions."""
 
     record: dict[str, Any]

@@ -19,7 +19,7 @@ from anymesh.config import ALONG_COSINE
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import fit_revolution, outline_about
 from anymesh.motion.part_context import PartContext
-from anymesh.types import JointType, Motion, Sweep
+from anymesh.types import Brief, JointType, Motion, Sweep
 
 MIN_GAP_FACTOR = 1.5  # a part that touches nothing is in contact within this multiple of its smallest gap
 CONTACT_RATIO = 0.008  # of the tolerance length: points closer to the parent are in contact
@@ -140,7 +140,7 @@ class Candidate:
 
 
 @dataclass(frozen=True, eq=False)
-class CandidateMotions:
+class CandidateMotions(Brief):
     """The motions among which the joint of a part is chosen.
 
     scores: (k,) log-odds that each candidate is right.

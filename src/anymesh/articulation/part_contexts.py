@@ -14,6 +14,7 @@ from anymesh.geometry.boxes import same_box
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet, body_obb
 from anymesh.motion.part_context import MAX_PART_DIAGONALS, MIN_SCALE_RATIO, PartContext, best_direction
+from anymesh.types import Brief
 
 TOUCHING_RATIO = 0.01  # of the diagonal, or of MAX_PART_DIAGONALS of the part: a part touches another within this distance
 MAX_EXACT_GAP = 5.0  # of these distances: the gap of parts that are farther apart is that of their boxes
@@ -227,7 +228,7 @@ def _with_row_direction(context: PartContext, row: list[PartContext]) -> PartCon
 
 
 @dataclass(frozen=True, eq=False)
-class ScoredMotions:
+class ScoredMotions(Brief):
     """Motions of one part.
 
     values: (n,) arrays of some features; axes: (n, 3) unit; score: (n,) log-odds.

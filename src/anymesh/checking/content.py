@@ -14,11 +14,11 @@ from anymesh.checking.engines.locate import find_file
 from anymesh.checking.engines.robot import Geometry, Robot, shape_triangles
 from anymesh.errors import InputError
 from anymesh.loading.load import read_in_metres
-from anymesh.types import Mesh
+from anymesh.types import Brief, Mesh
 
 
 @dataclass(frozen=True, eq=False)
-class Solid:
+class Solid(Brief):
     """One shape of a link, in the link frame. shown: its file or its kind; warnings: of its reader."""
 
     shown: str

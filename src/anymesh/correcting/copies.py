@@ -20,7 +20,7 @@ from anymesh.geometry.boxes import OrientedBox, same_box
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.topology import triangle_set_of
 from anymesh.geometry.triangle_set import body_obb, principal_spread, sample_surface, surface_moments
-from anymesh.types import Asset, Joint, JointType
+from anymesh.types import Asset, Brief, Joint, JointType
 
 # Estimates; articulation/part_contexts.py calls boxes equal up to 3 % of the diagonal.
 MAX_SIZE_DIFFERENCE = 0.03  # of area and spread, relative
@@ -37,7 +37,7 @@ SIGNED = [np.eye(3)[list(p)] * np.array(s)[:, None] for p in permutations(range(
 
 
 @dataclass(frozen=True, eq=False)
-class Copy:
+class Copy(Brief):
     """A copy of a part. part: its name, or of the parent that the region belongs to; faces: of a region, None for a whole part.
 
     pose: (4, 4), maps the part onto its copy; a mirror image where its determinant is negative.

@@ -17,7 +17,7 @@ from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.surface import ObjectShape
 from anymesh.segmentation.divide import object_shape
-from anymesh.types import Asset, Joint, JointType, Mesh
+from anymesh.types import Asset, Brief, Joint, JointType, Mesh
 
 MAX_MOTIONS = 8
 DENSE = 60_000  # number of faces above which an asset's surface is simplified first
@@ -37,7 +37,7 @@ AT_EDGE = 0.05  # share of the object's diagonal: distance from its outside with
 
 
 @dataclass(frozen=True, eq=False)
-class Ready:
+class Ready(Brief):
     """An asset's mesh prepared for both stages, simplified so that no face lies in two parts.
 
     part: of each face; T_straight: (4, 4), the rotation of the mesh, as in stage B.

@@ -11,7 +11,7 @@ from anymesh.correcting.corrections import CorrectionError
 from anymesh.geometry.circles import outline_about
 from anymesh.geometry.superpoints import superpoints
 from anymesh.geometry.topology import EdgePairs, edge_pairs, label_connected
-from anymesh.types import Asset
+from anymesh.types import Asset, Brief
 
 FLAT = np.deg2rad(5)  # [rad] maximum angle between faces of one plane
 SMOOTH = np.deg2rad(40)  # [rad] maximum angle between neighbours on a round surface
@@ -24,7 +24,7 @@ STRENGTH = 0.05  # strength of l0 cut pursuit on normals (`creases.CREASE_STRENG
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class Line(Brief):
     """A snapped line. axis: unit; origin [m], asset frame; how: in words."""
 
     axis: Float[np.ndarray, " 3"]

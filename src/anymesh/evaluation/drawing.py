@@ -18,7 +18,7 @@ from anymesh.prompted.pictures.strips import motion_axis, moved, silhouette, str
 from anymesh.rendering.marks import Color, blend, draw_arrow, font, lighten, rim
 from anymesh.rendering.render import lit, render
 from anymesh.rendering.viewpoints import framed
-from anymesh.types import Joint, JointType, Mesh, Motion, Segmentation
+from anymesh.types import Brief, Joint, JointType, Mesh, Motion, Segmentation
 from anymesh.types.camera import Camera
 
 PANEL = 420  # [px] size of each of the two panels
@@ -39,7 +39,7 @@ TURNED, TRAVEL = np.pi / 4, 0.5  # [rad] and share of the part's size, for joint
 
 
 @dataclass(frozen=True, eq=False)
-class _Move:
+class _Move(Brief):
     """Faces, and their motion by the true or the found joint. `motion` is None if they are static."""
 
     faces: Bool[np.ndarray, " F"]

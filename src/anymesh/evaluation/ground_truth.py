@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.types import Asset, Joint, JointType, KnownJoint, Mesh, Part, Segmentation, Source
+from anymesh.types import Asset, Brief, Joint, JointType, KnownJoint, Mesh, Part, Segmentation, Source
 
 
 @dataclass(frozen=True, eq=False)
@@ -22,7 +22,7 @@ class TrueJoint(KnownJoint):
 
 
 @dataclass(frozen=True, eq=False)
-class GroundTruth:
+class GroundTruth(Brief):
     """An object: its mesh file, its parts (0 is the base), a part index per face of the file, and its joints."""
 
     name: str
@@ -34,7 +34,7 @@ class GroundTruth:
 
 
 @dataclass(frozen=True, eq=False)
-class EvalSample:
+class EvalSample(Brief):
     """Ground truth on the evaluated mesh, which is placed and possibly changed.
 
     labels: (F,) true part indices of the mesh's faces; T: (4, 4) from the truth's coordinates to the mesh's; diagonal: of the

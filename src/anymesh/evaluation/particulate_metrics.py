@@ -37,7 +37,7 @@ from scipy.stats import qmc
 from anymesh.evaluation.ground_truth import EvalSample, TrueJoint
 from anymesh.geometry.kinematics import joint_motion
 from anymesh.geometry.triangle_set import sample_surface
-from anymesh.types import Joint, JointType, Mesh, Segmentation
+from anymesh.types import Brief, Joint, JointType, Mesh, Segmentation
 
 THIN = 1e-3  # minimum thickness of a box, if the object's longest side is 1
 DEPTH = 12  # 2 ** DEPTH points per box to estimate the overlap of rotated boxes
@@ -120,7 +120,7 @@ class PoseMetrics:
 
 
 @dataclass(frozen=True, eq=False)
-class _Side:
+class _Side(Brief):
     """One of the two objects. corners, points: of each part at rest; T: of each part at each state."""
 
     corners: list[Float[np.ndarray, "_ 3"]]

@@ -18,7 +18,7 @@ import anymesh
 from anymesh.export.links import Link, Primitive
 from anymesh.export.model import ExportConfig
 from anymesh.names import legal_names
-from anymesh.types import Asset, Joint, JointType, Material, Texture
+from anymesh.types import Asset, Brief, Joint, JointType, Material, Texture
 from anymesh.types.mesh import CLAMP, MIRROR, REPEAT, to_linear
 
 FLOAT, UBYTE, USHORT, UINT = 5126, 5121, 5123, 5125
@@ -257,7 +257,7 @@ Extend = Callable[[dict[str, Any], GlbBuffer], None]
 
 
 @dataclass(frozen=True, eq=False)
-class Track:
+class Track(Brief):
     """Keys of one joint. times: ascending [s]; amounts: at these times [rad or m]."""
 
     joint: Joint

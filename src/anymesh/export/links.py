@@ -8,11 +8,11 @@ import numpy as np
 from jaxtyping import Float, Float32, Int, UInt8, UInt64
 
 from anymesh.names import legal_name, legal_names
-from anymesh.types import Asset, Joint, Mesh, Part
+from anymesh.types import Asset, Brief, Joint, Mesh, Part
 
 
 @dataclass(frozen=True, eq=False)
-class Primitive:
+class Primitive(Brief):
     """Triangles of one link with one material.
 
     material: into the mesh's materials, -1 = none; positions: (n, 3) in the link frame [m]; triangles: (m, 3) into them; uv: v
@@ -29,7 +29,7 @@ class Primitive:
 
 
 @dataclass(frozen=True, eq=False)
-class Link:
+class Link(Brief):
     """A part as a rigid body, with its frame at `origin` [m, asset frame] and axes parallel to the asset's.
 
     joint: the one that carries it, None for the root; faces: (F',) of the source mesh.

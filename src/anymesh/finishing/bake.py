@@ -16,7 +16,7 @@ from anymesh.finishing.protocol import Finished
 from anymesh.finishing.texture import Carried, Painted, colors_at
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.topology import edge_pairs, label_connected
-from anymesh.types import Material, Mesh, Texture
+from anymesh.types import Brief, Material, Mesh, Texture
 from anymesh.types.triangles import unshared
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
@@ -119,7 +119,7 @@ def png(pixels: UInt8[np.ndarray, ...]) -> bytes:
 
 
 @dataclass(frozen=True, eq=False)
-class Layout:
+class Layout(Brief):
     """Position of every face corner in a square picture. corners: (F, 3, 2) [px], right and down; scale: [px/m]."""
 
     size: int

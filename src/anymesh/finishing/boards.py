@@ -19,7 +19,7 @@ from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.kinematics import joint_transform
 from anymesh.geometry.raycast_ import Hits, RayScene
 from anymesh.geometry.triangle_set import TriangleSet, body_obb
-from anymesh.types import JointType
+from anymesh.types import Brief, JointType
 
 FACING = 0.9  # minimum cosine between a face's normal and its panel's
 FILLED = 0.6  # minimum share of its bounding rectangle that a panel's face fills
@@ -48,7 +48,7 @@ TRIES = (1.0, 2.0, 4.0)  # multiples of the clearance on each side, tried until 
 
 
 @dataclass(frozen=True, eq=False)
-class PanelBox:
+class PanelBox(Brief):
     """A part that closes a cavity.
 
     axes: rows, right-handed: along the panel (2), and into the body; low, high: corners of the cavity along them [m, asset

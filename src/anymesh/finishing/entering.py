@@ -14,7 +14,7 @@ from anymesh.finishing.sheets import Sheet
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.kinematics import carried_links, joint_transform
 from anymesh.geometry.triangle_set import spread_directions
-from anymesh.types import JointType
+from anymesh.types import Brief, JointType
 from anymesh.types.triangles import box_corners, normals_and_areas, transformed
 
 DEEP = 2e-4  # share of the diagonal: an edge that ends further away on both sides of a face crosses it
@@ -27,7 +27,7 @@ CORNERS = ((0, 1), (1, 2), (2, 0))
 
 
 @dataclass(frozen=True, eq=False)
-class Beside:
+class Beside(Brief):
     """Surfaces of other parts that meet a sheet at its border, at an angle. vertex: of the sheet; normals: outward."""
 
     vertex: Int[np.ndarray, " n"]
@@ -87,7 +87,7 @@ def crossing(new: Faces, other: Faces, T: Float[np.ndarray, "4 4"]) -> Bool[np.n
 
 
 @dataclass(frozen=True, eq=False)
-class Neighbours:
+class Neighbours(Brief):
     """What the new faces of a part must not cross: the others at rest, and those that move against it."""
 
     part: int

@@ -28,6 +28,7 @@ from anymesh.finishing.meshy_api import (
 from anymesh.finishing.web import LostError
 from anymesh.prompted.models.retry import persist
 from anymesh.runtime import read_json, write_whole
+from anymesh.types import Brief
 
 log = logging.getLogger("anymesh")
 T = TypeVar("T")
@@ -54,7 +55,7 @@ class Started:
 
 
 @dataclass(frozen=True)
-class Order:
+class Order(Brief):
     """Task to be paid for once. body: of the request, JSON; state: the file that stores the task's id."""
 
     kind: TaskKind

@@ -9,11 +9,11 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.types import Asset
+from anymesh.types import Asset, Brief
 
 
 @dataclass(frozen=True, eq=False)
-class PartMesh:
+class PartMesh(Brief):
     """The surface of one part. vertices: (V, 3) [m, asset frame at rest]; faces: (F, 3) into them, wound outwards."""
 
     vertices: Float[np.ndarray, "V 3"]
@@ -49,7 +49,7 @@ class Completer(Protocol):
 
 
 @dataclass(frozen=True, eq=False)
-class Finished:
+class Finished(Brief):
     """An asset with new faces.
 
     source_face: (F,) index of the face before, -1 for new faces; notes: part name -> what was done, in words. A part without

@@ -15,7 +15,7 @@ from anymesh.geometry.sweep import Obstacles, free_amount
 from anymesh.geometry.topology import triangle_set_of
 from anymesh.geometry.triangle_set import SurfacePoints, sample_surface, spread_directions
 from anymesh.motion.part_context import PENETRATION_RATIO
-from anymesh.types import Asset, Joint, JointType, Mesh
+from anymesh.types import Asset, Brief, Joint, JointType, Mesh
 from anymesh.types.triangles import unshared
 
 PROBES = 20_000  # points on the surface, besides the centroid of every face
@@ -132,7 +132,7 @@ def widest(joint: Joint) -> float:
 
 
 @dataclass(eq=False)
-class Growing:
+class Growing(Brief):
     """The parts during completion: original surface, added triangles, and notes on what was done.
 
     late: returns whether the time for completion is over.

@@ -15,13 +15,14 @@ from anymesh.geometry.boxes import OrientedBox, fit_box
 from anymesh.geometry.surface import earlier_equals, number_rows, open_surface
 from anymesh.geometry.topology import EdgePairs, edge_pairs, label_connected, weld
 from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
+from anymesh.types import Brief
 from anymesh.types.triangles import normals_and_areas
 
 PROBES = 120  # sample points on a sheet
 
 
 @dataclass(frozen=True, eq=False)
-class Sheet:
+class Sheet(Brief):
     """A connected surface with a border.
 
     points: (V, 3) [m]; faces: (F, 3) into them, as wound; own: (F,) indices of the source faces; loops: vertices of each

@@ -25,6 +25,7 @@ from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.topology import components
 from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
 from anymesh.loading.polygons_ import triangulate
+from anymesh.types import Brief
 from anymesh.types.triangles import unshared
 
 MITER = 2.5  # maximum offset of a skin at a corner, as a multiple of its thickness
@@ -222,7 +223,7 @@ def _covered(triangles: np.ndarray, outward: np.ndarray, part: int, scenes: Scen
 
 
 @dataclass(frozen=True, eq=False)
-class Around:
+class Around(Brief):
     """A part being completed, and the current state of the others. own: (n, 3, 3) its original faces [m]."""
 
     part: int
@@ -375,9 +376,8 @@ def _plate(seen: SheetVisibility, around: Around, draft: float, share: float, be
         level = min(level, float((facing.points @ inward + free).min()))
     deepest = float(along.max())
     level = max(front + share * (level - front), deepest + (least if deepest - front < least else 0.0))
-    back = backed(
-        sheet, inward, level, faces_out=seen.faces_out, draft=draft if level > deepest + least / 2 else 0.0, beside=beside
-    )
+    draft = draft if level > deepest + least / 2 else 0.0
+    back = backed(sheet, inward, level, faces_out=seen.faces_out, draft=draft, beside=beside)
     return sheet.with_faces(*back), level - front
 
 

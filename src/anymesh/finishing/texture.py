@@ -13,7 +13,7 @@ from anymesh.finishing.scenes import visible_faces
 from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.topology import edge_pairs, label_connected
 from anymesh.rendering.render import face_colors
-from anymesh.types import Asset, Mesh
+from anymesh.types import Asset, Brief, Mesh
 
 FINE = 4  # a face is sampled at the centroids of FINE squared similar triangles
 MIN_SAME_CHART_COSINE = np.cos(np.deg2rad(20.0))  # new faces that meet at a smaller angle form one patch
@@ -33,7 +33,7 @@ PROBES = _probes()
 
 
 @dataclass(frozen=True, eq=False)
-class Spots:
+class Spots(Brief):
     """Nearest points on a surface to points of some faces.
 
     owner: index into the list of these faces; face: of the surface; weights: barycentric weights of its corners; distance: [m];

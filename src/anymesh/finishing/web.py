@@ -24,6 +24,7 @@ from urllib.request import (
 
 from anymesh.errors import ModelError
 from anymesh.prompted.models.retry import TransientError
+from anymesh.types import Brief
 
 log = logging.getLogger("anymesh")
 T = TypeVar("T")
@@ -36,7 +37,7 @@ class LostError(TransientError):
 
 
 @dataclass(frozen=True)
-class Call:
+class Call(Brief):
     """An HTTP call.
 
     name: replaces the address in messages, since addresses may be signed; timeout: [s] for the whole call; max_bytes: of the
@@ -56,7 +57,7 @@ class Call:
 
 
 @dataclass(frozen=True)
-class Answer:
+class Answer(Brief):
     """Response with any status. headers: names in lower case."""
 
     status: int

@@ -20,7 +20,7 @@ from anymesh.loading.files import MAX_FACES, FileMesh, Folder
 from anymesh.loading.join import join, rgba, unique_names, unit
 from anymesh.loading.polygons_ import fans, recut
 from anymesh.stated.animated import Animations, NodeTrack, SceneNode, animated_joints
-from anymesh.types import Mesh, Node
+from anymesh.types import Brief, Mesh, Node
 
 LEFT_OUT = {
     "nurbs_surfaces": "NURBS surfaces", "nurbs_curves": "curves", "line_curves": "curves",
@@ -89,7 +89,7 @@ def numbers(listed: Any, kind: type, width: int) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False)
-class FbxPolygons:
+class FbxPolygons(Brief):
     """Triangles of a mesh: faces (F, 3) into its vertices, polygon (F,) of the file and corner (F, 3) of all its corners."""
 
     faces: np.ndarray

@@ -16,7 +16,7 @@ from anymesh.errors import InputError
 from anymesh.formats.packages import unpack
 from anymesh.loading.files import MAX_FACES, FileMesh, Folder, picture
 from anymesh.loading.join import join, rgba
-from anymesh.types import Material, Mesh, Node, Texture
+from anymesh.types import Brief, Material, Mesh, Node, Texture
 from anymesh.types.mesh import CLAMP, MIRROR, REPEAT, to_linear
 
 UNITS = {"micron": 1e-6, "millimeter": 1e-3, "centimeter": 1e-2, "inch": 0.0254, "foot": 0.3048, "meter": 1.0}
@@ -41,7 +41,7 @@ def read_3mf(folder: Folder, work: Path) -> FileMesh:
 
 
 @dataclass(frozen=True, eq=False)
-class Group:
+class Group(Brief):
     """Properties that triangles refer to: a material each, or colours (n, 4) 0..1, or texture coordinates (n, 2)."""
 
     materials: tuple[Material, ...] = ()

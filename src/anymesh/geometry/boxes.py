@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.types import Joint, Mesh
+from anymesh.types import Brief, Joint, Mesh
 from anymesh.types.triangles import about_z, bounds_of, boxes_meet, cross
 
 MAX_SIDE_DIFFERENCE_RATIO = 0.03  # maximum difference of the sides of copies, over the diagonal
@@ -21,7 +21,7 @@ MIN_YAW_RAD = float(np.deg2rad(0.5))  # [rad] smaller angles are left, so that f
 
 
 @dataclass(frozen=True, eq=False)
-class OrientedBox:
+class OrientedBox(Brief):
     """An oriented box. axes: rows are unit, right-handed, longest side first; half: half side lengths in that order [m]."""
 
     center: Float[np.ndarray, " 3"]

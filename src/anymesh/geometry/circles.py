@@ -13,6 +13,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.geometry.triangle_set import SurfacePoints
+from anymesh.types import Brief
 from anymesh.types.triangles import cross
 
 BINS = 36
@@ -29,7 +30,7 @@ REFINED, ROUNDS = 8, 4  # hypotheses that are refined, the best first, and the m
 
 
 @dataclass(frozen=True, eq=False)
-class Outline:
+class Outline(Brief):
     """A shape seen along an axis. roundness: 0..1, share of directions in which the outline keeps the median radius."""
 
     axis: Float[np.ndarray, " 3"]
@@ -98,7 +99,7 @@ Axes = tuple[Float[np.ndarray, "k 3"], Float[np.ndarray, "k 3"]]  # unit directi
 
 
 @dataclass(frozen=True, eq=False)
-class Revolution:
+class Revolution(Brief):
     """An axis of revolution of a part of a surface, as found by `fit_revolution`."""
 
     axis: Float[np.ndarray, " 3"]

@@ -10,13 +10,14 @@ import numpy as np
 from jaxtyping import Float, Float32, Int, Int32
 
 from anymesh.errors import MissingExtraError
+from anymesh.types import Brief
 from anymesh.types.triangles import bounds_of
 
 FAR = 1e30  # distance that stands for infinity, in lengths of the ray's direction
 
 
 @dataclass(frozen=True, eq=False)
-class Hits:
+class Hits(Brief):
     """First hits, such that hit = origin + distance * direction.
 
     face: (n,) -1 where nothing is hit; distance: (n,) in lengths of the ray's direction, inf where nothing is hit;
@@ -30,7 +31,7 @@ class Hits:
 
 
 @dataclass(frozen=True, eq=False)
-class SurfaceHits:
+class SurfaceHits(Brief):
     """First hits in single precision, with the surface normal, for pictures.
 
     face, u, v: (n,) as in `Hits`; depth: (n,) in lengths of the ray's direction, inf where nothing is hit;

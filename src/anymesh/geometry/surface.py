@@ -16,7 +16,7 @@ from anymesh.geometry.holes import missing_triangles
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.topology import MAX_CRACK_RATIO, Components, components, label_connected, weld, without_cracks
 from anymesh.geometry.triangle_set import TriangleSet, spread_directions, spread_points
-from anymesh.types import Mesh
+from anymesh.types import Brief, Mesh
 from anymesh.types.triangles import normals_and_areas, unshared
 
 BACK_TO_BACK_COSINE = 0.999  # minimum cosine between the normals of a face and one that lies on it, up to the sign
@@ -29,7 +29,7 @@ MAX_GROUND_HEIGHT_RATIO = 0.05  # of the diagonal of what stands on it: maximum 
 
 
 @dataclass(frozen=True, eq=False)
-class MeshSurface:
+class MeshSurface(Brief):
     """The faces of an object without copies, and the connected components of its welded surface.
 
     shape: K faces, wound so that those of a component agree and face outwards; components: of these faces; copy: (F,) face of
@@ -328,7 +328,7 @@ MIN_PATCH_FACES = 20  # the same if there are very many patches
 
 
 @dataclass(frozen=True, eq=False)
-class ObjectShape:
+class ObjectShape(Brief):
     """The object as both stages use it. Dense meshes are simplified, each patch separately.
 
     shape: R faces; patch: (R,) patch of each face, numbered from 0; source: (R,) for each face a mesh face in the same
@@ -348,7 +348,7 @@ class ObjectShape:
 
 
 @dataclass(frozen=True, eq=False)
-class DividedSurface:
+class DividedSurface(Brief):
     """The faces of a mesh, oriented and divided into patches, before dense meshes are simplified.
 
     shape: all F faces; copy: (F,) face that each one copies, itself for most (`without_copies`); patch, shared, diagonal: as

@@ -21,7 +21,7 @@ from jaxtyping import Bool, Float, Float32, Int
 from anymesh.geometry.boxes import within
 from anymesh.geometry.triangle_set import SurfacePoints, TriangleSet, spread_points
 from anymesh.runtime import usable_cores
-from anymesh.types import JointType, Motion, Sweep
+from anymesh.types import Brief, JointType, Motion, Sweep
 from anymesh.types.triangles import boxes_meet, normals_and_areas, pieces_within
 
 LOOK_AHEAD = 2  # further steps used to decide whether a point continues behind a hit surface
@@ -38,7 +38,7 @@ SHARE_STOPPED = 0.006  # minimum share of stopped points; fewer may be stopped b
 
 
 @dataclass(frozen=True, eq=False)
-class Passage:
+class Passage(Brief):
     """Points that move past a target along T motions, in the unit frame of the target's ray scene.
 
     points: homogeneous; normals: of the closed solids that points lie on, outward, 0 for points of open surfaces: a point is

@@ -12,6 +12,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import KDTree
 
 from anymesh.geometry.triangle_set import SLANTED, TriangleSet
+from anymesh.types import Brief
 from anymesh.types.triangles import bounds_of, face_cross, normals_and_areas, unshared
 
 MIN_VOLUME_SHARE = 0.1  # of the volumes between the faces and their middle: a surface around less has no outside
@@ -27,7 +28,7 @@ MAX_COMPARED = 4_000_000  # pairs of faces around edges that are compared at onc
 
 
 @dataclass(frozen=True, eq=False)
-class Winding:
+class Winding(Brief):
     """How the faces of each component must be wound.
 
     label: (F,) component of each face; flip: (F,) faces to reverse; two_sided: (c,) components whose faces can agree; sure:
@@ -155,7 +156,7 @@ def _grid_key(cell: np.ndarray) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False)
-class EdgePairs:
+class EdgePairs(Brief):
     """Pairs of faces that bound the same material at a shared edge of the welded mesh.
 
     faces: (m, 2) face indices; vertices: (m, 2) the edge's end points, indices into the mesh's vertices; aligned: (m,) True if
@@ -213,7 +214,7 @@ def _outer_windings(
 
 
 @dataclass(frozen=True, eq=False)
-class _HalfEdges:
+class _HalfEdges(Brief):
     """The edges of all faces, those at the same place one after another.
 
     ends: (n, 2) vertices; third: (n,) opposite vertex; owner: (n,) face; forward: (n,) from the lower place to the higher;
@@ -322,7 +323,7 @@ def _first_uses(row: np.ndarray, slot: np.ndarray, other: np.ndarray, turn: np.n
 
 
 @dataclass(frozen=True, eq=False)
-class Components:
+class Components(Brief):
     """Connected components of the welded mesh.
 
     label: (F,) component of each face; solid: (count,) closed and two-sided; flip: (F,) faces to reverse so that those of a

@@ -14,6 +14,7 @@ from jaxtyping import Bool, Float, Int
 from anymesh.geometry.boxes import OrientedBox, box_in_frame, fit_box
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.raycast_ import RayScene
+from anymesh.types import Brief
 from anymesh.types.triangles import bounds_of, box_corners, boxes_meet, corner_bounds, normals_and_areas, unshared
 
 SAMPLES = 3000  # surface points per triangle set; a share of 1 % is 30 points
@@ -23,7 +24,7 @@ MAX_PROTRUSION_RATIO = 0.25  # upper bound on the share of the surface that prot
 
 
 @dataclass(frozen=True, eq=False)
-class SurfacePoints:
+class SurfacePoints(Brief):
     """Points on a surface with the unit normal and the index of the face that each lies on."""
 
     points: Float[np.ndarray, "n 3"]
@@ -84,7 +85,7 @@ def spread_points(
 
 
 @dataclass(frozen=True, eq=False)
-class KnownFaces:
+class KnownFaces(Brief):
     """Data shared by a triangle set and all its subsets.
 
     positions: (V, 3) distinct corner positions in lexical order, including those of faces that were not taken [m]; corner: (F,
@@ -114,7 +115,7 @@ class KnownFaces:
 
 
 @dataclass(frozen=True, eq=False)
-class TriangleSet:
+class TriangleSet(Brief):
     """Triangles, with outward normals where the surface is closed.
 
     triangles: (F, 3, 3) [m]; normals: (F, 3) unit, outward for solid faces, else as wound; solid: (F,) whether the face belongs

@@ -19,7 +19,7 @@ from anymesh.errors import AnymeshError, InputError, OptionError
 from anymesh.loading.files import ARCHIVE, FORMATS, MAX_FACES, FileMesh, Folder, check_file
 from anymesh.loading.scene_graph import scene_of_objects
 from anymesh.loading.upright import AUTO, AXES, INFER, Up, infer_up, read_up, up_of
-from anymesh.types import Mesh
+from anymesh.types import Brief, Mesh
 
 FARTHEST = 1e12  # coordinates above are no plausible lengths
 MAX_UV = 1e6  # a larger texture coordinate in single precision does not tell the place in the picture
@@ -142,7 +142,7 @@ def is_near(longest: float, usual: float) -> bool:
 
 
 @dataclass(frozen=True, eq=False)
-class PlacedMesh:
+class PlacedMesh(Brief):
     """A mesh in the asset frame [m, Z up].
 
     T_asset_source: (4, 4), from file coordinates; notes: how it was determined; metric: whether the scale is the unit that the

@@ -19,7 +19,7 @@ from anymesh.errors import OptionError
 from anymesh.geometry.surface import mesh_surface
 from anymesh.geometry.triangle_set import sample_surface, spread_directions
 from anymesh.scoring.classifier import MISSING, Classifier
-from anymesh.types import Mesh
+from anymesh.types import Brief, Mesh
 from anymesh.types.triangles import face_cross
 
 MAX_FACETS = 14  # largest flat facets of the convex hull on which the object may stand
@@ -52,7 +52,7 @@ TO_Z = {  # rotations: rows are the asset's axes in file coordinates
 
 
 @dataclass(frozen=True, eq=False)
-class Up:
+class Up(Brief):
     """direction: (3,) unit, in file coordinates; name: such as -y, or three numbers; probability: None unless inferred."""
 
     direction: Float[np.ndarray, " 3"]
@@ -235,7 +235,7 @@ def _stand(stand: Float[np.ndarray, "n 2"], area: float) -> dict[str, float]:
 
 
 @dataclass(frozen=True, eq=False)
-class Stander:
+class Stander(Brief):
     """A mesh as something that stands, with the center of its surface at 0 and its farthest corner at 0.5. Build it by `of`.
 
     points, normals: samples of the surface; corners: of its convex hull; facets: unit normals of the hull's flat facets, the

@@ -12,7 +12,7 @@ from anymesh.config import FACING_COSINE
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import MAX_PROTRUSION_RATIO, TriangleSet, body_obb, points_above, shares_above
-from anymesh.types import Handle
+from anymesh.types import Brief, Handle
 from anymesh.types.triangles import normals_and_areas
 
 MIN_TAB_GAP_RATIO = 0.01  # of the tolerance length: a tab that is closer to the parent is a hinge barrel
@@ -73,7 +73,7 @@ def handle_point(
 
 
 @dataclass(frozen=True, eq=False)
-class _Protrusion:
+class _Protrusion(Brief):
     """What lies beyond a level of a part's box.
 
     points: (n, 3) samples in the box frame [m]; corners: (c, 3) in the box frame, exact [m]; share: of the part's surface; gap:

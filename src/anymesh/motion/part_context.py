@@ -18,7 +18,7 @@ from anymesh.geometry.circles import Outline, outline_about, roundest
 from anymesh.geometry.sweep import Obstacles
 from anymesh.geometry.triangle_set import SurfacePoints, TriangleSet, body_obb
 from anymesh.motion.handle import face_axes, find_handle
-from anymesh.types import Handle, JointType, Motion
+from anymesh.types import Brief, Handle, JointType, Motion
 
 # of the tolerance length: threshold of the connecting area; 0.01 for a diagonal of 2 (the paper's implementation)
 CONNECTING_RATIO = 0.005
@@ -68,7 +68,7 @@ def best_direction(scores: Float[np.ndarray, " 6"], outwards: Float[np.ndarray, 
 
 
 @dataclass(frozen=True, eq=False)
-class PartContext:
+class PartContext(Brief):
     """A part with everything it carries, the geometry that it could hit, its parent and the other movable parts.
 
     diagonal: of the object [m]; center: of the object's axis-aligned box [m].

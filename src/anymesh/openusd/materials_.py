@@ -12,13 +12,13 @@ import numpy as np
 from anymesh.export.links import Primitive
 from anymesh.export.meshes import material_names, painted
 from anymesh.names import legal_names
-from anymesh.types import Material, Mesh, Texture
+from anymesh.types import Brief, Material, Mesh, Texture
 
 PAINTED = "painted"  # after the name of a material that takes its colours from the corners
 
 
 @dataclass
-class UsdMaterials:
+class UsdMaterials(Brief):
     """Writes materials below the path `scope` of a stage. folder: of pictures; textures: their file names by their bytes."""
 
     pxr: Any

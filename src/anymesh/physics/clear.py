@@ -19,7 +19,7 @@ from anymesh.physics.contacts_ import Contact, ContactBench, Pose
 from anymesh.physics.convex import EXACT, as_hull, fitted, trimmed, volume
 from anymesh.physics.decompose import Component
 from anymesh.physics.split import outline
-from anymesh.types import Shape
+from anymesh.types import Brief, Shape
 from anymesh.types.triangles import box_corners, normals_and_areas, transformed, unshared
 
 MAX_PLANED_RATIO = 0.15  # maximum share of a shape that is trimmed before its component is refined instead
@@ -95,7 +95,7 @@ class ComponentShapes:
 
 
 @dataclass(frozen=True, eq=False)
-class Fault:
+class Fault(Brief):
     """A false contact at a pose, between shapes of two components.
 
     first, second: (index of the component, index of its shape).

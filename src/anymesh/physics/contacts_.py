@@ -11,13 +11,13 @@ from jaxtyping import Float
 
 from anymesh.mujoco_ import load_mujoco
 from anymesh.physics.convex import as_hull
-from anymesh.types import Box, Cylinder, Shape
+from anymesh.types import Box, Brief, Cylinder, Shape
 
 Pose = Mapping[str, Float[np.ndarray, "4 4"]]  # pose of the frame of each link
 
 
 @dataclass(frozen=True, eq=False)
-class Contact:
+class Contact(Brief):
     """The deepest contact of two shapes of different links.
 
     first, second: (link, index of its shape); depth [m]; normal: unit, from the first to the second, in the frame of the poses;

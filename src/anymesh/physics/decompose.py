@@ -26,7 +26,7 @@ from anymesh.physics.convex import as_hull, fitted, hull_of, planes, shifted, th
 from anymesh.physics.openings import NONE, Openings, openings_of
 from anymesh.physics.solids_ import FACETED_PLANES, decompose_solid
 from anymesh.physics.split import MIN_CONCAVE_ANGLE_DEG, concave_planes, patch_of, solid_mesh, split_surface
-from anymesh.types import Box, Cylinder, Hull, Shape
+from anymesh.types import Box, Brief, Cylinder, Hull, Shape
 from anymesh.types.triangles import CUBE_CORNERS, normals_and_areas, unshared
 
 FACES = 3000  # faces of a component for its shapes; more take seconds without better accuracy
@@ -68,7 +68,7 @@ class Resolution:
 
 
 @dataclass(frozen=True, eq=False)
-class Component:
+class Component(Brief):
     """A connected piece of a link's surface, in the link frame [m]. solid: closed and wound outwards."""
 
     triangles: Float[np.ndarray, "n 3 3"]
@@ -109,7 +109,7 @@ def split_components(
 
 
 @dataclass(frozen=True, eq=False)
-class _Around:
+class _Around(Brief):
     """The hull of a convex component: outward planes, and its bounds."""
 
     planes: np.ndarray

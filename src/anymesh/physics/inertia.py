@@ -10,6 +10,7 @@ from jaxtyping import Float
 
 from anymesh.geometry.topology import components
 from anymesh.physics.substances import Substance
+from anymesh.types import Brief
 from anymesh.types.triangles import face_cross, unshared
 
 WALLS = (0.5, 2.0)  # least and most of a wall's thickness relative to the one taken; an estimate
@@ -37,7 +38,7 @@ MadeOf = Sequence[Substance | None]
 
 
 @dataclass(frozen=True, eq=False)
-class Inertia:
+class Inertia(Brief):
     """Mass properties of a link.
 
     mass [kg]; center: center of mass [m]; tensor: about it, symmetric [kg m^2]; spread: least and greatest mass over it;

@@ -19,7 +19,7 @@ from anymesh.geometry.distance_ import TriangleTree, distance_to_triangles
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import sample_surface, spread_directions
 from anymesh.physics.convex import hull_of, planes, thinned, volume
-from anymesh.types import Hull
+from anymesh.types import Brief, Hull
 from anymesh.types.triangles import face_cross, normals_and_areas
 
 CONVEX = 1 - 1e-6  # of the volume of its hull: a solid that fills more has no openings
@@ -48,7 +48,7 @@ Plane = tuple[np.ndarray, float]  # unit normal and offset
 
 
 @dataclass(frozen=True, eq=False)
-class Openings:
+class Openings(Brief):
     """Balls in the openings of a surface [its unit].
 
     centers, radii; kept: distance that convex shapes must keep from each center; axes: unit direction of the opening there;

@@ -13,7 +13,7 @@ from enum import StrEnum
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.types import Joint
+from anymesh.types import Brief, Joint
 
 GRAVITY = 9.81  # [m/s^2]
 
@@ -27,7 +27,7 @@ class ResistanceLevel(StrEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class Pull:
+class Pull(Brief):
     """What starts the opening motion of a joint at rest.
 
     unit: "N" at the handle or "N m" about the axis; typical: as written; least, most: of the lightest and stiffest such joint;

@@ -21,7 +21,7 @@ from anymesh.geometry.triangle_set import sample_surface
 from anymesh.physics.convex import hull_of, volume
 from anymesh.physics.openings import KERF, NONE, Openings
 from anymesh.physics.split import SAMPLES, Plane, concave_planes, cutting_planes, hull_volume, least_volume_first, outline
-from anymesh.types import Hull
+from anymesh.types import Brief, Hull
 from anymesh.types.triangles import normals_and_areas
 
 if TYPE_CHECKING:
@@ -57,7 +57,7 @@ class _Budget:
 
 
 @dataclass(frozen=True, eq=False)
-class _SolidPiece:
+class _SolidPiece(Brief):
     """Surfaces, their common hull, and the maximum distance of the hull from them. The diagonal of the whole solid is 1.
 
     solid: None for merged pieces.

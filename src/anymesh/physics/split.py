@@ -19,7 +19,7 @@ from anymesh.geometry.topology import edge_pairs, weld
 from anymesh.geometry.triangle_set import sample_surface
 from anymesh.physics.convex import DIRECTIONS, cut, hull_of
 from anymesh.physics.openings import NONE, Openings, Plane
-from anymesh.types import Hull
+from anymesh.types import Brief, Hull
 from anymesh.types.triangles import normals_and_areas, unshared
 
 SAMPLES = 200  # sample points of a hull for its distance from the surface
@@ -31,7 +31,7 @@ SAME_PLANE = (0.9999, 1e-5)  # cosine of the normals, and offset as a share of t
 
 
 @dataclass(frozen=True, eq=False)
-class Patch:
+class Patch(Brief):
     """A piece of surface, its hull, and the maximum distance of the hull from it [m]."""
 
     triangles: Float[np.ndarray, "n 3 3"]

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from anymesh.names import confidence_word
-from anymesh.types import Exchange, Joint, Mesh, Segmentation, Source
+from anymesh.types import Brief, Exchange, Joint, Mesh, Segmentation, Source
 from anymesh.types.motion import Recognition
 
 Record = dict[str, Any]  # a JSON object
@@ -79,7 +79,7 @@ class JointResult:
 
 
 @dataclass(frozen=True, eq=False)
-class CompletionResult:
+class CompletionResult(Brief):
     """Stage C: the completed mesh.
 
     mesh: with new faces and materials; face_part: the part of each face; source_face: its previous index (-1: new); notes: on

@@ -14,7 +14,7 @@ from jaxtyping import Float32, Int, UInt8
 from anymesh.geometry.raycast_ import RayScene, SurfaceHits
 from anymesh.geometry.topology import edge_pairs, label_connected, weld, without_cracks
 from anymesh.rendering.render import KEY_LIGHT, base_colors, dot, texels_per_pixel
-from anymesh.types import Mesh
+from anymesh.types import Brief, Mesh
 from anymesh.types.camera import Camera
 
 GRID = 3  # rays per side of a pixel where the surface changes
@@ -162,7 +162,7 @@ class Window:
 
 
 @dataclass(frozen=True, eq=False)
-class Samples:
+class Samples(Brief):
     """Hits of the rays of a window, and the lines between them.
 
     first: hits of one ray through the centre of every pixel; plain: (p,) pixels (flat indices into the window) with a single
@@ -197,7 +197,7 @@ class Samples:
 
 
 @dataclass(frozen=True, eq=False)
-class RenderTarget:
+class RenderTarget(Brief):
     """A mesh to cast rays at.
 
     corner_normal: for shading, None where surfaces are flat; face_key: pixels are split where the key changes between faces,
@@ -290,7 +290,7 @@ def _shading_normals(hits: SurfaceHits, corner_normal: Float32[np.ndarray, "F 3 
 
 
 @dataclass(frozen=True, eq=False)
-class Steps:
+class Steps(Brief):
     """Pairs of neighbouring rays between which the surface changes.
 
     pairs: (m, 2) rows of the hits; outline, crease: (m,) strength of the line between them, 0..1.

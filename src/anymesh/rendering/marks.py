@@ -16,7 +16,7 @@ from PIL import Image, ImageDraw, ImageFont
 from scipy import ndimage
 
 from anymesh.geometry.kinematics import link_transforms
-from anymesh.types import Asset, JointType
+from anymesh.types import Asset, Brief, JointType
 from anymesh.types.camera import Camera
 from anymesh.types.triangles import transformed
 
@@ -86,7 +86,7 @@ def draw_ring(draw: ImageDraw.ImageDraw, pixels: Float[np.ndarray, "n 2"], scale
 
 
 @dataclass(frozen=True, eq=False)
-class AxisShape:
+class AxisShape(Brief):
     """Geometry drawn for one joint [m].
 
     arrow: its two ends; ring: a curve about the axis, None if the joint does not rotate.

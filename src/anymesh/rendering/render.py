@@ -12,7 +12,7 @@ from jaxtyping import Float, Int, UInt8
 from PIL import Image
 
 from anymesh.geometry.raycast_ import Hits, RayScene, SurfaceHits
-from anymesh.types import Material, Mesh
+from anymesh.types import Brief, Material, Mesh
 from anymesh.types.camera import Camera
 from anymesh.types.exchange import Picture
 from anymesh.types.mesh import CLAMP, REPEAT, to_linear, to_srgb
@@ -26,7 +26,7 @@ BACKGROUND = 255
 
 
 @dataclass(frozen=True, eq=False)
-class View:
+class View(Brief):
     """Buffers of a camera's view.
 
     depth: (H, W), inf where nothing is hit; normal: (H, W, 3); face: (H, W), -1 where nothing is hit; paint: makes the colours.

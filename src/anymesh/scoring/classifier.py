@@ -16,6 +16,8 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Float32, Int16, Int32
 
+from anymesh.types import Brief
+
 HEADS = 4  # of the attention in each layer
 DIGITS = 3  # of a score; fewer than the digits in which the linear algebra of processors differs
 PLACE_SCALES = (2.0, 3.0, 1.0, 1.0)  # of center, half extents, opening direction and thin axis as inputs
@@ -95,7 +97,7 @@ class Classifier:
 
 
 @dataclass(frozen=True, eq=False)
-class SetNetwork:
+class SetNetwork(Brief):
     """A network with its input scales.
 
     knots: (q, k) quantiles of each own feature, which map it to -LIMIT..LIMIT; weights: arrays by name, of
@@ -200,7 +202,7 @@ def _relu(x: np.ndarray) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False)
-class BoostedTrees:
+class BoostedTrees(Brief):
     """Trees with numeric splits. Nodes of all trees are concatenated; root: first node of each tree.
 
     feature: (N,) column that a node splits on, NO_FEATURE for a leaf; threshold: (N,) rows up to and including it go left, as

@@ -16,6 +16,7 @@ from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import TriangleSet, spread_points
 from anymesh.runtime import CONTACTS, Deadline
+from anymesh.types import Brief
 from anymesh.types.triangles import meet_box, normals_and_areas, quartered
 
 TOUCH_RATIO = 0.0004  # of the object's diagonal: patches closer than this touch; clearances of real fits are wider
@@ -86,7 +87,7 @@ def area_in_contact(a: TriangleSet, b: TriangleSet, tolerance: float) -> float:
 
 
 @dataclass(frozen=True, eq=False)
-class Contacts:
+class Contacts(Brief):
     """Patches and their contacts.
 
     shapes: one per patch; touch: (m, 2) pairs that touch or cross; near: (k, 2) pairs of different sets with a clearance;

@@ -12,7 +12,7 @@ from anymesh.geometry.boxes import OrientedBox, fit_box
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.surface import MeshSurface, ObjectShape
 from anymesh.geometry.topology import label_connected
-from anymesh.types import Mesh
+from anymesh.types import Brief, Mesh
 
 MIN_WHOLE_OBJECT_SHARE = 0.8  # share of the surface above which one region is the whole object, with little beside it
 MIN_BAR_ASPECT = 2.0  # minimum length of a bar over its larger width
@@ -56,7 +56,7 @@ def _diagonals(
 
 
 @dataclass(frozen=True, eq=False)
-class SurfaceHandle:
+class SurfaceHandle(Brief):
     """A handle on a region of the surface.
 
     normal: of the plane that it stands on; axis: direction of a bar, None for a knob; points: its corners [m]; faces: of the

@@ -21,7 +21,7 @@ from anymesh.config import SAME_SIZE
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.triangle_set import principal_spread, surface_moments
 from anymesh.segmentation.contacts import Contacts, dominated_by
-from anymesh.types import Mesh
+from anymesh.types import Brief, Mesh
 from anymesh.vocabulary import is_fixed_name, recognize, words_of
 
 MIN_PART_RATIO = 0.004  # of the object's diagonal: patches with a smaller one never move on their own
@@ -115,7 +115,7 @@ def _joined(contact: dict[int, dict[int, float]], i: int, j: int) -> dict[int, f
 
 
 @dataclass(frozen=True, eq=False)
-class Overlap:
+class Overlap(Brief):
     """Spreads of candidates and their shared areas.
 
     spread: (n, 3) as `PartCandidates.spread`; shared: (n, n) area in both candidates, with the area of each on the diagonal.
@@ -155,7 +155,7 @@ class Overlap:
 
 
 @dataclass(frozen=True, eq=False)
-class PartCandidates:
+class PartCandidates(Brief):
     """Groups of patches that may be parts, largest first.
 
     members: (n, P) which patches each group has; names: (P,) the recognized name of each patch's node or material, or "".

@@ -12,7 +12,7 @@ from anymesh.motion.handle import outward_axis
 from anymesh.motion.part_context import MAX_LENGTH_RATIO, PartContext, shape_features
 from anymesh.segmentation.contacts import NEAR_RATIO, TOUCH_RATIO
 from anymesh.segmentation.part_candidates import PartCandidates
-from anymesh.types import Mesh
+from anymesh.types import Brief, Mesh
 
 STRIDE = 8  # every how many samples of the part a ray is cast
 MIN_WAY = 0.03  # of the diagonal: minimum length of a way; otherwise it is as long as the part itself
@@ -174,7 +174,7 @@ def two_pivots(context: PartContext, near: np.ndarray, normals: np.ndarray) -> f
 
 
 @dataclass(frozen=True, eq=False)
-class FeatureInputs:
+class FeatureInputs(Brief):
     """What the features of all candidates of an object are computed from.
 
     material: (P, M) area of each material, or of none, on each patch [m^2].

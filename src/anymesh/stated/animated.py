@@ -16,7 +16,7 @@ from scipy.spatial.transform import Rotation
 
 from anymesh.loading.files import Folder
 from anymesh.names import listed
-from anymesh.types import JointType, Mesh, StatedJoint
+from anymesh.types import Brief, JointType, Mesh, StatedJoint
 
 MAX_KEYS = 4000  # keys of an animation that are looked at, evenly chosen
 MAX_SAMPLES = 2000  # samples of few keys, up to MAX_STEPS between two
@@ -37,7 +37,7 @@ SAME_EXCURSION = 0.99  # ratio from which two excursions are equal, and the firs
 
 
 @dataclass(frozen=True, eq=False)
-class NodeTrack:
+class NodeTrack(Brief):
     """How an animation moves a node. times: keys [s], ascending; sample: its local transforms at some times; name: its own."""
 
     times: Float[np.ndarray, " n"]
@@ -46,7 +46,7 @@ class NodeTrack:
 
 
 @dataclass(frozen=True, eq=False)
-class SceneNode:
+class SceneNode(Brief):
     """A node at rest. parent: its key, None for a root; T_parent: (4, 4) of the parent to the scene; T: of the node itself."""
 
     name: str

@@ -9,13 +9,13 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.loading.files import Folder
-from anymesh.types import JointType, Mesh, StatedJoint
+from anymesh.types import Brief, JointType, Mesh, StatedJoint
 
 Body = int | str | None  # None is the world, and what moves with no body
 
 
 @dataclass(frozen=True, eq=False)
-class BodyJoint:
+class BodyJoint(Brief):
     """A joint that a file states between two bodies at rest, in the frame of the mesh.
 
     axis, limits: of b relative to a; limits are None if there are none, or if the joint is fixed.

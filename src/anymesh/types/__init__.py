@@ -1,6 +1,7 @@
 """Data types of the package: frozen, numpy only, validated when constructed."""
 
 from anymesh.types.asset import Asset, Part, Segmentation, Source
+from anymesh.types.brief import Brief
 from anymesh.types.exchange import Exchange, Picture
 from anymesh.types.mesh import Box, Cylinder, Hull, Material, Mesh, Node, Shape, Texture
 from anymesh.types.motion import MOVING, Handle, Joint, JointType, KnownJoint, Motion, StatedJoint, Sweep
@@ -9,6 +10,7 @@ __all__ = [
     "MOVING",
     "Asset",
     "Box",
+    "Brief",
     "Cylinder",
     "Exchange",
     "Handle",

@@ -15,7 +15,7 @@ def brief(value: Any) -> str:
     """Describe a value in at most 80 characters or so: a vector in full, other arrays by shape, bytes by number."""
     match value:
         case np.ndarray(ndim=1, size=size) if size <= SHOWN:
-            return f"({', '.join(f'{float(v):.4g}' for v in value)})" if value.dtype.kind in "fiub" else f"{value.dtype}"
+            return f"({', '.join(f'{float(v) + 0.0:.4g}' for v in value)})" if value.dtype.kind in "fiub" else f"{value.dtype}"
         case np.ndarray():
             return f"{value.dtype} {value.shape}"
         case bytes() | bytearray() | memoryview():

@@ -30,7 +30,7 @@ from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.simplify_ import simplify
 from anymesh.loading import load_mesh
 from anymesh.rendering.render import face_colors
-from anymesh.types import Asset, Exchange, Joint, JointType, Material, Mesh, Part, Picture, Segmentation, Source, Texture
+from anymesh.types import Asset, Brief, Exchange, Joint, JointType, Material, Mesh, Part, Picture, Segmentation, Source, Texture
 from anymesh.types.triangles import normals_and_areas
 from anymesh.viewer.scene import report_scene
 
@@ -269,7 +269,7 @@ def _has_look(textures: Mapping[str, Texture], base: tuple[float, ...]) -> bool:
 
 
 @dataclass(frozen=True, eq=False)
-class ReportEntry:
+class ReportEntry(Brief):
     """An asset of a report. title: its location; glb: gzipped; pictures: those shown to a model, as JPEG by SHA-256."""
 
     title: str

@@ -15,7 +15,7 @@ from anymesh.geometry.simplify_ import simplify
 from anymesh.physics.inertia import Inertia
 from anymesh.rendering.marks import axis_line, ring
 from anymesh.rendering.preview import BASE, PALETTE, opened_view
-from anymesh.types import Asset, Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
+from anymesh.types import Asset, Box, Brief, Cylinder, Hull, Joint, JointType, Mesh, Shape
 from anymesh.types.triangles import unshared
 
 MAX_DISPLAY_FACES = 200_000  # maximum number of faces drawn; a denser object is decimated for display
@@ -36,7 +36,7 @@ RING = 0.04  # radius of the ring around an axis in a report, as a share of the 
 
 
 @dataclass(frozen=True, eq=False)
-class DisplayMesh:
+class DisplayMesh(Brief):
     """Triangles to draw [m]."""
 
     vertices: Float[np.ndarray, "V 3"]
@@ -53,7 +53,7 @@ def surface(mesh: Mesh, faces: Int[np.ndarray, " f"], most: int = MAX_DISPLAY_FA
 
 
 @dataclass
-class Surfaces:
+class Surfaces(Brief):
     """Display surfaces of the parts. Decimated ones are cached while their mesh and faces are unchanged."""
 
     most: int = MAX_DISPLAY_FACES
@@ -125,7 +125,7 @@ def opening_direction(joint: Joint, middle: Mapping[str, Float[np.ndarray, " 3"]
 
 
 @dataclass(frozen=True, eq=False)
-class JointLines:
+class JointLines(Brief):
     """Lines of a joint at rest: an arrow along its axis (two ends), the positive rotation, and the path between its limits."""
 
     arrow: Float[np.ndarray, "2 3"]

@@ -25,14 +25,14 @@ from anymesh.correcting import (
 from anymesh.correcting.motions import Ready, made_ready
 from anymesh.geometry.kinematics import link_transforms
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.types import Asset, Joint, Segmentation
+from anymesh.types import Asset, Brief, Joint, Segmentation
 from anymesh.viewer.scene import apart
 
 Clock = Callable[[], str]  # the current time, ISO 8601
 
 
 @dataclass(frozen=True, eq=False)
-class Hit:
+class Hit(Brief):
     """Hit of a ray: a face, the index of its part, and the point on it [m] in the rest pose."""
 
     face: int

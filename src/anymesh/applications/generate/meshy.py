@@ -15,6 +15,7 @@ from anymesh.finishing.meshy import Bought, Order, PaidTasks
 from anymesh.finishing.meshy_api import IMAGE, IMAGE_SHAPE, PREVIEW, PRICED, REFINE, RefusedError, Task, TaskKind, read_key
 from anymesh.loading import load_mesh
 from anymesh.runtime import Progress, write_whole
+from anymesh.types import Brief
 
 STATE = "meshy.json"
 MODEL = "latest"
@@ -28,7 +29,7 @@ GONE = (400, 404, 410, 422)  # HTTP statuses by which the refinement of a delete
 
 
 @dataclass(frozen=True)
-class Generated:
+class Generated(Brief):
     """Result of a generation: a GLB, and the paid tasks that it took, including those of earlier runs."""
 
     glb: bytes

@@ -15,13 +15,13 @@ from anymesh.checking.engines.locate import find_description
 from anymesh.checking.engines.mujoco_ import read_spec
 from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco
-from anymesh.types import JointType, Motion
+from anymesh.types import Brief, JointType, Motion
 
 OVERLAP = 1e-4  # share of the object's extent; links that overlap by more at rest do not collide
 
 
 @dataclass(frozen=True, eq=False)
-class ArticulatedObject:
+class ArticulatedObject(Brief):
     """Joint of an asset at rest, in the asset frame.
 
     part: link moved by the joint; limits: [rad or m], None for a continuous joint; carried: names of all links that move with

@@ -16,6 +16,7 @@ from anymesh.applications.plan.kinematics_ import Kinematics
 from anymesh.applications.plan.plans import BasePose, GripperContact, Target
 from anymesh.applications.plan.robot_ import RobotArm
 from anymesh.applications.plan.scene_ import BACK, OPENING, CollisionWorld, tool_pose
+from anymesh.types import Brief
 
 BACK_LEAST = 0.03  # [m] shortest straight retreat
 LINE_STEP = 0.004  # [m] between postures on a straight line
@@ -38,7 +39,7 @@ class Reason(StrEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class Route:
+class Route(Brief):
     """Postures (k, J) of each motion; values: of the joint along `move`; gaps: of the fingers, open and at the part [m]."""
 
     base: BasePose

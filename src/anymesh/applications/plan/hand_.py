@@ -11,6 +11,7 @@ from jaxtyping import Float, Int
 from anymesh.applications.plan.robot_ import RobotArm, finger_bodies, positions_of, without_visuals
 from anymesh.errors import OptionError
 from anymesh.mujoco_ import load_mujoco
+from anymesh.types import Brief
 
 STOPS = 9  # measured postures of the gripper, from closed to open
 SETTLE = 300  # simulation steps for the fingers to settle in each
@@ -20,7 +21,7 @@ CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)
 
 
 @dataclass(frozen=True, eq=False)
-class Hand:
+class Hand(Brief):
     """Measured geometry of a gripper.
 
     T_wrist_tool: (4, 4); gap: (k,) between the pads [m], rising; reach: (k,) from the tool's origin to the tips [m];
@@ -78,7 +79,7 @@ def measure_hand(robot: RobotArm) -> Hand:
 
 
 @dataclass(frozen=True, eq=False)
-class _State:
+class _State(Brief):
     qpos: Float[np.ndarray, " q"]
     control: Float[np.ndarray, " A"]
     points: tuple[Float[np.ndarray, "_ 3"], ...]  # of each finger shape, in the wrist's frame

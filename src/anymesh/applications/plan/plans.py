@@ -20,6 +20,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.errors import InputError, OptionError, OutputError
+from anymesh.types import Brief
 
 UNITS = {"": 1.0, "rad": 1.0, "m": 1.0, "deg": math.pi / 180, "mm": 1e-3, "cm": 1e-2}
 VALUE = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*([a-z]*)\s*")
@@ -59,7 +60,7 @@ class Phase(StrEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class Target:
+class Target(Brief):
     """Pose of the tool on a part at rest.
 
     T_asset_tool: (4, 4), z along the approach, y along the closing direction of the fingers, origin between their pads;
@@ -105,7 +106,7 @@ class BasePose:
 
 
 @dataclass(frozen=True, eq=False)
-class Trajectory:
+class Trajectory(Brief):
     """Sampled trajectory of the arm and the gripper.
 
     joints: names of the arm's joints in the robot's file; time: (n,) from 0 [s]; position, velocity, acceleration: (n, J)

@@ -16,6 +16,7 @@ from anymesh.applications.plan.robot_ import RobotArm, finger_bodies, positions_
 from anymesh.applications.plan.scene_ import OBJECT, ROBOT, bodies_of, compose
 from anymesh.errors import OptionError
 from anymesh.mujoco_ import is_unstable, load_mujoco
+from anymesh.types import Brief
 from anymesh.types.triangles import about_z
 
 FIRM = 0.9  # share of the requested motion at which a task counts as done
@@ -54,7 +55,7 @@ class Physics:
 
 
 @dataclass(frozen=True, eq=False)
-class ReplayResult:
+class ReplayResult(Brief):
     """Outcome of a replay.
 
     value: of the joint when the arm holds it [rad or m]; failure: None if the task was done; penetration: deepest of a finger

@@ -19,6 +19,7 @@ from anymesh.applications.plan.robot_packages_ import RobotFiles
 from anymesh.checking.engines.locate import find_file
 from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco, name_elements
+from anymesh.types import Brief
 
 STIFFNESS = 50.0  # [1/rad] over the effort limit: full effort at a lag of 0.02 rad, as in MuJoCo Menagerie's Panda
 DAMPING = 0.1  # [s] damping over stiffness
@@ -30,7 +31,7 @@ HAND = "hand_"  # prefix of the names of a mounted gripper
 
 
 @dataclass(frozen=True, eq=False)
-class RobotArm:
+class RobotArm(Brief):
     """Arm with a gripper, alone at the origin.
 
     xml, assets: the whole model, whose first actuators are one per joint of the arm, in order; joints: of the arm; fingers: of

@@ -10,7 +10,7 @@ from jaxtyping import Bool, Float
 
 from anymesh.applications.plan.plans import GripperContact, Target
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.types import JointType, Motion
+from anymesh.types import Brief, JointType, Motion
 from anymesh.types.triangles import face_cross, unshared
 
 POINTS = 3000  # samples of the part's surface
@@ -31,7 +31,7 @@ APART, TURNED = 0.015, np.cos(np.deg2rad(25))  # [m], cosine; targets closer tha
 
 
 @dataclass(frozen=True, eq=False)
-class PartSurfaces:
+class PartSurfaces(Brief):
     """Surfaces of the part and of the rest of the object at rest: (n, 3, 3) and (m, 3, 3) [m]."""
 
     part: Float[np.ndarray, "n 3 3"]

@@ -16,6 +16,7 @@ from anymesh.applications.plan.approach_ import Valid
 from anymesh.applications.plan.attempt import Route
 from anymesh.applications.plan.plans import GripperContact, Phase, Trajectory
 from anymesh.applications.plan.robot_ import RobotArm
+from anymesh.types import Brief
 
 STEP = 0.01  # [s] between samples
 CHECKED = 400  # places along a curve where limits are checked; samples lie between them, hence `SHARE`
@@ -68,7 +69,7 @@ def rounded(path: Float[np.ndarray, "k J"], velocity: np.ndarray, push: np.ndarr
 
 
 @dataclass(frozen=True, eq=False)
-class Timed:
+class Timed(Brief):
     """Samples of one motion from rest to rest.
 
     time: (n,) from 0 [s]; position, velocity, acceleration: (n, J); share: (n,) of the path, 0 to 1.

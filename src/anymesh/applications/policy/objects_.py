@@ -16,7 +16,7 @@ from anymesh.checking.engines.locate import kind_of
 from anymesh.checking.engines.mujoco_ import read_spec
 from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco
-from anymesh.types import JointType, Motion
+from anymesh.types import Brief, JointType, Motion
 from anymesh.types.triangles import face_cross
 
 FAR = 0.9  # share of the largest lever; surface beyond it is the free edge, whose middle is the handle point
@@ -27,7 +27,7 @@ UP = np.array([0.0, 0.0, 1.0])
 
 
 @dataclass(frozen=True, eq=False)
-class TaskObject:
+class TaskObject(Brief):
     """An asset with the joint that a task moves.
 
     handle: the point to take hold of, in the asset frame at rest [m]; T_world_asset: the object on the floor z = 0 with its

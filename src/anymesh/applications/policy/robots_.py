@@ -16,6 +16,7 @@ from anymesh.applications.plan.robot_ import RobotArm, add_servo, finger_bodies,
 from anymesh.applications.plan.robot_packages_ import find_robot
 from anymesh.errors import MissingExtraError, OptionError, pip_install
 from anymesh.mujoco_ import load_mujoco
+from anymesh.types import Brief
 
 SLIDERS, HINGES = ("move_x", "move_y", "move_z"), ("turn_z", "turn_y", "turn_x")  # servos of a floating hand
 LIMIT = 10.0  # [m] or [rad] of commands whose servo has no range
@@ -33,7 +34,7 @@ ARMS = ("panda", "ur5e")
 
 
 @dataclass(frozen=True, eq=False)
-class TaskRobot:
+class TaskRobot(Brief):
     """Robot as a MuJoCo spec, with its tool and the meaning of an action.
 
     tool: site, z along the approach and y along the closing direction; fingers: bodies of each finger; floating: whether six

@@ -10,6 +10,7 @@ from jaxtyping import Float, Float32
 from anymesh.applications.scan.frames import FLIPPED, Frames, Pinhole, RgbdFrame
 from anymesh.errors import InputError
 from anymesh.names import listed
+from anymesh.types import Brief
 
 POINTS = 1500  # points per frame that are projected into other frames
 SAMPLED = 24  # other frames that each frame is compared with
@@ -31,7 +32,7 @@ CONVENTIONS = {
 
 
 @dataclass(frozen=True, eq=False)
-class Glimpse:
+class Glimpse(Brief):
     """Frame with a reduced depth map. points: (n, 3) in the camera's frame [m]; camera: of the depth map."""
 
     name: str
@@ -43,7 +44,7 @@ class Glimpse:
 
 
 @dataclass(frozen=True)
-class FrameAgreement:
+class FrameAgreement(Brief):
     """Disagreement of frames. of: (n,) median per frame against those that overlap it, share of the depth, nan if none does."""
 
     of: Float[np.ndarray, " n"]

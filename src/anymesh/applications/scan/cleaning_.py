@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.geometry.topology import label_connected
+from anymesh.types import Brief
 from anymesh.types.triangles import face_cross
 
 NORMAL_ROUNDS, VERTEX_ROUNDS = 20, 12
@@ -26,7 +27,7 @@ ROUND_HOLE = 40.0  # [edges] perimeter of holes that are closed
 
 
 @dataclass(frozen=True, eq=False)
-class Surface:
+class Surface(Brief):
     """Triangle mesh. vertices: (V, 3) [m]; faces: (F, 3), oriented outward."""
 
     vertices: Float[np.ndarray, "V 3"]

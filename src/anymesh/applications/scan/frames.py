@@ -13,6 +13,7 @@ import numpy as np
 from jaxtyping import Float, Float32, Float64, Int, UInt8
 
 from anymesh.errors import InputError
+from anymesh.types import Brief
 
 ASPECT = 0.02  # largest relative difference of aspect ratio between depth map and picture; above, they show different sections
 FLIPPED = np.diag([1.0, -1.0, -1.0, 1.0])  # OpenGL camera axes (y up, z back) to OpenCV ones (y down, z ahead), and back
@@ -67,7 +68,7 @@ class Pinhole:
 
 
 @dataclass(frozen=True, eq=False)
-class Observation:
+class Observation(Brief):
     """Data of a frame. color: (H, W, 3) sRGB; depth: (h, w) along the optical axis [m], 0 if not measured."""
 
     color: UInt8[np.ndarray, "H W 3"]
@@ -79,7 +80,7 @@ class Observation:
 
 
 @dataclass(frozen=True, eq=False)
-class RgbdFrame:
+class RgbdFrame(Brief):
     """Picture with depth and pose, read on demand so that memory does not grow with the recording.
 
     camera: of the colour picture; T_world_camera: (4, 4) rigid [m], the camera looks along its +z, x to the right, y down.

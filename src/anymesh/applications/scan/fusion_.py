@@ -14,6 +14,7 @@ from scipy import ndimage
 from anymesh.applications.scan.frames import Frames, Pinhole
 from anymesh.errors import InputError, OptionError
 from anymesh.runtime import Progress
+from anymesh.types import Brief
 from anymesh.types.triangles import face_cross
 
 SIDE = 8  # voxels along the edge of a block
@@ -32,7 +33,7 @@ UNSEEN = 150  # grey value where no picture shows the surface
 
 
 @dataclass(frozen=True, eq=False)
-class Grid:
+class Grid(Brief):
     """Sparse grid of blocks of SIDE**3 voxels.
 
     origin: of voxel (0, 0, 0) [m]; voxel: edge length [m]; table: index of each block, -1 if not allocated; blocks: (B, 3)
@@ -46,7 +47,7 @@ class Grid:
 
 
 @dataclass(frozen=True, eq=False)
-class Field:
+class Field(Brief):
     """Truncated signed distance field.
 
     distance: (B, SIDE**3) in units of the truncation, positive outside, 1 if unknown; weight: (B, SIDE**3), 1 for one frontal
@@ -122,7 +123,7 @@ def fuse(
 
 
 @dataclass(frozen=True, eq=False)
-class _View:
+class _View(Brief):
     T_camera_grid: Float[np.ndarray, "4 4"]
     camera: Pinhole
     depth: Float32[np.ndarray, "h w"]

@@ -13,6 +13,7 @@ from jaxtyping import Float
 from anymesh.applications.scan.frames import Frames, Observation, Pinhole, RgbdFrame, check_distortion, fitted, quaternion_pose
 from anymesh.applications.scan.pictures import clean_depth, file_reader, observed, picture_size, read_color, within
 from anymesh.errors import InputError, OptionError
+from anymesh.types import Brief
 
 # Number, name and parameter count of each model (COLMAP's src/colmap/sensor/models.h); fisheye models are not supported.
 MODELS = {0: ("SIMPLE_PINHOLE", 3), 1: ("PINHOLE", 4), 2: ("SIMPLE_RADIAL", 4), 3: ("RADIAL", 5), 4: ("OPENCV", 8)}
@@ -23,7 +24,7 @@ IMAGES = ("images", "rgb", ".")
 
 
 @dataclass(frozen=True, eq=False)
-class _Image:
+class _Image(Brief):
     name: str
     camera: int
     T_camera_world: Float[np.ndarray, "4 4"]

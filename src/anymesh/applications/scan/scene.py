@@ -11,6 +11,7 @@ from scipy import ndimage
 from anymesh.applications.scan.agreement import Glimpse
 from anymesh.applications.scan.frames import Frames
 from anymesh.errors import InputError, OptionError
+from anymesh.types import Brief
 from anymesh.types.triangles import about_z, face_cross
 
 TRIES = 600  # planes through three points tried as floor
@@ -26,7 +27,7 @@ COUNTED = 20_000  # points used to evaluate planes
 
 
 @dataclass(frozen=True, eq=False)
-class Scene:
+class Scene(Brief):
     """Frame and region of the scan.
 
     T_scan_world: (4, 4) rigid, z up, floor (if any) at z = 0, object at x = y = 0; low, high: corners of the region in the
@@ -44,7 +45,7 @@ class Scene:
 
 
 @dataclass(frozen=True, eq=False)
-class _Cloud:
+class _Cloud(Brief):
     """Point cloud. points: (n, 3) world [m]; central: (n,) weight, 1 on the optical axis; depth, usual [m]; pixel: (n,) [m]."""
 
     points: Float[np.ndarray, "n 3"]

@@ -22,7 +22,7 @@ from anymesh.geometry.surface import ground_faces
 from anymesh.geometry.topology import label_connected, weld
 from anymesh.geometry.triangle_set import spread_points
 from anymesh.kinds.usual import usual_size
-from anymesh.types import Mesh
+from anymesh.types import Brief, Mesh
 from anymesh.types.triangles import normals_and_areas
 from anymesh.vocabulary import is_fixed_name, recognize, words_of
 
@@ -48,7 +48,7 @@ ROOM_WORDS = frozenset(
 
 
 @dataclass(frozen=True, eq=False)
-class SceneObject:
+class SceneObject(Brief):
     """One object of a scene. name: of its node, or ""; faces: indices in the mesh; fixed: a room or a ground, without parts."""
 
     name: str
@@ -57,7 +57,7 @@ class SceneObject:
 
 
 @dataclass(frozen=True, eq=False)
-class _Unit:
+class _Unit(Brief):
     """Pieces that are held together by a node, or one piece.
 
     children: names of what is directly below that node; moved: whether joints that the file states move all of it.

@@ -27,7 +27,7 @@ from anymesh.pipeline.results import LoadResult
 from anymesh.pipeline.stage_files import MESH, stage_key
 from anymesh.pipeline.stages import Keyed
 from anymesh.runtime import DEFAULT_SECONDS, Progress, read_json, silent, writing
-from anymesh.types import Mesh, Source
+from anymesh.types import Brief, Mesh, Source
 
 EQUAL = 1e-4  # of the diagonal: corners of equal objects lie this close after the best rigid motion
 UPRIGHT = 1e-3  # sine of the largest angle between the verticals of equal objects
@@ -88,7 +88,7 @@ def articulate_scene(
 
 
 @dataclass(frozen=True, eq=False)
-class _Kind:
+class _Kind(Brief):
     """Equal objects. mesh: of the first in its own frame [m, Z up]; origin: of that frame in the scene [m]."""
 
     name: str

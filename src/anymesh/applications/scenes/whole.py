@@ -18,12 +18,13 @@ from anymesh.export.notation import vector
 from anymesh.export.options import ExportOptions, Format
 from anymesh.openusd.writer_ import load_usd
 from anymesh.runtime import read_json, write_whole
+from anymesh.types import Brief
 
 SCENE = "scene.json"
 
 
 @dataclass(frozen=True, eq=False)
-class Placement:
+class Placement(Brief):
     """One object of a scene. name: unique; T: (4, 4), from its asset's frame to that of the scene [m, Z up], rigid."""
 
     name: str

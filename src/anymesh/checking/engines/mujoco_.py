@@ -24,6 +24,7 @@ from anymesh.checking.engines.driving import (
 from anymesh.checking.engines.mjcf_ import load_errors, read_spec, without_ground
 from anymesh.checking.engines.pushing import MujocoPassive, push_faults
 from anymesh.mujoco_ import is_unstable, load_mujoco, name_elements
+from anymesh.types import Brief
 
 TOUCH = 1e-4  # share of the asset's extent: bodies with deeper penetration at rest overlap
 MOTOR_FREQUENCY_1S = 30.0  # [rad/s] natural frequency of a motor whose motion takes 1 s; lower for a longer one
@@ -36,7 +37,7 @@ Coupling = tuple[str, str, np.ndarray]  # a joint, its leader ("" for none), and
 
 
 @dataclass(frozen=True, eq=False)
-class MujocoBench:
+class MujocoBench(Brief):
     """A model with a motor for each hinge and slide joint, and its state at rest."""
 
     mujoco: Any

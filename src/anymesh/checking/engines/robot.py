@@ -15,7 +15,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.errors import InputError
-from anymesh.types import JointType, Motion
+from anymesh.types import Brief, JointType, Motion
 
 MOVING = ("revolute", "continuous", "prismatic")
 SIZES = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length"), "capsule": ("radius", "length")}
@@ -26,7 +26,7 @@ DEFAULT_MIMIC = (("multiplier", "1"), ("offset", "0"))
 
 
 @dataclass(frozen=True, eq=False)
-class Geometry:
+class Geometry(Brief):
     """A shape of a link. kind: box (full sides), sphere (radius), cylinder and capsule (radius, length along z), mesh.
 
     T_link_shape: (4, 4); size: as stated for `kind` [m]; file: of a mesh, as written; scale: of its coordinates;
@@ -42,7 +42,7 @@ class Geometry:
 
 
 @dataclass(frozen=True, eq=False)
-class Inertial:
+class Inertial(Brief):
     """mass [kg]; center: (3,) of mass in the link frame [m]; tensor: (3, 3) about it, along the link's axes [kg m2]."""
 
     mass: float
@@ -69,7 +69,7 @@ class Mimic(NamedTuple):
 
 
 @dataclass(frozen=True, eq=False)
-class RobotJoint:
+class RobotJoint(Brief):
     """A joint as written. T_parent_joint: (4, 4) at position 0; axis: in the joint frame, any length.
 
     limits [rad or m], effort [N m or N], velocity [rad/s or m/s]: None if not given; friction [N m or N], damping [N m s/rad or

@@ -12,6 +12,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.loading.polygons_ import fans, recut, triangulate
+from anymesh.types import Brief
 
 LEFT_OUT = {
     "lines": "sets of lines",
@@ -56,7 +57,7 @@ def _whole(text: str) -> Int[np.ndarray, " n"]:
 
 
 @dataclass(frozen=True, eq=False)
-class DaeTriangles:
+class DaeTriangles(Brief):
     """Triangles with one material. symbol: its name in the geometry; faces: (F, 3) into the surface's vertices.
 
     uv: set number -> (F, 3, 1 or more), color: (F, 3, 3 or 4) and normal: (F, 3, 3), or None.

@@ -15,7 +15,7 @@ import numpy as np
 
 from anymesh.formats.dae.geometry import Find, floats
 from anymesh.loading.files import SHOWN, Folder, picture, picture_file
-from anymesh.types import Material, Texture
+from anymesh.types import Brief, Material, Texture
 from anymesh.types.mesh import CLAMP, MIRROR, REPEAT, to_linear
 
 SHADERS = ("phong", "blinn", "lambert", "constant")
@@ -35,7 +35,7 @@ class DaeMaterial:
 
 
 @dataclass(frozen=True, eq=False)
-class _Value:
+class _Value(Brief):
     """A colour (RGBA), or a picture of a shader and its element, which also is there for a picture that cannot be read."""
 
     color: np.ndarray | None = None

@@ -13,7 +13,7 @@ from jaxtyping import Float
 from anymesh.formats.dae.geometry import floats
 from anymesh.loading.files import Folder
 from anymesh.stated.animated import NodeTrack, SceneNode, animated_joints
-from anymesh.types import Mesh
+from anymesh.types import Brief, Mesh
 
 SIZES = {"matrix": 16, "translate": 3, "scale": 3, "rotate": 4, "lookat": 9, "skew": 7}
 MEMBERS = {"X": 0, "Y": 1, "Z": 2, "W": 3, "ANGLE": 3}
@@ -24,7 +24,7 @@ Curve = tuple[np.ndarray, np.ndarray, slice, bool]  # times, (n, w) values, the 
 
 
 @dataclass(frozen=True, eq=False)
-class DaeNode:
+class DaeNode(Brief):
     """A visible node of the scene; one that is instanced several times is several. parent: its number, -1 for none.
 
     T: (4, 4) to the scene [units of the file].

@@ -17,7 +17,7 @@ from anymesh.formats.gltf.buffers import Buffers, DataError, item
 from anymesh.formats.gltf.materials import GltfMaterial
 from anymesh.loading.files import Folder
 from anymesh.loading.join import join, rgba, simple_mesh, unit
-from anymesh.types import Mesh
+from anymesh.types import Brief, Mesh
 from anymesh.types.mesh import to_srgb
 
 TRIANGLES = 4  # primitive mode
@@ -27,7 +27,7 @@ DRACO_EXTENSION = "KHR_draco_mesh_compression"
 
 
 @dataclass(frozen=True, eq=False)
-class Pose:
+class Pose(Brief):
     """A skin at its rest pose. matrices: joint in the scene times inverse bind matrix; nodes: index of each joint's node."""
 
     matrices: Float[np.ndarray, "n 4 4"]

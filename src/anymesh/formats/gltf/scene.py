@@ -18,7 +18,7 @@ from anymesh.formats.gltf.primitives import GltfMeshes, Pose
 from anymesh.loading.files import MAX_FACES, Folder
 from anymesh.loading.join import join, unique_names
 from anymesh.loading.scene_graph import is_generic, leave_out_warning
-from anymesh.types import Mesh, Node
+from anymesh.types import Brief, Mesh, Node
 
 READ = (
     "KHR_texture_transform", "KHR_mesh_quantization", "KHR_texture_basisu", "KHR_draco_mesh_compression",
@@ -71,7 +71,7 @@ def _name(node: dict[str, Any], index: int, labels: Sequence[str]) -> str:
 
 
 @dataclass(frozen=True)
-class PlacedNode:
+class PlacedNode(Brief):
     """A node of the scene. T: to the scene; path: indices of the nodes from the root to it; left_out: a reason of LEFT_OUT."""
 
     T: Float[np.ndarray, "4 4"]

@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.loading.polygons_ import fans, recut
+from anymesh.types import Brief
 
 SEGMENTS = 32  # of a full turn of a primitive
 ALONG = {"X": [2, 0, 1], "Y": [1, 2, 0], "Z": [0, 1, 2]}  # columns of a primitive along Z that become x, y and z
@@ -33,7 +34,7 @@ def array(stated: Any, width: int, kind: type = np.float64) -> np.ndarray:
 
 
 @dataclass(frozen=True, eq=False)
-class UsdTriangles:
+class UsdTriangles(Brief):
     """Triangles of one prim.
 
     vertices: (V, 3) [units of the stage]; faces: (F, 3) into them; polygon: (F,) face of the file that a triangle is a part of;

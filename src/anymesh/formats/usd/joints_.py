@@ -13,7 +13,7 @@ from jaxtyping import Float
 from anymesh.formats.usd.geometry_ import kind_of, value
 from anymesh.loading.files import Folder
 from anymesh.stated.animated import NodeTrack, SceneNode, animated_joints
-from anymesh.types import JointType, Mesh, StatedJoint
+from anymesh.types import Brief, JointType, Mesh, StatedJoint
 
 WORLD = ""  # path of what no rigid body holds
 KINDS = {
@@ -29,7 +29,7 @@ APART = 1e-3  # of the object's diagonal; frames of a joint that are further apa
 
 
 @dataclass(frozen=True, eq=False)
-class UsdJoint:
+class UsdJoint(Brief):
     """A joint of the file. a, b: paths of its bodies; T_a, T_b: its frame, by either, in the stage; limits [rad or units]."""
 
     name: str

@@ -17,7 +17,7 @@ from anymesh.formats.usd.layers_ import Layers, load_pxr
 from anymesh.formats.usd.materials_ import UV_NAMES, StageMaterials, UsdLook
 from anymesh.loading.files import MAX_FACES, FileMesh, Folder
 from anymesh.loading.join import join, rgba, unit
-from anymesh.types import Material, Mesh, Node
+from anymesh.types import Brief, Material, Mesh, Node
 from anymesh.types.mesh import to_srgb
 
 LEFT_OUT = {
@@ -67,7 +67,7 @@ class PlacedPrim:
 
 
 @dataclass(frozen=True, eq=False)
-class _Visit:
+class _Visit(Brief):
     """A prim to be read: parent's transform, purpose inherited so far, and the point instancer that places it."""
 
     prim: Any

@@ -28,7 +28,7 @@ from anymesh.prompted.questions.prompting import (
     WhichPoints,
 )
 from anymesh.prompted.questions.recognition import Recognize
-from anymesh.types import Exchange, Joint, JointType, KnownJoint, Mesh, Motion, Segmentation
+from anymesh.types import Brief, Exchange, Joint, JointType, KnownJoint, Mesh, Motion, Segmentation
 from anymesh.types.motion import BASE, Recognition, RecognizedLabel
 from anymesh.types.questions import Answer, Question
 
@@ -46,7 +46,7 @@ MAX_MOTION_ERROR_RATIO = 0.5
 
 
 @dataclass(frozen=True, eq=False)
-class Reference:
+class Reference(Brief):
     """Known parts and joints.
 
     face_part: (F,) part of each face, 0 for the base. The other fields have one entry per part, the base first.

@@ -14,7 +14,7 @@ from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.topology import label_connected, strongest
 from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
 from anymesh.rendering.render import View, face_colors
-from anymesh.types import Mesh
+from anymesh.types import Brief, Mesh
 
 CUT_POINTS = 40_000  # points used for the cut; 800k points would take 20 s and give the same borders
 NEIGHBOURS = 10  # points that each point is connected to
@@ -28,7 +28,7 @@ NORMAL_WEIGHT = 4.0  # a difference of 60 degrees between normals counts as a di
 
 
 @dataclass(frozen=True, eq=False)
-class Cloud:
+class Cloud(Brief):
     """Points on the surface of an object.
 
     colors: sRGB; faces: mesh face of each point; superpoint: superpoint index per point, where no superpoint spans two patches;
@@ -54,7 +54,7 @@ class Cloud:
 
 
 @dataclass(frozen=True, eq=False)
-class Sight:
+class Sight(Brief):
     """Points of a cloud that a view sees.
 
     points: indices of the points; pixels: row * width + column of each.

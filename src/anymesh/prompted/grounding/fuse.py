@@ -17,6 +17,7 @@ from anymesh.prompted.grounding.cloud import Cloud, sight
 from anymesh.prompted.grounding.regions import min_pixels
 from anymesh.prompted.questions.grounding import MarkedPart
 from anymesh.rendering.render import View
+from anymesh.types import Brief
 
 MAX_MASK_SHARE = 0.95  # masks that cover a larger share of the object are ignored
 MIN_COVERED_SHARE = 0.5  # minimum share of a superpoint's visible points in a mask for the mask's label
@@ -27,7 +28,7 @@ MAJORITY_PX = 5  # [px] side of the majority filter that smooths masks
 
 
 @dataclass(frozen=True, eq=False)
-class Proposal:
+class Proposal(Brief):
     """Regions of one view.
 
     labels: region number (from 1) per pixel, -1 for none; numbers: regions large enough for a mark.
@@ -91,7 +92,7 @@ def _majority(labels: np.ndarray) -> Int[np.ndarray, "H W"]:
 
 
 @dataclass(frozen=True, eq=False)
-class Mask:
+class Mask(Brief):
     """Pixels of one part in one view.
 
     instance: distinguishes parts of the same label within the view.
@@ -103,7 +104,7 @@ class Mask:
 
 
 @dataclass(frozen=True, eq=False)
-class Counts:
+class Counts(Brief):
     """Point counts of one view.
 
     seen: visible points of each superpoint; inside: how many of these lie in each mask; top: the same with each pixel counted
@@ -122,7 +123,7 @@ class Counts:
 
 
 @dataclass(frozen=True, eq=False)
-class Instances:
+class Instances(Brief):
     """Part of each superpoint.
 
     number: k for a part with label `labels[k - 1]`, 0 for a visible superpoint of no part, -1 for one that no view shows.

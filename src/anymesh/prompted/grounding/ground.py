@@ -30,7 +30,7 @@ from anymesh.rendering.viewpoints import normal_picture
 from anymesh.runtime import Progress, silent
 from anymesh.segmentation.handles import patch_sizes
 from anymesh.segmentation.naming import named_parts
-from anymesh.types import JointType, Segmentation
+from anymesh.types import Brief, JointType, Segmentation
 from anymesh.types.motion import Recognition
 from anymesh.types.questions import VisualAnswerer
 
@@ -39,7 +39,7 @@ MovesFreely = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int, Joint
 
 
 @dataclass(frozen=True, eq=False)
-class GroundedParts:
+class GroundedParts(Brief):
     """Parts of the surface found by grounding.
 
     face_part: (F,) part index per face, 0 for the base; unseen: (F,) faces of patches that no view shows. The other sequences

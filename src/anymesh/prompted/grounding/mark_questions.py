@@ -20,7 +20,7 @@ from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.rendering.render import View
 from anymesh.rendering.viewpoints import zoom
-from anymesh.types import Picture
+from anymesh.types import Brief, Picture
 from anymesh.types.camera import Camera
 from anymesh.types.exchange import DrawnPictures
 from anymesh.types.questions import VisualAnswerer
@@ -37,7 +37,7 @@ MAX_MARK_PICTURES = 16  # pictures per call
 
 
 @dataclass(frozen=True, eq=False)
-class MarkPicture:
+class MarkPicture(Brief):
     """A view, the mark of each of its pixels (-1 for none), and its description."""
 
     view: View

@@ -15,7 +15,7 @@ from anymesh.geometry.topology import components, label_connected, strongest
 from anymesh.prompted.grounding.cloud import Cloud
 from anymesh.rendering.render import View
 from anymesh.segmentation.handles import MIN_WHOLE_OBJECT_SHARE
-from anymesh.types import Mesh
+from anymesh.types import Brief, Mesh
 
 MAX_MARKS = 400  # marks per object, over all pictures; above, the smallest regions join their neighbours, with a warning
 MAX_SPLIT_MARKS = 24  # marks that one mark is split into
@@ -29,7 +29,7 @@ MAX_DEPTH_STEP_RATIO = 0.02  # of the diagonal: maximum depth difference between
 
 
 @dataclass(frozen=True, eq=False)
-class Marks:
+class Marks(Brief):
     """Mark of each face.
 
     face_mark: (F,) from 1, -1 for none; crowded: number of regions that joined others because there were too many.

@@ -15,6 +15,8 @@ from jaxtyping import Bool, Float, Int, UInt8
 from PIL import Image
 from scipy.sparse import csr_array
 
+from anymesh.types import Brief
+
 POINTS_PER_BATCH = 64
 STABILITY_OFFSET = 1.0  # [logit] distance of both thresholds from 0
 MEAN = np.array([123.675, 116.28, 103.53], np.float32)  # of ImageNet's RGB, 0..255; every SAM and SAM 2 uses these
@@ -126,7 +128,7 @@ class AutomaticMasks:
 
 
 @dataclass(frozen=True, eq=False)
-class ProposedMask:
+class ProposedMask(Brief):
     """bits: packed mask, since about a thousand are held until the suppression; score: IoU predicted by the model.
 
     box: (x0, y0, x1, y1) of the outermost pixels [px].

@@ -20,6 +20,7 @@ from jaxtyping import Float, UInt8
 from anymesh.errors import MissingExtraError, ModelError, pip_install
 from anymesh.prompted.grounding.sam import MEAN, Frame, PromptedSegmenter
 from anymesh.prompted.grounding.sam_weights_ import Hub, resolve
+from anymesh.types import Brief
 
 log = logging.getLogger("anymesh")
 TYPES = {
@@ -76,7 +77,7 @@ EXPORTS = (
 
 
 @dataclass(frozen=True, eq=False)
-class _Embedding:
+class _Embedding(Brief):
     features: dict[str, np.ndarray]
     size: tuple[int, int]  # rows and columns of the picture
 

@@ -15,7 +15,7 @@ from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE
 from anymesh.prompted.grounding.mark_questions import MarkQuestioner
 from anymesh.rendering.render import View
 from anymesh.segmentation.handles import patch_sizes
-from anymesh.types import Mesh
+from anymesh.types import Brief, Mesh
 from anymesh.types.camera import Camera
 
 MAX_SEEN_SHARE = 0.25  # patches up to this visible share of the surface count as mostly hidden
@@ -136,7 +136,7 @@ class SampledObject:
 
 
 @dataclass(frozen=True, eq=False)
-class ShownViews:
+class ShownViews(Brief):
     """The views to choose pictures from, their names, and the patches that no outside view shows."""
 
     views: list[View]

@@ -20,7 +20,7 @@ from anymesh.prompted.motions.cases import PartCase, ask_each
 from anymesh.prompted.motions.offers import MotionOffers, fits, make_offers, moves_as
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.prompting import JointAppearance, MotionPick, MotionTable, PartFit, WhichMotions
-from anymesh.types import Picture
+from anymesh.types import Brief, Picture
 from anymesh.types.questions import VisualAnswerer
 
 MOTIONS_IN_PICTURE = 7  # two rows of four with the pose at rest
@@ -138,7 +138,7 @@ class Choice:
 
 
 @dataclass(frozen=True, eq=False)
-class MotionQuestioner:
+class MotionQuestioner(Brief):
     """Settings of the motion question.
 
     labels: (F,) part of each face; category: of the object.

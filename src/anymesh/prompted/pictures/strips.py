@@ -32,7 +32,7 @@ from anymesh.rendering.marks import (
 )
 from anymesh.rendering.render import lit, shade, turned
 from anymesh.rendering.viewpoints import SKETCH, box_of, framed, orbit_camera, zoom
-from anymesh.types import JointType, Mesh, Motion
+from anymesh.types import Brief, JointType, Mesh, Motion
 from anymesh.types.camera import Camera
 from anymesh.types.triangles import bounds_of, box_corners, transformed, unshared
 
@@ -289,7 +289,7 @@ Pose = Float[np.ndarray, "4 4"]
 
 
 @dataclass(frozen=True, eq=False)
-class PartPixels:
+class PartPixels(Brief):
     """Pixels that the part alone would cover.
 
     pixel: flat indices in row-major order; distance: in lengths of the pixel's ray; normal: turned towards the camera.
@@ -301,7 +301,7 @@ class PartPixels:
 
 
 @dataclass(frozen=True, eq=False)
-class Still:
+class Still(Brief):
     """Static faces in a picture: shaded and lightened colour, distance (inf: nothing) and normal of each pixel."""
 
     color: UInt8[np.ndarray, "n 3"]
@@ -310,7 +310,7 @@ class Still:
 
 
 @dataclass(frozen=True, eq=False)
-class Posed:
+class Posed(Brief):
     """The object as modelled, its ray scene, and its moving faces. Poses are rigid transforms of these from their rest pose."""
 
     mesh: Mesh

@@ -28,7 +28,7 @@ from anymesh.rendering.viewpoints import (
     views,
     visible_pixels,
 )
-from anymesh.types import Mesh, Motion, Picture
+from anymesh.types import Brief, Mesh, Motion, Picture
 from anymesh.types.camera import Camera
 
 TITLE = 22  # [px] font size in a picture of 640 px
@@ -138,7 +138,7 @@ def _over_ghost(near: View, whole: View) -> UInt8[np.ndarray, "H W 3"]:
 
 
 @dataclass(frozen=True, eq=False)
-class Shot:
+class Shot(Brief):
     """A part in its best view, in close-up if it is small there."""
 
     view: View

@@ -10,11 +10,12 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.prompted.questions.asking import INTEGER, BadAnswerError, a_list, an_answer, an_object, one_of, with_category
+from anymesh.types import Brief
 from anymesh.types.exchange import Pictures
 
 
 @dataclass(frozen=True, eq=False)
-class WhichViews:
+class WhichViews(Brief):
     """Which labels are visible in which view?
 
     faces: a face index per pixel of each view, -1 for none.
@@ -74,7 +75,7 @@ class MarksAnswer:
 
 
 @dataclass(frozen=True, eq=False)
-class WhichMarks:
+class WhichMarks(Brief):
     """Which marks make up which part?
 
     regions: the mark per pixel of each picture, -1 for none; faces: the face index per pixel; consistent: a region of the

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.prompted.questions.asking import BOOLEAN, INTEGER, BadAnswerError, a_list, an_answer, an_object, one_each, one_of
-from anymesh.types import JointType, Motion
+from anymesh.types import Brief, JointType, Motion
 from anymesh.types.exchange import Pictures
 
 OTHER = "other"  # label of a part that is none of the recognized kinds
@@ -37,7 +37,7 @@ class JointAppearance(StrEnum):
 
 
 @dataclass(frozen=True, eq=False)
-class PartShown:
+class PartShown(Brief):
     """A part in a question. The fields after the label are for answerers without pictures [m].
 
     diagonal: of the object's box, which gives the scale that an answered size may have changed; None if unknown.
@@ -105,7 +105,7 @@ class WhichKinds:
 
 
 @dataclass(frozen=True, eq=False)
-class PointTable:
+class PointTable(Brief):
     """Numbered candidate points of one part, as drawn: number k is row k - 1.
 
     The number of points to pick depends on the kind.
@@ -180,7 +180,7 @@ class WhichPoints:
 
 
 @dataclass(frozen=True, eq=False)
-class ArrowTable:
+class ArrowTable(Brief):
     """Numbered arrows of one part, as drawn: unit directions, number k is row k - 1."""
 
     part: PartShown
@@ -230,7 +230,7 @@ def _listed(parts: Sequence[PartShown]) -> str:
 
 
 @dataclass(frozen=True, eq=False)
-class MotionTable:
+class MotionTable(Brief):
     """Numbered motions of one part, as drawn, and the displacement of each [rad or m]: number k is row k - 1.
 
     blocked: motions in which the part would hit something as modelled; moving: faces of the mesh that move, including those of
