@@ -49,7 +49,7 @@ def part_poses(asset: Asset, positions: Mapping[str, float], explode: float) -> 
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
+class Seen(Brief):
     """First hits of rays: face (-1 where nothing is hit), and the distance in lengths of the ray's direction."""
 
     face: Int[np.ndarray, " n"]

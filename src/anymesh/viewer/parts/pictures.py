@@ -16,7 +16,7 @@ from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.marks import axis_line
 from anymesh.rendering.preview import AZIMUTHS, ELEVATION, shown_position
 from anymesh.rendering.viewpoints import orbit_camera
-from anymesh.types import Asset, Joint, JointType
+from anymesh.types import Asset, Brief, Joint, JointType
 from anymesh.types.camera import Camera
 from anymesh.types.triangles import normals_and_areas
 from anymesh.viewer.scene import DisplayMesh, surface
@@ -31,7 +31,7 @@ LIGHT = np.array([0.3, 0.5, 0.9])  # on surfaces across x, y and z
 
 
 @dataclass(frozen=True, eq=False)
-class _Shot:
+class _Shot(Brief):
     """What rays hit. kind: 0 nothing, 1 the rest, 2 what the part carries, 3 the part."""
 
     kind: Int[np.ndarray, " n"]
