@@ -100,9 +100,12 @@ def content(asset: Path) -> Row:
 
 
 def warned(joint: Row, warnings: Sequence[str]) -> bool:
-    """Return whether a warning names the joint or its part."""
+    """Return whether a warning names the joint or its part. Warnings about collision shapes say nothing of the motion."""
     names = {joint["name"], joint["child"]}
-    return any(names & set(warning.replace(":", " ").replace(",", " ").split()) for warning in warnings)
+    return any(
+        not warning.startswith("link ") and names & set(warning.replace(":", " ").replace(",", " ").split())
+        for warning in warnings
+    )
 
 
 def extent(joint: Row) -> str:
@@ -119,19 +122,18 @@ def run(rows: Sequence[Row], folder: Path, out: Path, source: Path, limit: float
     """Articulate all meshes and write results.json; results of other meshes that are there are kept."""
     out.mkdir(parents=True, exist_ok=True)
     file = out / "results.json"
-    results = {r["name"]: r for r in json.loads(file.read_text())["results"]} if file.exists() else {}
+    results = {result["name"]: result for result in json.loads(file.read_text())} if file.exists() else {}
     commit = subprocess.run(["git", "rev-parse", "HEAD"], cwd=source, capture_output=True, text=True).stdout.strip()
     with ThreadPoolExecutor(jobs) as pool:
         for result in pool.map(lambda row: articulate(row, folder, out, source, limit), rows):
-            results[result["name"]] = result
+            results[result["name"]] = {**result, "commit": commit}
             print(result["name"], result["exit"], f"{result['seconds']} s", f"{len(result['joints'])} joints", flush=True)
-            file.write_text(json.dumps({"commit": commit, "results": list(results.values())}, indent=1))
+            file.write_text(json.dumps(list(results.values()), indent=1))
 
 
-def read(folder: Path) -> tuple[str, dict[str, Row]]:
-    """Return the commit and the results of a folder, by name."""
-    data = json.loads((folder / "results.json").read_text())
-    return data["commit"], {result["name"]: result for result in data["results"]}
+def read(folder: Path) -> dict[str, Row]:
+    """Return the results of a folder by name."""
+    return {result["name"]: result for result in json.loads((folder / "results.json").read_text())}
 
 
 def lines_of(row: Row, result: Row) -> list[str]:
@@ -166,9 +168,9 @@ def sheets(before: Path, after: Path, out: Path) -> None:
     """Write sheets of both states under neutral ids, an empty table for the verdicts, and the key, which stays closed."""
     out.mkdir(parents=True, exist_ok=True)
     rows = {row["name"]: row for row in listed()}
-    cases = [(state, name) for state, place in (("before", before), ("after", after)) for name in read(place)[1]]
+    cases = [(state, name) for state, place in (("before", before), ("after", after)) for name in read(place)]
     random.Random(SEED).shuffle(cases)
-    results = {"before": read(before)[1], "after": read(after)[1]}
+    results = {"before": read(before), "after": read(after)}
     folders = {"before": before, "after": after}
     key, empty = [("id", "state", "name")], [("id", "verdict", "wrong", "note")]
     for number, (state, name) in enumerate(cases):
@@ -203,6 +205,12 @@ def silent(result: Row, said: Row, rule: str) -> bool:
     return any(joint["confidence"] >= float(rule) and not warned(joint, result["warnings"]) for joint in found)
 
 
+def commits(results: Mapping[str, Row]) -> str:
+    """Return the commits of results, with how many of them each made if there are several."""
+    number = Counter(result["commit"][:8] for result in results.values())
+    return ", ".join(commit if len(number) == 1 else f"{commit} ({count})" for commit, count in number.items())
+
+
 def counts(names: Sequence[str], said: Mapping[str, Row], results: Mapping[str, Row]) -> list[str]:
     """Return the cells of a row of the summary: how many meshes have each verdict, and how many are silently wrong."""
     known = [name for name in names if name in said]
@@ -222,12 +230,12 @@ def report(before: Path, after: Path, folder: Path) -> None:
         "held out": [r["name"] for r in rows if r["split"] == "held_out"],
         "dev": [r["name"] for r in rows if r["split"] == "dev"],
     }
-    lines = [HEAD.format(date=date.today(), **{state: commit[:8] for state, (commit, _) in states.items()})]
+    lines = [HEAD.format(date=date.today(), **{state: commits(results) for state, results in states.items()})]
     lines += table_head(
         ("meshes", "state", "viewer", *VERDICTS, "silently wrong: sure", *(f"from {rule}" for rule in RULES[1:]))
     )
     for group, names in groups.items():
-        for state, (_, results) in states.items():
+        for state, results in states.items():
             for viewer, said in viewers.items():
                 mine = {name: row for (at, name), row in said.items() if at == state}
                 lines.append(table_row((f"{group}, {len(names)}", state, viewer, *counts(names, mine, results))))
