@@ -17,7 +17,7 @@ from anymesh.segmentation import part_candidates as candidates
 from anymesh.segmentation import segment
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.naming import named_parts
+from anymesh.segmentation.naming import described, named_parts
 from anymesh.segmentation.part_candidates import (
     NameClass,
     PartCandidates,
@@ -247,3 +247,28 @@ def test_panels_are_not_made_where_triangles_are_too_coarse_to_show_their_border
     coarse = trimesh.boolean.union([trimesh.creation.box(sides).apply_translation(center) for center, sides in boxes])
     mesh = mesh_of([(np.asarray(coarse.vertices, float), np.asarray(coarse.faces))])[0]
     assert panels(object_shape(mesh)) == []
+
+
+def test_where_nothing_is_a_part_the_likeliest_candidates_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    mesh, _ = mesh_of(LOOSE)
+    told = {}
+    for scores in ((-3.0, -2.0), (2.0, 1.0)):
+        segmented(monkeypatch, list(scores))  # which gives the candidates these scores
+        told[scores] = segment.segment_parts(mesh, object_shape(mesh), lambda s: ["it"] * (len(s.parts) - 1)).nearly
+    first, second = told[-3.0, -2.0].split("), ")
+    assert first.startswith("the piece at the back, 50 x 50 x 50 cm (probability 0.")
+    assert second.startswith("the piece at the right, 60 x 60 x 60 cm (probability 0.0")
+    assert told[2.0, 1.0] == ""
+
+
+@pytest.mark.parametrize(
+    ("low", "high", "name", "words"),
+    [
+        ((0, -0.02, 0.3), (0.4, 0, 0.9), "", "the panel at the front, 60 x 40 cm"),
+        ((0, 0, 0.98), (1, 0.5, 1), "Top_L", "the panel 'Top_L' at the top, 100 x 50 cm"),
+        ((0.4, 0.2, 0), (0.45, 0.25, 1.0), "", "the bar in the middle, 100 x 5 x 5 cm"),
+        ((0, 0.2, 0.4), (0.1, 0.3, 0.5), "", "the piece at the left, 10 x 10 x 10 cm"),
+    ],
+)
+def test_a_piece_is_described_by_shape_place_and_size(low, high, name, words) -> None:
+    assert described(np.array([low, high], float), np.array([[0, -0.02, 0], [1, 0.5, 1.0]]), name) == words

@@ -110,13 +110,21 @@ def segmentation_result(
     segmentation: Segmentation, answerer: str, warnings: tuple[str, ...] = (), exchanges: tuple[Exchange, ...] = ()
 ) -> SegmentationResult:
     """Return the result of Stage A, with a warning for each part of low confidence, and if there is none but the base."""
-    none = ("no moving part was found",) if len(segmentation.parts) == 1 else ()
+    none = (no_part_found(segmentation.nearly),) if len(segmentation.parts) == 1 else ()
     unsure = tuple(
         f"part {p.name}: low confidence ({p.confidence:.2f}) that it moves by itself{PLEASE_CHECK}"
         for p in segmentation.parts[1:]
         if p.confidence < LOW_CONFIDENCE
     )
     return SegmentationResult(segmentation, answerer, (*warnings, *none, *unsure), exchanges)
+
+
+def no_part_found(nearly: str) -> str:
+    """Return the warning that nothing moves, with what would be parts next, and how to go on."""
+    if not nearly:
+        return "no moving part was found, and nothing stands out that could be one; mark it in `anymesh view`"
+    go_on = "--at-least 1 takes the first; to say what moves, `anymesh view --ask` or --answerer files:FOLDER"
+    return f"no moving part was found; nearest to one is {nearly}; {go_on}"
 
 
 def joint_result(

@@ -64,7 +64,12 @@ class GeometryStages:
         """Run Stage A."""
         parts = self.parts(progress)
         ground = (GROUND_WARNING,) if self._ground.any() else ()
-        return segmentation_result(parts, self.name, self.deadline.warnings() + ground)
+        return segmentation_result(parts, self.name, self.deadline.warnings() + ground + self.too_few(parts))
+
+    def too_few(self, parts: Segmentation) -> tuple[str, ...]:
+        """Return a warning if there are fewer parts than were asked for."""
+        least, count = self.config.at_least, len(parts.parts) - 1
+        return () if count >= least else (f"--at-least {least}: there are only {count}, mark more in `anymesh view`",)
 
     def estimate_joints(
         self, segmentation: Segmentation, recognition: Recognition | None, progress: Progress = silent, grounded: bool = False
@@ -80,7 +85,7 @@ class GeometryStages:
         """
         if self._by_itself is None:
             above = self._parts_above_ground(progress) if self._ground.any() else None
-            if above is None or len(above.parts) == 1:
+            if above is None or len(above.parts) <= max(1, self.config.at_least):
                 above = segment_parts(self.mesh, self.whole, self._labels, self.config.at_least, progress, self.deadline)
             self._by_itself = above
         return self._by_itself

@@ -100,9 +100,13 @@ class PromptedStages:
             partial(stays_free, self._geometry.whole),
             progress,
         )
-        return segmentation_result(
-            segmentation, answerer.name, (*answerer.warnings, *warnings, *self.deadline.warnings()), answerer.exchanges
-        )
+        if len(segmentation.parts) == 1:
+            own = self._geometry.parts(progress)
+            others = ", ".join(part.name for part in own.parts[1:])
+            named = replace(segmentation, nearly=own.nearly or f"what geometry finds: {others}")
+            segmentation = own if self.config.at_least else named
+        warnings = (*answerer.warnings, *warnings, *self.deadline.warnings(), *self._geometry.too_few(segmentation))
+        return segmentation_result(segmentation, answerer.name, warnings, answerer.exchanges)
 
     def estimate_joints(
         self, segmentation: Segmentation, recognition: Recognition | None, progress: Progress = silent, grounded: bool = False

@@ -19,7 +19,7 @@ from anymesh.geometry.topology import label_connected
 from anymesh.runtime import SEGMENT, Deadline, Progress, silent, usable_cores
 from anymesh.scoring import by_hand
 from anymesh.segmentation.contacts import Contacts, find_contacts
-from anymesh.segmentation.naming import named_parts
+from anymesh.segmentation.naming import described, named_parts
 from anymesh.segmentation.part_candidates import Overlap, PartCandidates, name_class, part_candidates, shared_name
 from anymesh.segmentation.part_classifier import score_parts, shipped_classifier
 from anymesh.segmentation.part_features import FeatureInputs, candidate_context, part_features
@@ -28,6 +28,7 @@ from anymesh.vocabulary import recognize
 
 MIN_PART_PROBABILITY = 0.3  # of a part; F1 on kinds left out of training is the same from .25 to .35
 UNLIKELY = 0.05  # probability below which a candidate does not count
+NEARLY = 2  # candidates that are named where there is no part
 MAX_TRIED = 10  # candidates in conflict, directly or through others, up to which all sets are tried
 TIE = 1e-6  # difference of sums of probabilities below which two sets are equally good
 MIN_DUPLICATE_IOU = 0.3  # minimum IoU at which a candidate within another one is the same part
@@ -176,10 +177,32 @@ def segment_parts(
         free[fixed] = 0  # the same part with its handle, or another one, may move
     moving = {k: label for k, label in zip(order, labels, strict=True) if label}
     if len(moving) < at_least:
-        face_part, order = _face_part(mesh, examined, _filled(examined, probability, list(moving), at_least))
+        face_part, order = _at_least(mesh, examined, probability, list(moving), at_least)
         labels = [moving.get(k, "part") for k in order]
     still = [n for n, label in enumerate(labels, start=1) if not label]
-    return segmentation(np.where(np.isin(face_part, still), 0, face_part), order, labels, likely)
+    parts = segmentation(np.where(np.isin(face_part, still), 0, face_part), order, labels, likely)
+    nearly = "" if len(parts.parts) > 1 else _nearly(mesh, examined, probability, words)
+    return replace(parts, nearly=nearly)
+
+
+def _at_least(
+    mesh: Mesh, candidates: PartCandidates, probability: Float[np.ndarray, " n"], chosen: list[int], count: int
+) -> tuple[Int[np.ndarray, " F"], list[int]]:
+    """Return `_face_part` with the best other candidates, so many that `count` have faces of their own, if possible."""
+    more = count
+    while True:
+        filled = _filled(candidates, probability, chosen, more)
+        face_part, order = _face_part(mesh, candidates, filled)
+        if len(order) >= count or len(filled) < more:
+            return face_part, order
+        more += 1
+
+
+def _nearly(mesh: Mesh, candidates: PartCandidates, probability: Float[np.ndarray, " n"], words: Sequence[str]) -> str:
+    """Return the likeliest candidates in words, with their probabilities; "" without any."""
+    likeliest = sorted(_filled(candidates, probability, [], NEARLY), key=lambda k: (-probability[k], k))
+    pieces = (f"{described(candidates.bounds[k], mesh.bounds, words[k])} (probability {probability[k]:.2g})" for k in likeliest)
+    return ", ".join(pieces)
 
 
 def examine_candidates(

@@ -37,11 +37,12 @@ class Part:
 class Segmentation:
     """Result of Stage A: one part index per face. Part 0 is the root (the base) and always exists.
 
-    face_part: (F,) index into parts.
+    face_part: (F,) index into parts; nearly: what would be parts next, in words, if there are none.
     """
 
     face_part: Int[np.ndarray, " F"]
     parts: tuple[Part, ...]
+    nearly: str = ""
 
     def __post_init__(self) -> None:
         if not self.parts:
