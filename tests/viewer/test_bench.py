@@ -10,13 +10,11 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 from asked_cabinet import MESH, questions
-from fake_bench import CUBE, FakeWork, until, upload
+from fake_bench import CUBE, FakeWork, asking, put, until, upload
 
 from anymesh.correcting import CorrectionError, FlipSign
 from anymesh.errors import OptionError
 from anymesh.prompted.answerers.question_files import QuestionStore
-from anymesh.prompted.models.vision import Request
-from anymesh.prompted.questions.saved_question import pack_question
 from anymesh.viewer.intake import bench_
 from anymesh.viewer.intake.welcome import examples
 from anymesh.viewer.server_ import serve
@@ -99,25 +97,6 @@ def test_corrections_that_are_not_saved_keep_the_next_mesh_out(page):
     upload(page)
     assert len(FakeWork.made) == 2
     assert page.session is None
-
-
-def put(folder, kind):
-    question, answer = questions()[kind]
-    request = Request(question.kind, "system", question.text(), question.pictures, question.schema())
-    found = QuestionStore(folder).put(request, {"check.npz": pack_question(question)})
-    found.write_suggestion(json.dumps(answer))
-    return found, answer
-
-
-def asking(page):
-    """A mesh whose questions are put to the person: the folder of these."""
-    page.bench._who = bench_.MYSELF
-    upload(page)
-    work = FakeWork.made[-1]
-    assert work.options["wait"]
-    assert work.options["suggest"]
-    work.mesh = MESH
-    return Path(work.options["answerer"].removeprefix("files:"))
 
 
 def test_every_question_is_asked_answered_and_recorded(page):

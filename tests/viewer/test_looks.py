@@ -25,15 +25,15 @@ def test_a_shadow_lies_below_the_object_and_follows_its_parts():
     shadow = Shadow(MESH, cabinet().segmentation.face_part)
     rest = shadow.picture({})[..., 3]
     low, high = (MESH.bounds[:, :2] - shadow.center[:2]) / shadow.side + 0.5
-    below = rest[int(SIDE * (1 - high[1])) : int(SIDE * (1 - low[1])), int(SIDE * low[0]) : int(SIDE * high[0])]
+    below = rest[int(SIDE * low[1]) : int(SIDE * high[1]), int(SIDE * low[0]) : int(SIDE * high[0])]
     assert below.mean() > 40
     assert rest[:3].max() < 10
     away = np.eye(4)
-    away[1, 3] = -0.3 * MESH.diagonal  # the drawer, towards -y, which is down in the picture
+    away[1, 3] = -0.3 * MESH.diagonal  # the drawer, towards -y, which is up in the picture
     moved = shadow.picture({2: away})[..., 3].astype(int) - rest
     rows = np.argwhere(moved > 15)[:, 0]
     assert len(rows) > 50
-    assert rows.mean() > SIDE / 2
+    assert rows.mean() < SIDE / 2
 
 
 @pytest.mark.parametrize(("length", "near"), [(0.011, 0.01), (0.24, 0.2), (0.4, 0.5), (8.0, 10.0), (1500.0, 2000.0)])

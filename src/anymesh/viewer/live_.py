@@ -48,11 +48,8 @@ class PlayPanel:
             self._rest = gui.add_button("All to rest", color="gray")
             self._rest.on_click(lambda _: page.act(self._to_rest))
             self._joints = gui.add_folder("Joints")
-            with gui.add_folder("Shown"):
-                self._explode = gui.add_slider("Exploded", 0.0, 1.0, 0.01, 0.0)
-                self._textures = gui.add_checkbox(
-                    "Textures", False, hint="The object's own materials, instead of a colour per part"
-                )
+            with gui.add_folder("Shown"):  # no hint above or below a slider: it would cover it
+                self._textures = gui.add_checkbox("Textures", False)
                 self._axes = gui.add_checkbox("Axes and limits", True)
                 self._collision = gui.add_checkbox("Collision shapes", False)
                 self._inertia = gui.add_checkbox("Inertia", False, hint="Boxes of even density with the mass and moments")

@@ -76,14 +76,17 @@ class Shadow:
         self._diagonal = mesh.diagonal
 
     def picture(self, poses: Mapping[int, Float[np.ndarray, "4 4"]]) -> UInt8[np.ndarray, "s s 4"]:
-        """Return black with the shadow's opacity, +x to the right and +y up. poses: index of a part -> its pose."""
+        """Return black with the shadow's opacity, +x to the right and +y down, as the page lays pictures.
+
+        poses: index of a part -> its pose.
+        """
         points = self._points.copy()
         for part, T in poses.items():
             mine = self._part == part
             points[mine] = points[mine] @ T[:3, :3].T + T[:3, 3]
         offset = points - self.center
         height = offset[:, 2] / self._diagonal
-        column, row = np.floor((offset[:, :2] * (1, -1) / self.side + 0.5) * SIDE).astype(int).T
+        column, row = np.floor((offset[:, :2] / self.side + 0.5) * SIDE).astype(int).T
         inside = (column >= 0) & (column < SIDE) & (row >= 0) & (row < SIDE)
         light = np.ones((SIDE, SIDE))
         for low, high, dark, soft in BANDS:

@@ -281,8 +281,8 @@ def stage_list(name: str, stages: Sequence[StageState], *, asked: bool) -> str:
         mark, style = ("✓", "color:#2b8a3e") if stage.over else ("▸", "font-weight:600") if stage is running else ("○", FAINT)
         words = "your answer is needed" if asked and stage is running else stage.words
         rows.append(
-            f'<div style="display:flex;gap:0.5em;{style}"><span>{mark}</span><span style="flex:1">{escape(words)}</span>'
-            f"<span>{seconds}</span></div>"
+            f'<div style="display:flex;gap:0.4em;{style}"><span style="width:1em">{mark}</span>'
+            f'<span style="flex:1">{escape(words)}</span><span>{seconds}</span></div>'
         )
     if running is None and not any(stage.over for stage in stages):
         rows.insert(1, "<div>starting</div>")

@@ -93,7 +93,9 @@ if (!window.anymeshDrop) {
     paint(false);
     dropped(event.dataTransfer).then(send).catch((error) => showNote(error.message));
   });
-  window.addEventListener('pointerdown', () => { const to = input(); if (to) to.multiple = true; }, true);
+  const allowSeveral = () => { const to = input(); if (to) to.multiple = true; };
+  new MutationObserver(allowSeveral).observe(document.body, { childList: true, subtree: true });
+  allowSeveral();
   window.addEventListener('change', (event) => {  // files that were chosen
     if (event.target !== input() || window.anymeshSent) return;
     event.stopImmediatePropagation();
