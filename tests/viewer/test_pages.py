@@ -106,6 +106,15 @@ def test_files_that_are_dropped_together_arrive_together(page, tab):
     assert mesh.name == "mesh.gltf"
     assert {p.name: p.read_bytes() for p in mesh.parent.iterdir()} == files
     assert FakeWork.made[0].options["root"] == mesh.parent
+    page.act(page.bench.cancel)
+    tab.page.get_by_text("was cancelled").wait_for()
+    tab.until("document.querySelector('input[type=file]')?.multiple")  # several may be chosen, too
+    obj = {"box.obj": b"mtllib box.mtl\nv 0 0 0\n", "box.mtl": b"newmtl red\n"}
+    tab.page.locator("input[type=file]").set_input_files(
+        [{"name": name, "mimeType": "", "buffer": content} for name, content in obj.items()]
+    )
+    until(lambda: len(FakeWork.made) == 2, 60)
+    assert {p.name: p.read_bytes() for p in FakeWork.made[1].asked_mesh.parent.iterdir()} == obj
 
 
 @pytest.mark.slow
