@@ -66,6 +66,9 @@ PARSE_MECHANISMS = "mechanisms.choosing:parse_mechanisms"
 SCENE_WARNING = "applications.scenes.objects:scene_warning"
 ARTICULATE_SCENE = "applications.scenes.command_line:articulate_scene"
 
+# How a part moves, in words.
+MOTION_WORDS = "correcting.motions:motion_words"
+
 # What an asset shows of itself in a notebook.
 ASSET_HTML = "viewer.report:asset_html"
 REGISTER_IN_IPYTHON = "viewer.report:register"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -22,14 +22,18 @@ from anymesh.cli.options import (
     Quiet,
     Running,
     Time,
+    Verbose,
     Zip,
     with_options,
 )
-from anymesh.cli.output import JOINT_COLUMNS, Shown, joint_row, plain, print_asset, print_result
+from anymesh.cli.output import Shown, echo, plain, print_asset, print_joints, print_result
 from anymesh.entry_points import ARTICULATE_SCENE, resolve
-from anymesh.errors import AnymeshError, OpenQuestionError, OptionError
+from anymesh.errors import OpenQuestionError, OptionError
 from anymesh.isolation import AHEAD, shared_pool
 from anymesh.pipeline.options import AnswererOptions
+
+if TYPE_CHECKING:
+    from anymesh.pipeline.batch import MeshOutcome
 
 Meshes = Annotated[
     list[Path],
@@ -57,6 +61,7 @@ def articulate(
     running: Running,
     json_: Json = False,
     quiet: Quiet = False,
+    verbose: Verbose = False,
 ) -> None:
     """Turn MESH into an articulated asset in DIR; --batch takes many, --scene split its objects."""
     shared_pool().warm(*AHEAD)  # the child processes import while this process does
@@ -75,7 +80,7 @@ def articulate(
         return
     with Shown(quiet or json_) as progress:
         asset = pipeline.articulate(mesh[0], out, progress=progress, **options)
-    print_asset(asset, out, json_, quiet)
+    print_asset(asset, out, json_, quiet, verbose)
 
 
 def _articulate_many(meshes: list[Path], out: Path, options: dict[str, Any], json_: bool, quiet: bool) -> None:
@@ -83,10 +88,13 @@ def _articulate_many(meshes: list[Path], out: Path, options: dict[str, Any], jso
 
     with Shown(quiet or json_) as progress:
         outcomes = articulate_many(meshes, out, progress=progress, **options)
-    rows = [{"mesh": str(o.mesh), "out": str(o.out), "state": o.state, "note": plain(_note(o.error))} for o in outcomes]
+    rows = [{"mesh": str(o.mesh), "out": str(o.out), "state": o.state, "note": plain(_note(o))} for o in outcomes]
     waiting = [o.error for o in outcomes if isinstance(o.error, OpenQuestionError)]
     questions = [str(folder) for error in waiting for folder in error.folders]
     print_result({"out": str(out), "objects": rows, "questions": questions}, rows, ("mesh", "state", "note"), json_, quiet)
+    if not (json_ or quiet):
+        states = [o.state for o in outcomes]
+        echo(", ".join(f"{states.count(s)} {s}" for s in dict.fromkeys(states)))
     if questions and not (json_ or quiet):
         answers = str(options["answerer"]).removeprefix("files:")
         typer.echo(f"{len(questions)} open questions; `anymesh answer {answers}` shows them; then run the same command again")
@@ -95,11 +103,15 @@ def _articulate_many(meshes: list[Path], out: Path, options: dict[str, Any], jso
         raise typer.Exit(waiting[0].exit_code if waiting else codes[0])
 
 
-def _note(error: AnymeshError | None) -> str:
-    """Return what stopped an object: the folder of its question, or the message."""
-    if isinstance(error, OpenQuestionError):
-        return ", ".join(map(str, error.folders))
-    return "" if error is None else str(error)
+def _note(outcome: MeshOutcome) -> str:
+    """Return the line on all joints, or what stopped an object: the folder of its question, or the message."""
+    from anymesh.pipeline.results import summary
+    from anymesh.pipeline.run_folder import Saved
+
+    if outcome.error is None:
+        asset = Saved.at(outcome.out).asset()
+        return summary(asset.segmentation, asset.joints, asset.warnings)
+    return ", ".join(map(str, outcome.error.folders)) if isinstance(outcome.error, OpenQuestionError) else str(outcome.error)
 
 
 @with_options
@@ -135,14 +147,19 @@ def joints(
     time: Time,
     json_: Json = False,
     quiet: Quiet = False,
+    verbose: Verbose = False,
 ) -> None:
     """Run only Stage B: find the joints of the parts in DIR. Continue with `anymesh export DIR`."""
     from anymesh import pipeline
+    from anymesh.pipeline.run_folder import Saved
 
     with Shown(quiet or json_) as progress:
-        estimated_joints = pipeline.joints(folder, animation=animation, progress=progress, **time, **answering)
-    rows = [joint_row(j) for j in estimated_joints]
-    print_result({"out": str(folder), "joints": rows}, rows, JOINT_COLUMNS, json_, quiet)
+        pipeline.joints(folder, animation=animation, progress=progress, **time, **answering)
+    if json_ or not quiet:
+        asset, record = Saved.at(folder).asset(), {"out": str(folder)}
+        print_joints(asset, record, json_, verbose)
+        if not json_:
+            echo(record["summary"])
 
 
 @with_options
@@ -155,10 +172,11 @@ def export(
     time: Time,
     json_: Json = False,
     quiet: Quiet = False,
+    verbose: Verbose = False,
 ) -> None:
     """Write the files of the asset whose stages are in DIR."""
     from anymesh import pipeline
 
     with Shown(quiet or json_) as progress:
         asset = pipeline.export_asset(folder, package=package, archive=zip_, progress=progress, **writing, **time)
-    print_asset(asset, folder, json_, quiet)
+    print_asset(asset, folder, json_, quiet, verbose)

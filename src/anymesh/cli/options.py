@@ -38,6 +38,7 @@ Package = Annotated[
 ]
 Zip = Annotated[Path | None, typer.Option("--zip", metavar="FILE", help="Also write the asset as one .zip file.")]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
+Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="Also the reason of each joint.")]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.")]
 
 

@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 import json
+import os
+import shutil
 import signal
 import sys
+import textwrap
 import time
 from collections.abc import Generator
 from contextlib import contextmanager
@@ -13,19 +16,22 @@ from typing import TYPE_CHECKING, Any
 
 import typer
 
+from anymesh.entry_points import MOTION_WORDS, resolve
 from anymesh.runtime import Progress, silent
 
 if TYPE_CHECKING:
     from anymesh.types import Asset, Joint
 
-JOINT_COLUMNS = ("name", "type", "parent", "range", "confidence", "reason")
-ASSET_COLUMNS = ("name", "type", "parent", "range", "part", "confidence", "reason")  # part: confidence that the child is a part
-FILE_WIDTH = 140  # [characters] width of a table that is not printed to a terminal; the default of 80 breaks its cells
+MAX_WIDTH = 100  # [characters] of tables and of wrapped lines, also on wider terminals
+GAP, MIN_CELL = 2, 8  # [characters] between columns; width below which a column is not cut
+COLORS = {"sure": "green", "check": "yellow", "guess": "red"}
 
 
-def joint_row(joint: Joint) -> dict[str, Any]:
+def joint_row(asset: Asset, joint: Joint) -> dict[str, Any]:
+    from anymesh.pipeline.results import verdict
     from anymesh.rendering.preview import extent
 
+    word, why = verdict(asset.segmentation, joint, asset.warnings)
     return {
         "name": joint.name,
         "type": joint.type.value,
@@ -35,55 +41,80 @@ def joint_row(joint: Joint) -> dict[str, Any]:
         "axis": [float(v) for v in joint.axis],
         "limits": None if joint.limits is None else list(joint.limits),
         "range": extent(joint),
+        "motion": resolve(MOTION_WORDS)(asset, joint),
+        "part": next(p.confidence for p in asset.segmentation.parts if p.name == joint.child),
         "confidence": joint.confidence,
         "reason": joint.reason,
+        "verdict": word,
+        "why": why,
     }
 
 
-def print_asset(asset: Asset, out: Path, json_: bool, quiet: bool) -> None:
+def print_joints(asset: Asset, record: dict[str, Any], json_: bool, verbose: bool) -> None:
+    """Print a record with the joints of an asset as JSON; or the joints as a table, with their reasons if verbose."""
+    from anymesh.pipeline.results import summary
+
+    rows = [joint_row(asset, j) for j in asset.joints]
+    record |= {"joints": rows, "summary": summary(asset.segmentation, asset.joints, asset.warnings)}
+    if json_:
+        typer.echo(json.dumps(record, indent=2))
+        return
+    shown = [{"part": r["child"], "motion": r["motion"], "range": r["range"], "verdict": r["verdict"]} for r in rows]
+    lines = table(shown, ("part", "motion", "range", "verdict"))
+    typer.echo(lines[0] if rows else "nothing moves")
+    for row, line in zip(rows, lines[1:], strict=True):
+        word = row["verdict"]
+        colored = word if os.environ.get("NO_COLOR") else typer.style(word, fg=COLORS[word])
+        typer.echo(line.removesuffix(word) + colored)  # without colour where it is no terminal
+        if verbose:
+            sure = f"part {row['part']:.2f}, joint {row['confidence']:.2f}"
+            echo(f"{row['name']}, on {row['parent']}; {sure}: {row['reason']}", indent=4)
+
+
+def print_asset(asset: Asset, out: Path, json_: bool, quiet: bool, verbose: bool = False) -> None:
+    """Print what was made: the joints, then warnings and files, and at last one line on all joints."""
+    if quiet and not json_:
+        return
     from anymesh.export.asset_json import usage
 
-    part = {p.name: p.confidence for p in asset.segmentation.parts}
-    rows = [{**joint_row(j), "part": part[j.child]} for j in asset.joints]
-    record = {
+    record: dict[str, Any] = {
         "name": asset.name,
         "out": str(out),
         "answerer": asset.answerer,
-        "hint": unsure_hint(asset),
+        "hint": unsure_hint(asset, out),
         "parts": [p.name for p in asset.segmentation.parts],
-        "joints": rows,
         "notes": list(asset.source.notes),
         "finish": list(asset.notes),
         "warnings": list(asset.warnings),
         "usage": usage(asset.exchanges),
         "timing": dict(asset.timing),
     }
-    if not (json_ or quiet):
-        for line in (*(f"warning: {w}" for w in asset.warnings), *asset.source.notes, *asset.notes):
-            typer.echo(plain(line))
-    print_result(record, rows, ASSET_COLUMNS, json_, quiet)
-    if not (json_ or quiet):
-        if asset.exchanges:
-            typer.echo(_spent(record["usage"], out))
-        files = json.loads((out / "asset.json").read_bytes())["files"].values()
-        typer.echo(f"wrote {', '.join(files)}, preview.png and asset.json to {out}")
-        if record["hint"]:
-            typer.echo(record["hint"])
+    if not json_:
+        for line in (*asset.source.notes, *asset.notes):
+            echo(line)
+    print_joints(asset, record, json_, verbose)
+    if json_:
+        return
+    for warning in asset.warnings:
+        echo(f"warning: {warning}")
+    if asset.exchanges:
+        echo(_spent(record["usage"], out))
+    files = json.loads((out / "asset.json").read_bytes())["files"].values()
+    echo(f"wrote {', '.join(files)}, preview.png and asset.json to {out}")
+    if record["hint"]:
+        echo(record["hint"])
+    echo(record["summary"])
 
 
-def unsure_hint(asset: Asset) -> str:
-    """Return advice if geometry alone answered and is unsure of a joint; empty otherwise."""
+def unsure_hint(asset: Asset, out: Path) -> str:
+    """Return advice if a joint is not sure; empty otherwise."""
     from anymesh.pipeline.options import GEOMETRY
-    from anymesh.pipeline.results import LOW_CONFIDENCE
+    from anymesh.pipeline.results import verdict
 
-    count = sum(j.confidence < LOW_CONFIDENCE for j in asset.joints)
-    if asset.answerer != GEOMETRY or not count:
+    if all(verdict(asset.segmentation, j, asset.warnings).word == "sure" for j in asset.joints):
         return ""
-    joints = "1 joint is" if count == 1 else f"{count} joints are"
-    return (
-        f"{joints} unsure; better answers: --answerer files:FOLDER (you, or an agent, answer from pictures), "
-        "--answerer ollama:MODEL (a local model; `anymesh models`), or correct it in `anymesh view`"
-    )
+    models = ", or ask a model: --answerer ollama:MODEL (`anymesh models`) or files:FOLDER (you, or an agent)"
+    return f"look at preview.png; correct a joint in `anymesh view {out}`{models if asset.answerer == GEOMETRY else ''}"
 
 
 def _spent(usage: dict[str, Any], out: Path) -> str:
@@ -93,6 +124,36 @@ def _spent(usage: dict[str, Any], out: Path) -> str:
     return f"{summary}; every question with its pictures: {out / 'transcript' / 'index.html'}"
 
 
+def echo(line: str, indent: int = 0) -> None:
+    """Print a line as text, on a terminal wrapped at words. indent: of all of it; further lines have two characters more."""
+    text = " " * indent + plain(line)
+    if sys.stdout.isatty():
+        text = textwrap.fill(text, width(), subsequent_indent=" " * (indent + GAP), break_on_hyphens=False)
+    typer.echo(text)
+
+
+def width() -> int:
+    """Return the number of characters of a line that are used."""
+    return min(MAX_WIDTH, shutil.get_terminal_size((MAX_WIDTH, 0)).columns)
+
+
+def table(rows: list[dict[str, Any]], columns: tuple[str, ...]) -> list[str]:
+    """Return a head and one line per row. On a terminal they fit its width: wide columns are cut, and the last is wrapped."""
+    from rich.cells import cell_len, set_cell_size
+
+    cells = [list(columns), *([f"{r[c]:.2f}" if isinstance(r[c], float) else plain(str(r[c])) for c in columns] for r in rows)]
+    sizes = [max(cell_len(row[k]) for row in cells) for k in range(len(columns))]
+    while sys.stdout.isatty() and sum(sizes) + GAP * (len(sizes) - 1) > width() and max(sizes) > MIN_CELL:
+        sizes[sizes.index(max(sizes))] -= 1
+    lines = []
+    for *row, last in cells:
+        cut = (c if cell_len(c) <= n else f"{set_cell_size(c, n - 2)}.." for c, n in zip(row, sizes, strict=False))
+        begin = "".join(set_cell_size(c, n + GAP) for c, n in zip(cut, sizes, strict=False))
+        lines.append(f"\n{' ' * cell_len(begin)}".join(textwrap.wrap(last, max(sizes[-1], 1)) or [""]))
+        lines[-1] = (begin + lines[-1]).rstrip()
+    return lines
+
+
 def print_result(
     record: dict[str, Any], rows: list[dict[str, Any]], columns: tuple[str, ...], json_: bool, quiet: bool
 ) -> None:
@@ -100,15 +161,7 @@ def print_result(
     if json_:
         typer.echo(json.dumps(record, indent=2))
     elif not quiet:
-        from rich.console import Console
-        from rich.table import Table
-        from rich.text import Text
-
-        table = Table(*columns)
-        for row in rows:
-            cells = (f"{row[c]:.2f}" if isinstance(row[c], float) else str(row[c]) for c in columns)
-            table.add_row(*(Text(plain(cell)) for cell in cells))
-        Console(width=None if sys.stdout.isatty() else FILE_WIDTH).print(table)
+        typer.echo("\n".join(table(rows, columns)))
 
 
 def plain(text: str) -> str:
