@@ -69,7 +69,7 @@ _DATA = json.loads(files("anymesh.kinds").joinpath("kinds.json").read_text(encod
 KINDS = _kinds(_DATA["kinds"])
 ONE_WORD = frozenset(words[0] for words in KINDS if len(words) == 1)
 ROOMS = tuple(_DATA["rooms"].split())
-PARTS: dict[str, Range] = {label: _floats(mass) for label, mass in _DATA["parts"].items()}
+PARTS: dict[str, float] = {label: float(mass) for label, mass in _DATA["parts"].items()}
 
 
 def kind_of(*texts: str | None) -> Kind | None:
@@ -116,7 +116,8 @@ def doubts(
         problems.append(f"mass {_number(total)} kg")
         usual.append(f"has {_range(kind.mass)} kg")
         remedies.append("--mass KG")
-    off = [(range_, size, word) for range_, size, word in _sizes(kind, extents) if _is_off(size, range_)]
+    factor = FACTOR if not problems else 1.0  # an unusual size may be why the mass is off
+    off = [(range_, size, word) for range_, size, word in _sizes(kind, extents) if _is_off(size, range_, factor)]
     for range_, size, word in off[:1]:
         problems.append(f"{word} {_number(size)} m")
         usual.append(f"is {_range(range_)} m {'high' if word == 'height' else 'long'}")
@@ -142,19 +143,21 @@ def _absurd(extents: Float[np.ndarray, " 3"], mass: float) -> tuple[str, ...]:
 
 
 def _doubted_parts(kind: Kind | None, masses: Sequence[tuple[str, float]]) -> tuple[str, ...]:
-    """Return a warning about the part whose mass is furthest from what is usual for its label; none about toys."""
+    """Return a warning about the part that is heaviest for its label; none about toys."""
     if kind is not None and SMALLER & set(words_of(kind.name)):
         return ()
     labelled = ((mass, word.label) for name, mass in masses if (word := recognize(name)) is not None)
-    off = [(mass, label) for mass, label in labelled if label in PARTS and _is_off(mass, PARTS[label])]
-    if not off:
+    heavy = [(mass / PARTS[label], label, mass) for mass, label in labelled if mass > FACTOR * PARTS.get(label, np.inf)]
+    if not heavy:
         return ()
-    mass, label = max(off, key=lambda o: abs(float(np.log(o[0] / np.sqrt(np.prod(PARTS[o[1]]))))))
-    return (f"mass {_number(mass)} kg of a part; a {label} usually has {_range(PARTS[label])} kg; say --mass KG or --scale",)
+    _, label, mass = max(heavy)
+    return (
+        f"mass {_number(mass)} kg of a {label}, which usually has up to {_number(PARTS[label])} kg; say --mass KG or --scale",
+    )
 
 
-def _is_off(value: float, usual: Range) -> bool:
-    return not usual[0] / FACTOR <= value <= FACTOR * usual[1]
+def _is_off(value: float, usual: Range, factor: float = FACTOR) -> bool:
+    return not usual[0] / factor <= value <= factor * usual[1]
 
 
 def _range(usual: Range) -> str:
