@@ -3,18 +3,21 @@
 import json
 import shutil
 import zipfile
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from asked_cabinet import MESH, questions
+from asked_cabinet import MESH, marks, questions
 from fake_bench import CUBE, FakeWork, asking, put, until, upload
 
 from anymesh.correcting import CorrectionError, FlipSign
 from anymesh.errors import OptionError
 from anymesh.prompted.answerers.question_files import QuestionStore
+from anymesh.prompted.models.vision import Request
+from anymesh.prompted.questions.saved_question import pack_question
 from anymesh.viewer.intake import bench_
 from anymesh.viewer.intake.welcome import examples
 from anymesh.viewer.server_ import serve
@@ -190,6 +193,26 @@ def test_back_asks_the_last_question_again_and_the_work_starts_from_there(page):
     until(lambda: desk.busy and desk._asked.folder.path == marks.path)
     assert desk._asked.form.groups["door", 1] == {1}
     assert QuestionStore(folder).find(points.key).outdated
+
+
+def test_marks_are_filled_in_where_the_labels_of_the_question_have_changed(page):
+    folder, desk = asking(page), page.bench._desk
+    put(folder, "recognize")
+    answered(page, kind_of("recognize"))
+    put(folder, "marks")
+    until(lambda: desk.busy and desk._asked._suggested)
+    desk._asked.form.set_marks("3")  # the door; the drawer keeps 2
+    page.act(desk._answer)
+    page.act(page.bench.go_back)
+    page.act(page.bench.go_back)
+    page.act(desk._answer)
+    FakeWork.made[-1].mesh = MESH
+    question = replace(marks(), labels=("door", "shelf"))
+    request = Request(question.kind, "system", question.text(), question.pictures, question.schema())
+    QuestionStore(folder).put(request, {"check.npz": pack_question(question)})
+    until(lambda: desk.busy and desk._asked.folder.kind == question.kind)
+    assert desk._asked.form.groups == {("door", 1): {3}, ("shelf", 1): set(), ("to be divided", 0): set()}
+    assert "as you answered before" in desk._asked.note
 
 
 def test_what_was_left_to_geometry_is_asked_again_after_back(page):

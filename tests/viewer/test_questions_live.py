@@ -76,7 +76,7 @@ def test_a_mesh_is_dropped_worked_on_played_and_downloaded(taking):
     serving, tab = taking
     assert not tab.page.get_by_role("button", name="Download zip").is_visible()
     drop(tab, "box.zip", zipped(MESHES / "cabinet.glb"))
-    until(lambda: "cabinet.glb: finding" in text(tab))
+    until(lambda: "cabinet.glb" in text(tab) and "finding the parts" in text(tab))
     until(lambda: tab.page.get_by_role("button", name="Download zip").is_visible())
     session = serving.page.session
     (joint,) = (j for j in session.asset.joints if j.child == "door_1")

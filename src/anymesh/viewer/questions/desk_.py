@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import time
+from collections.abc import Iterable
 from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -19,11 +20,7 @@ from anymesh.prompted.questions.saved_question import unpack_question
 from anymesh.types import Mesh
 from anymesh.viewer.panels import Page
 from anymesh.viewer.questions.fields_ import AskPanel, Choices, azimuth_of
-from anymesh.viewer.questions.forms import (
-    Form,
-    PartsForm,
-    form_of,
-)
+from anymesh.viewer.questions.forms import SPLIT, Form, MarksForm, PartsForm, form_of
 from anymesh.viewer.questions.scene_ import QuestionScene, closer_view
 
 WAITING = "Geometry is working out a suggestion; you need not wait for it."
@@ -76,6 +73,19 @@ class OpenQuestion:
             self.form.fill(json.loads(text))
             self.note, self._suggested = AGAIN, True
         return self._suggested
+
+    def take_marks_of(self, others: Iterable[QuestionFolder]) -> None:
+        """Fill in the marks that a person gave in an earlier question about the same regions, for the labels that remain."""
+        for other in reversed(list(others)):
+            text, form = other.earlier(), self.form
+            before = None if text is None else OpenQuestion.of(other)
+            if text is None or before is None or not isinstance(form, MarksForm) or not isinstance(before.form, MarksForm):
+                continue
+            if np.array_equal(form.face_mark, before.form.face_mark):
+                parts = [p for p in before.form.answer()["parts"] if p["label"] in form.question.labels]
+                form.fill({"parts": parts, "split": sorted(before.form.groups.get(SPLIT, ()))})
+                self.note, self._suggested = AGAIN, True
+                return
 
     def keep(self) -> None:
         """Keep what a person has entered, for when the question is asked again."""
@@ -213,6 +223,8 @@ class AskDesk:
             folder.write_answer(LEAVE)
             self._given.append((folder, False))
             return
+        if folder.earlier() is None:
+            asked.take_marks_of(q for q in QuestionStore(self._folder).questions() if q.outdated and q.kind == folder.kind)
         self._asked = asked
         self._show()
 
