@@ -117,6 +117,9 @@ COMMANDS = {
 }
 
 
+RESUMED = ("annotate", "generate", "eval")  # these keep what is done when they are interrupted
+
+
 def resolve(place: str) -> Any:
     """Import what stands at a place."""
     module, _, name = place.partition(":")

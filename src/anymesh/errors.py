@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 DEFECT = 70  # exit code of an internal defect: EX_SOFTWARE of sysexits.h
+RESUMES = "the same command resumes"  # note of an interrupt after which finished stages are kept
 STAGE = "in the stage "  # prefix of the note that names the stage of an error
 SECRET = re.compile(r"[A-Za-z0-9+/=_-]{32,}|\S*\*{3,}\S*|\b(?:sk-|AIza|Bearer )\S+")  # looks like a key, or like data
 MAX_QUOTE = 200  # maximum number of characters of another program's message that are quoted

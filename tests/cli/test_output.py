@@ -4,11 +4,12 @@ import io
 import re
 from contextlib import redirect_stdout
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from assets import cabinet
 
-from anymesh.cli.output import MAX_WIDTH, echo, print_joints, print_result, table
+from anymesh.cli.output import MAX_WIDTH, echo, print_joints, print_result, table, unsure_hint
 from anymesh.pipeline.results import summary
 
 COLOR = re.compile(r"\x1b\[[\d;]*m")
@@ -50,6 +51,8 @@ def test_one_row_per_joint_in_the_width_of_the_terminal(shown, monkeypatch) -> N
     assert max(len(COLOR.sub("", row)) for row in rows) <= 60
     assert record["summary"] == summary(asset.segmentation, asset.joints, asset.warnings)
     assert [j["verdict"] for j in record["joints"]][:2] == ["check", "sure"]
+    assert "anymesh view out" in unsure_hint(asset, Path("out"))
+    assert unsure_hint(replace(asset, joints=asset.joints[1:]), Path("out")) == ""
     monkeypatch.setenv("NO_COLOR", "1")
     lines = shown(print_joints, asset, {}, False, True)
     assert not any(map(COLOR.search, lines))

@@ -11,23 +11,44 @@ import pytest
 from assets import cabinet
 from run_folders import files, results, write_all
 
-from anymesh.errors import OutputError
+from anymesh.errors import RESUMES, OutputError
 from anymesh.pipeline.run_folder import RunFolder
 from anymesh.pipeline.stage_files import MESH
+
+
+def test_an_interrupt_keeps_finished_stages_for_the_same_command(tmp_path, source):
+    def stopped(key):
+        with RunFolder.create(tmp_path / "out", source=source) as run:
+            if key:
+                run.save(MESH, key, results(cabinet())[0])
+            raise KeyboardInterrupt
+
+    def interrupted(key):
+        with pytest.raises(KeyboardInterrupt) as stop:
+            stopped(key)
+        return stop.value
+
+    assert getattr(interrupted(""), "__notes__", []) == []  # nothing was finished yet
+    assert [p.name for p in tmp_path.iterdir()] == ["in"]
+    assert interrupted("m").__notes__ == [RESUMES]
+    assert interrupted("").__notes__ == [RESUMES]  # what the run before it finished is still there
+    with RunFolder.create(tmp_path / "out", source=source) as run:
+        assert run.load(MESH, "m") is not None
+    assert {p.name for p in tmp_path.iterdir()} == {"in", "out"}
 
 
 def test_an_exception_leaves_nothing_or_the_old(tmp_path, source):
     def broken(force):
         with RunFolder.create(tmp_path / "out", source=source, force=force) as run:
             run.save(MESH, "m2", results(cabinet())[0])
-            raise KeyboardInterrupt
+            raise OutputError
 
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(OutputError):
         broken(False)
     assert [p.name for p in tmp_path.iterdir()] == ["in"]
     write_all(tmp_path / "out", source)
     before = files(tmp_path / "out")
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(OutputError):
         broken(True)
     assert files(tmp_path / "out") == before
     assert {p.name for p in tmp_path.iterdir()} == {"in", "out"}

@@ -18,8 +18,8 @@ from typer.core import TyperCommand
 
 from anymesh import __version__
 from anymesh.cli.output import plain
-from anymesh.entry_points import COMMANDS, resolve
-from anymesh.errors import DEFECT, AnymeshError, OpenQuestionError
+from anymesh.entry_points import COMMANDS, RESUMED, resolve
+from anymesh.errors import DEFECT, RESUMES, AnymeshError, OpenQuestionError
 
 OWN = "anymesh"
 VARIABLE = "PYTHONWARNINGS"  # passes the warning filter to Python child processes
@@ -133,18 +133,18 @@ def run(arguments: list[str]) -> int:
 
 
 def _run(arguments: list[str]) -> int:
+    command = next((a for a in arguments if not a.startswith("-")), "")
     try:
-        command = next((a for a in arguments if not a.startswith("-")), "")
         app = make_app(command) if command in COMMANDS else make_app()
         code = app(arguments, standalone_mode=False)
         return code if isinstance(code, int) else 0
     except (typer.Exit, SystemExit) as stop:
         return int(getattr(stop, "exit_code", getattr(stop, "code", 0)) or 0)
-    except (KeyboardInterrupt, typer.Abort):
-        return _interrupted(arguments)
+    except (KeyboardInterrupt, typer.Abort) as error:
+        return _interrupted(arguments, command, error)
     except _HandedError as handed:
         if isinstance(handed.error, KeyboardInterrupt):
-            return _interrupted(arguments)
+            return _interrupted(arguments, command, handed.error)
         return _defect(arguments, handed)
     except Exception as error:
         if isinstance(error, AnymeshError):
@@ -168,10 +168,11 @@ def _defect(arguments: list[str], handed: _HandedError) -> int:
     return _fail(arguments, error, message, DEFECT, report=None if report is None else str(report))
 
 
-def _interrupted(arguments: list[str]) -> int:
+def _interrupted(arguments: list[str], command: str, error: BaseException) -> int:
+    resumes = command in RESUMED or "--batch" in arguments or RESUMES in getattr(error, "__notes__", ())
     if "--json" in arguments:
-        typer.echo(json.dumps({"error": "interrupted", "kind": "KeyboardInterrupt", "exit_code": 130}))
-    typer.echo("interrupted", err=True)
+        typer.echo(json.dumps({"error": "interrupted", "kind": "KeyboardInterrupt", "exit_code": 130, "resumes": resumes}))
+    typer.echo(f"interrupted; {RESUMES if resumes else 'nothing was written'}", err=True)
     return 130
 
 

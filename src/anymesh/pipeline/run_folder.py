@@ -16,7 +16,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, TypeVar
 
-from anymesh.errors import AnymeshError, BudgetError, OpenQuestionError, OutputError, note_stage
+from anymesh.errors import RESUMES, AnymeshError, BudgetError, OpenQuestionError, OutputError, note_stage
 from anymesh.pipeline.atomic_folder import (
     CORRECTIONS,
     FOLDER_PREFIX,
@@ -164,8 +164,8 @@ class RunFolder(Saved):
     """An output folder while it is written.
 
     Files are written to `folder`. Leaving the `with` block moves them into place. An exception inside the block leaves the
-    output unchanged. If a budget or an internal defect ends the run, the finished stages stay in the hidden folder for the next
-    run.
+    output unchanged. If a budget, an interrupt or an internal defect ends the run, the finished stages stay in the hidden
+    folder for the next run.
     """
 
     def __init__(
@@ -323,19 +323,21 @@ class RunFolder(Saved):
             elif isinstance(error, OSError) and cannot_write(error, self.folder):
                 raise OutputError(f"cannot write {self.target}: {error.strerror or error}") from error
         finally:
-            if self._resumed_later(error):
-                self._hidden.release()
-            else:
-                self._hidden.discard()
-            for hidden in self._dead:
+            interrupted = isinstance(error, KeyboardInterrupt)
+            kept = self._resumed_later(error)
+            for hidden in (*([] if kept else [self._hidden]), *([] if interrupted else self._dead)):
                 hidden.discard()
+            for hidden in (*([self._hidden] if kept else []), *(self._dead if interrupted else [])):
+                hidden.release()
+            if interrupted and error is not None and (kept or self._dead):
+                error.add_note(RESUMES)
 
     def _resumed_later(self, error: BaseException | None) -> bool:
         """Return whether the finished stages are kept for a later run.
 
-        They are kept if a budget or an open question ended the run, or a defect after which a rerun may get further.
+        They are kept if a budget, an open question or an interrupt ended the run, or a defect that a rerun may get past.
         """
         expected = isinstance(error, AnymeshError) or (isinstance(error, OSError) and cannot_write(error, self.folder))
-        defect = isinstance(error, Exception) and not expected
+        defect = isinstance(error, Exception | KeyboardInterrupt) and not expected
         saved = any((self.folder / stage_files(stage)[0]).exists() for stage in STAGES)
         return isinstance(error, BudgetError | OpenQuestionError) or (defect and saved and self._resumable)

@@ -243,7 +243,7 @@ def test_a_signal_ends_the_program_too(tmp_path) -> None:
         time.sleep(0.05)
     started = [int(p) for p in pids.read_text().split()]
     running.send_signal(signal.SIGTERM)
-    assert running.communicate(timeout=30)[1].endswith("interrupted\n")
+    assert running.communicate(timeout=30)[1].endswith("interrupted; the same command resumes\n")
     assert running.returncode == 130
     end = time.monotonic() + 10
     while any(map(alive, started)) and time.monotonic() < end:
