@@ -179,9 +179,10 @@ class LivePage:
         first = None if review is None else tabs.add_tab("Review")
         self.play = PlayPanel(self, tabs.add_tab("Play"))
         correct = tabs.add_tab("Correct")
+        self._panels: list[Any] = [self.part, self.play, CorrectPanel(self, correct)]
         self.tools = CorrectionTools(self, correct)
         self.part.use(self.tools)
-        self._panels: list[Any] = [self.part, self.play, CorrectPanel(self, correct), self.tools]
+        self._panels.append(self.tools)
         self._keys()
         if review is not None:
             self._panels.append(ReviewPanel(self, first, review, reviewer=author, clock=clock, open_=self.open))

@@ -51,7 +51,10 @@ def opened(request, tmp_path, tab):
         tab.page.set_default_timeout(90_000)  # [ms] drawing in software is slow
         tab.open(serving.url)
         tab.page.get_by_text("New part:").wait_for()
-        eventually(lambda: any(c.camera.aspect > 0 for c in serving.page.server.get_clients().values()))
+        first = serving.page.server.initial_camera.position
+        eventually(
+            lambda: [np.allclose(c.camera.position, first) for c in serving.page.server.get_clients().values()] == [True]
+        )
         yield serving, Hand(tab), folder
         assert tab.errors == []
 
