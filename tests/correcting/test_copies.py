@@ -127,3 +127,34 @@ def test_names_of_new_parts_are_new():
     splits = [c for c in same_for_copies(asset, "front_1") if isinstance(c, SplitPart)]
     assert [c.part for c in splits] == ["base"]
     assert len(corrected(asset, same_for_copies(asset, "front_1")).segmentation.parts) == len(cupboard().segmentation.parts)
+
+
+def raised(raised_cells, part_cells) -> Asset:
+    """A wall (x, z) of one surface in which some columns are raised fronts (-y); those of `part_cells` are a part."""
+    x, z = np.cumsum([0, *[0.1, 0.8] * 3, 0.1]), (0.0, 0.1, 0.9, 1.0)
+    height = {(i, k): -0.1 if k == 1 and i in raised_cells else 0.0 for i in range(7) for k in range(3)}
+    quads, of = [], []
+    for (i, k), y in height.items():
+        low, high = (x[i], z[k]), (x[i + 1], z[k + 1])
+        quads.append([(low[0], y, low[1]), (high[0], y, low[1]), (high[0], y, high[1]), (low[0], y, high[1])])
+        of.append(i if y else -1)
+        if y:  # the walls around a raised cell, outwards
+            ring = quads[-1]
+            quads += [[b, a, (a[0], 0.0, a[2]), (b[0], 0.0, b[2])] for a, b in zip(ring, ring[1:] + ring[:1], strict=True)]
+            of += [i] * 4
+    faces = np.array([[4 * q + c for c in t] for q in range(len(quads)) for t in ((0, 1, 2), (0, 2, 3))])
+    mesh, _ = mesh_of([(np.array(quads, float).reshape(-1, 3), faces)])
+    part = np.isin(np.repeat(of, 2), part_cells).astype(np.int64)
+    slide = joint("slide", "prismatic", "base", "front", (0.5, -0.1, 0.5), (0, -1, 0), (0.0, 0.3))
+    parts = (Part("base", "base"), Part("front", "drawer"))
+    return Asset("wall", source(), mesh, Segmentation(part, parts), (slide,), "geometry")
+
+
+def test_fronts_of_one_surface_with_the_case_are_copies_by_their_facets():
+    wall = raised((1, 3, 5), (1,))
+    assert len(wall.segmentation.faces(1)) == 10
+    copies = copies_of(wall, "front")
+    assert [(c.part, len(c.faces)) for c in copies] == [("base", 10)] * 2
+    np.testing.assert_allclose([(c.pose @ (0.5, 0, 0.5, 1))[:3] for c in copies], [(1.4, 0, 0.5), (2.3, 0, 0.5)], atol=1e-6)
+    assert len(corrected(wall, same_for_copies(wall, "front")).joints) == 3
+    assert copies_of(raised((1,), (1,)), "front") == ()

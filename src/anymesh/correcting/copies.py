@@ -13,12 +13,13 @@ from itertools import permutations, product
 
 import numpy as np
 from jaxtyping import Float, Int
+from scipy.spatial import KDTree
 
 from anymesh.correcting.corrections import ChooseMotion, Correction, CorrectionError, FaceSet, Relabel, SplitPart, vector
 from anymesh.correcting.edits import apply, components_of, joint_of_part, part_number
 from anymesh.geometry.boxes import OrientedBox, same_box
 from anymesh.geometry.distance_ import TriangleTree
-from anymesh.geometry.topology import triangle_set_of
+from anymesh.geometry.topology import edge_pairs, label_connected, triangle_set_of
 from anymesh.geometry.triangle_set import body_obb, principal_spread, sample_surface, surface_moments
 from anymesh.types import Asset, Brief, Joint, JointType
 
@@ -32,6 +33,7 @@ MAX_BOX_RATIO = 0.5  # axis-aligned boxes of copies differ by less; a protrusion
 NEIGHBOURS = 0.1  # of the diagonal: maximum gap between leaves whose free edges meet
 MAX_ROW_OFFSET = 0.25  # of the offset: share along the opening direction, as for rows in articulation/part_contexts.py
 SAMPLES = 300
+MIN_FLAT_COSINE = float(np.cos(np.deg2rad(5)))  # between faces of one facet, and facets of copies, as in correcting/picking.py
 MAX_REGIONS = 400  # regions of one size that are compared
 SIGNED = [np.eye(3)[list(p)] * np.array(s)[:, None] for p in permutations(range(3)) for s in product((1.0, -1.0), repeat=3)]
 
@@ -124,7 +126,8 @@ def _moved(T: np.ndarray, points: np.ndarray) -> np.ndarray:
 def copies_of(asset: Asset, part: str, *, regions: bool = True) -> tuple[Copy, ...]:
     """Return the copies of a part: the other parts first, then regions of its parent. Raise CorrectionError for the root.
 
-    regions: also find connected components of the parent that would be copies, beside the part with respect to its motion.
+    regions: also find connected components of the parent that would be copies, beside the part with respect to its motion; if
+    there are none, flat facets of it that lie to each other as those of the part do.
     Of several poses the one is taken whose surroundings fit best: a door may be the mirror image of the other.
     """
     joint, segmentation = joint_of_part(asset, part), asset.segmentation
@@ -140,7 +143,7 @@ def copies_of(asset: Asset, part: str, *, regions: bool = True) -> tuple[Copy, .
         if poses:
             copies.append(Copy(other.name, place.best(surface, poses)))
     if regions:
-        for faces in _regions_like(asset, part, joint.parent):
+        for faces in [*_regions_like(asset, part, joint.parent)] or _facets_like(asset, part, joint.parent):
             surface = _Surface(triangles[faces])
             poses = own.poses(surface) if _beside(joint, own, surface) else []
             if poses:
@@ -220,6 +223,46 @@ def _carried(asset: Asset, whole: _Surface, theirs: Sequence[np.ndarray], T: np.
             points = _moved(back, sample_surface(asset.mesh.triangles[faces], SAMPLES, 0).points)
             if whole.tree.distance(points).mean() < reach:
                 yield faces
+
+
+@dataclass(frozen=True, eq=False)
+class _Facets:
+    """The flat facets of some faces: label of each face; area, center and normal of each facet."""
+
+    faces: Int[np.ndarray, " f"]
+    label: Int[np.ndarray, " f"]
+    area: Float[np.ndarray, " n"]
+    center: Float[np.ndarray, "n 3"]
+    normal: Float[np.ndarray, "n 3"]
+
+    @classmethod
+    def of(cls, asset: Asset, faces: Int[np.ndarray, " f"]) -> _Facets:
+        mesh = asset.mesh
+        normals, areas, centers = mesh.face_normals[faces], mesh.face_areas[faces], mesh.triangles[faces].mean(1)
+        pairs = edge_pairs(mesh.vertices, mesh.faces[faces]).faces
+        flat = np.einsum("ij,ij->i", normals[pairs[:, 0]], normals[pairs[:, 1]]) > MIN_FLAT_COSINE
+        label = label_connected(len(faces), pairs[flat])
+        area = np.maximum(np.bincount(label, areas), 1e-300)
+        center = np.stack([np.bincount(label, areas * c) for c in centers.T], 1) / area[:, None]
+        normal = np.stack([np.bincount(label, areas * n) for n in normals.T], 1) / area[:, None]
+        return cls(faces, label, area, center, normal)
+
+
+def _facets_like(asset: Asset, part: str, parent: str) -> Iterator[Int[np.ndarray, " n"]]:
+    """Yield the faces of the parent whose facets are those of a part, shifted or mirrored, as fronts of one surface."""
+    mine, theirs = (_Facets.of(asset, asset.segmentation.faces(part_number(asset, name))) for name in (part, parent))
+    reach = MAX_MISFIT * _Surface(asset.mesh.triangles[mine.faces]).diagonal
+    anchor, tree, taken = int(mine.area.argmax()), KDTree(theirs.center), np.zeros(len(theirs.area), bool)
+    off = mine.center - mine.center[anchor]
+    like = np.abs(theirs.area - mine.area[anchor]) <= MAX_SIZE_DIFFERENCE * mine.area[anchor]
+    for k in np.flatnonzero(like)[:MAX_REGIONS]:
+        for S in (np.ones(3), *(np.ones(3) - 2 * np.eye(3))):
+            far, at = tree.query(theirs.center[k] + S * off)
+            sizes = np.abs(theirs.area[at] - mine.area) <= MAX_SIZE_DIFFERENCE * mine.area
+            turned = np.einsum("ij,ij->i", theirs.normal[at], S * mine.normal) < MIN_FLAT_COSINE
+            if sizes.all() and not turned.any() and (far < reach).all() and len(set(at)) == len(at) and not taken[at].any():
+                taken[at] = True
+                yield theirs.faces[np.isin(theirs.label, at)]
 
 
 def same_for_copies(asset: Asset, part: str, *, regions: bool = True) -> tuple[Correction, ...]:
