@@ -16,6 +16,7 @@ from anymesh.rendering.viewpoints import away
 from anymesh.runtime import cache_folder
 from anymesh.types import Asset, JointType, Mesh, Segmentation
 from anymesh.types.camera import Camera
+from anymesh.types.triangles import unshared
 from anymesh.viewer.looks import FROM_Y_UP, Ground, mesh_glb
 from anymesh.viewer.scene import DisplayMesh, Surfaces, box_lines, color_of, inertia_box, joint_lines, shade_of, shape_surface
 from anymesh.viewer.session import part_poses
@@ -161,9 +162,10 @@ class SceneView:
                 self._meshes[name].color = color_of(number, faded=selected not in (None, name))
             mine = chosen[asset.segmentation.face_part[chosen] == number]
             if len(mine):
-                piece = asset.mesh.subset(mine)
-                lifted = piece.vertices + LIFT * asset.mesh.diagonal * _vertex_normals(piece)
-                self._marks.append(self._mesh(self._below(name), DisplayMesh(lifted, piece.faces), CHOSEN, None))
+                # on both sides, since the winding of a file says little
+                off = LIFT * asset.mesh.diagonal * asset.mesh.face_normals[mine][:, None]
+                lifted = np.concatenate([asset.mesh.triangles[mine] + off, asset.mesh.triangles[mine] - off])
+                self._marks.append(self._mesh(self._below(name), DisplayMesh(*unshared(lifted)), CHOSEN, None))
         if selected in names:
             number = names.index(selected)
             corners = asset.mesh.triangles[asset.segmentation.faces(number)].reshape(-1, 3)
@@ -202,13 +204,6 @@ def camera_of(camera: Any) -> Camera:
 
 def _model(asset: Asset) -> Model:
     return build_model(asset, ExportOptions(), config=ExportConfig(), cache=cache_folder("shapes"))
-
-
-def _vertex_normals(mesh: Mesh) -> np.ndarray:
-    total = np.zeros((len(mesh.vertices), 3))
-    for k in range(3):
-        np.add.at(total, mesh.faces[:, k], mesh.face_cross)
-    return total / np.maximum(np.linalg.norm(total, axis=1, keepdims=True), 1e-300)
 
 
 def _remove(handles: list[Any]) -> None:

@@ -25,7 +25,7 @@ from anymesh.correcting.motions import told_apart
 from anymesh.errors import AnymeshError
 from anymesh.types import Asset
 from anymesh.viewer.panels import Page
-from anymesh.viewer.parts.card import ShownMotions, nothing_selected, part_card, same_motion
+from anymesh.viewer.parts.card import BY_PERSON, ShownMotions, nothing_selected, part_card, same_motion
 from anymesh.viewer.parts.channel_ import PageMessages
 from anymesh.viewer.parts.maker_ import PartMaker
 from anymesh.viewer.parts.pictures import MotionPictures
@@ -223,8 +223,12 @@ class PartPanel:
             self._page.correct(session.preview)
 
     def _same(self) -> None:
-        if self._shown is not None and self._shown.copies:
-            self._page.correct(*self._shown.copies)
+        """Give its copies the joint of the selected part, which is thereby called right."""
+        session = self._page.session
+        joint = None if session is None else session.joint()
+        if joint is not None and self._shown is not None and self._shown.copies:
+            own = () if joint.reason.startswith(BY_PERSON) else (Confirm(joint.child),)
+            self._page.correct(*own, *self._shown.copies)
             self._page.play_joint("")
 
     def _make(self) -> None:
