@@ -152,6 +152,16 @@ def slanted() -> Asset:
     return Asset("slanted", source(), mesh, Segmentation(part_of, parts), joints, "geometry")
 
 
+def pistol(axis, limits=(0.0, 0.02)) -> Asset:
+    """A grip below a barrel that reaches far to the front (-y), and a trigger in a slot at the front of the grip."""
+    slot = [box((0, 0, 0), (0.03, 0.06, 0.1)), box((0, -0.02, 0), (0.01, 0, 0.1)), box((0.02, -0.02, 0), (0.03, 0, 0.1)),
+            box((0, -0.3, 0.1), (0.03, 0.1, 0.15))]  # fmt: skip
+    mesh, piece = mesh_of([*slot, box((0.011, -0.03, 0.06), (0.019, -0.008, 0.09))])
+    slide = joint("pull", "prismatic", "body", "trigger", (0, 0, 0), axis, limits)
+    parts = (Part("body", "body"), Part("trigger", "drawer"))
+    return Asset("pistol", source(), mesh, Segmentation((piece == 4).astype(int), parts), (slide,), "geometry")
+
+
 def poses(asset: Asset, positions: dict[str, float]) -> dict[str, np.ndarray]:
     """Where each part's rest placement goes, composing motions down the tree (asset frame); joints not named rest."""
     found = {asset.segmentation.parts[0].name: np.eye(4)}

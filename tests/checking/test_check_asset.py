@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import trimesh
 import typer
-from assets import cabinet, slanted
+from assets import cabinet, pistol, slanted
 from drawn import chest
 from typer.testing import CliRunner
 
@@ -383,3 +383,17 @@ def test_both_find_our_own_output_in_order_in_mujoco_too(tmp_path):
     assert check_asset(path).ok
     found = pytest.importorskip("simcheck").check(str(path), engines=("mujoco",))
     assert not found.errors, found.errors
+
+
+@pytest.mark.parametrize(
+    ("axis", "limits", "leaves"),
+    [((0, 1, 0), (0.0, 0.007), ""), ((0, 1, 0), (-0.02, 0.0), "negative"), ((0, -1, 0), (0.0, 0.03), "positive")],
+)
+def test_a_trigger_that_comes_out_instead_of_going_in_is_told(tmp_path, axis, limits, leaves):
+    write_asset(pistol(axis, limits), tmp_path)
+    told = [f for f in check_asset(tmp_path, engines=()).findings if f.check == "direction"]
+    if not leaves:
+        assert [f.severity for f in told] == [Severity.OK]
+    else:
+        assert [(f.severity, f.subject) for f in told] == [(Severity.WARNING, "pull")]
+        assert f"{leaves} motion takes 'trigger' out of its guide" in told[0].text

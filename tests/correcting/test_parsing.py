@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from assets import box, cabinet, joint, mesh_of, source
+from assets import cabinet, pistol
 
 from anymesh.correcting import (
     ChangeType,
@@ -19,7 +19,7 @@ from anymesh.correcting import (
 from anymesh.correcting.listing import changed_rows, motion_rows, named_part, region_rows, regions_of
 from anymesh.correcting.operations import OPERATIONS, operations_text
 from anymesh.correcting.parsing import HANDLERS, axis_of, limits_of, quantity
-from anymesh.types import Asset, JointType, Part, Segmentation
+from anymesh.types import Asset, JointType
 
 HINGE, SLIDE = JointType.REVOLUTE, JointType.PRISMATIC
 
@@ -184,16 +184,6 @@ def test_values_that_make_no_sense_are_refused(operations, told):
     with pytest.raises(CorrectionError) as error:
         corrections_of(cabinet(), "door", operations)
     assert told in str(error.value)
-
-
-def pistol(axis) -> Asset:
-    """A grip below a barrel that reaches far to the front (-y), and a trigger in a slot at the front of the grip."""
-    slot = [box((0, 0, 0), (0.03, 0.06, 0.1)), box((0, -0.02, 0), (0.01, 0, 0.1)), box((0.02, -0.02, 0), (0.03, 0, 0.1)),
-            box((0, -0.3, 0.1), (0.03, 0.1, 0.15))]  # fmt: skip
-    mesh, piece = mesh_of([*slot, box((0.011, -0.03, 0.06), (0.019, -0.008, 0.09))])
-    slide = joint("pull", "prismatic", "body", "trigger", (0, 0, 0), axis, (0.0, 0.02))
-    parts = (Part("body", "body"), Part("trigger", "drawer"))
-    return Asset("pistol", source(), mesh, Segmentation((piece == 4).astype(int), parts), (slide,), "geometry")
 
 
 @pytest.mark.parametrize("axis", [(0, 1, 0), (0, -1, 0)])

@@ -2,12 +2,14 @@
 
 import json
 import math
+import sys
 from dataclasses import replace
 
 import numpy as np
 import pytest
 import typer
 from assets import cabinet, joint, mesh_of, posed_triangles, slanted, source
+from correctable import write_output
 from shown import Page, asked, folder_of, hostile, picture, script_hash, styles
 from typer.testing import CliRunner
 
@@ -238,8 +240,32 @@ def test_a_notebook_shows_an_asset_in_a_frame_of_its_own():
     inner = Page(str(frame[0]["srcdoc"]))
     assert inner.open == []
     assert inner.scene(0)["joints"][0]["name"] == "hinge"
-    assert show(cabinet())._repr_html_() == html
     assert cabinet()._repr_html_() == html
+
+
+def test_show_makes_a_frame_in_a_notebook_and_a_page_for_the_browser_elsewhere(tmp_path, monkeypatch, capsys):
+    opened = []
+    monkeypatch.setattr("webbrowser.open", opened.append)
+    monkeypatch.setattr("tempfile.tempdir", str(tmp_path))
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    folder = write_output(tmp_path / "box")
+    shown = [show(str(folder)), show(anymesh.load(folder))]
+    lines = capsys.readouterr().out.splitlines()
+    assert [line.split()[3] for line in lines] == ["box", "cabinet"]
+    for page, line in zip(shown, lines, strict=True):
+        assert str(page.path) in line
+        assert repr(page) == f"report in {page.path}"
+        assert "hinge" in page.path.read_text(encoding="utf-8")
+    assert opened == [] or sys.platform != "linux"
+    monkeypatch.setenv("DISPLAY", ":0")
+    path = show(cabinet()).path
+    assert opened[-1] == path.as_uri()
+    monkeypatch.setitem(sys.modules, "ipykernel", object())
+    assert show(cabinet()).path is None
+    assert show(cabinet())._repr_html_() == asset_html(cabinet())
+    with pytest.raises(InputError):
+        show(tmp_path / "nowhere")
 
 
 def test_after_load_ext_a_shell_prints_one_line_per_joint():

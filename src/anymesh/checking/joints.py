@@ -16,9 +16,9 @@ from anymesh.checking.engines.robot import MOVING, Robot, RobotJoint
 from anymesh.checking.report import Finding, Severity, failure, warning
 from anymesh.errors import InputError, MissingExtraError
 from anymesh.geometry.simplify_ import simplify
-from anymesh.geometry.sweep import Obstacles
+from anymesh.geometry.sweep import Obstacles, free_amount
 from anymesh.geometry.topology import triangle_set_of
-from anymesh.geometry.triangle_set import TriangleSet
+from anymesh.geometry.triangle_set import TriangleSet, sample_surface
 from anymesh.types import JointType, Motion
 
 JOINTS = "joints"
@@ -29,6 +29,10 @@ TRAVEL = 3.0  # share of the object's diagonal; a longer slide is probably in ot
 DIRECTION = "direction"
 FACES = 20_000
 MOTION = "motion"
+BUTTON = 0.15  # share of the object's diagonal: a smaller part may be a button, as in articulation/rank_motions.py
+STROKE = 0.1  # share of its extent along the axis that a button moves inwards at least, as in articulation/limits.py
+GUIDED, LOOSE = 0.1, 0.01  # shares of a part's surface between walls: from which it is in a guide, up to which it has left it
+PROBES, STROKE_STEPS = 500, 8  # points of that surface, and poses of the stroke
 
 
 def check_joints(robot: Robot, diagonal: float) -> Iterator[Finding]:
@@ -117,6 +121,35 @@ def check_direction(content: Content) -> Iterator[Finding]:
             yield from _ways(content, joint, *(triangle_set_of(simplify(shape, FACES)) for shape in (part, rest)))
 
 
+def _leaving(content: Content, joint: RobotJoint, motion: Motion, obstacles: Obstacles) -> Iterator[Finding]:
+    """Check that a small part that can be pushed in does not leave its guide instead, as a button with a reversed range."""
+    part, rest = obstacles.part, obstacles.rest
+    lower, upper = joint.range
+    sign, most = (1, upper) if upper > -lower else (-1, -lower)
+    if part.box.diagonal > BUTTON * content.diagonal or upper - lower - most > STROKE * most:
+        return
+    points = sample_surface(part.triangles, PROBES, 0).points
+    if _between_walls(part, rest, points, motion.axis) < GUIDED:
+        return
+    end = points + sign * most * motion.axis
+    least = STROKE * float(np.ptp(part.corners @ motion.axis))
+    if (
+        _between_walls(part, rest, end, motion.axis) <= LOOSE
+        and free_amount(obstacles, motion, -sign, least, STROKE_STEPS)[0] >= least
+    ):
+        way = "positive" if sign > 0 else "negative"
+        text = f"{way} motion takes {joint.child!r} out of its guide in {joint.parent!r} within {most:.3g} m"
+        yield warning(DIRECTION, joint.name, f"{text}, and it can be pushed the other way; is the direction reversed?")
+
+
+def _between_walls(part: TriangleSet, rest: TriangleSet, points: np.ndarray, axis: np.ndarray) -> float:
+    """Return the share of points with a surface on two opposite sides across an axis, within a size of the part and a half."""
+    across = np.linalg.svd(axis[None])[2][1:]
+    ways = 1.5 * across * np.ptp(part.corners @ across.T, axis=0)[:, None]
+    hit = [rest.scene.first_hit(points, np.tile(way, (len(points), 1))).distance <= 1 for way in (*ways, *-ways)]
+    return float(((hit[0] & hit[2]) | (hit[1] & hit[3])).mean())
+
+
 def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: TriangleSet) -> Iterator[Finding]:
     T = content.places[joint.child]
     axis = T[:3, :3] @ joint.axis / np.linalg.norm(joint.axis)
@@ -126,7 +159,10 @@ def _ways(content: Content, joint: RobotJoint, part: TriangleSet, rest: Triangle
     alone = content.at_rest(own) if own != content.robot.carried(joint.child) else np.zeros((0, 3, 3))
     link = triangle_set_of(simplify(alone, FACES)) if len(alone) else None
     unit = "m" if slides else "rad"
-    for stop in stops(Obstacles(part, rest, TOLERANCE * content.diagonal), motion, joint.range, content.diagonal, link):
+    obstacles = Obstacles(part, rest, TOLERANCE * content.diagonal)
+    if slides:
+        yield from _leaving(content, joint, motion, obstacles)
+    for stop in stops(obstacles, motion, joint.range, content.diagonal, link):
         way = "positive" if stop.sign > 0 else "negative"
         problem = f"{way} motion drives {joint.child!r} into {joint.parent!r} after {stop.free:.3g} of {stop.most:.3g} {unit}"
         if stop.reversed:

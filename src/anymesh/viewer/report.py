@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+import os
+import sys
+import webbrowser
 from dataclasses import dataclass
 from html import escape
 from pathlib import Path
+from tempfile import mkdtemp
 from typing import Any
 
+from anymesh.correcting.editable import EditableAsset
 from anymesh.errors import InputError
 from anymesh.names import confidence_word
 from anymesh.rendering.preview import extent
 from anymesh.runtime import Progress, silent, writing
 from anymesh.types import Asset
-from anymesh.viewer.report_asset import FACES, asset_entry, find_assets, folder_entry, within
+from anymesh.viewer.report_asset import FACES, ReportEntry, asset_entry, find_assets, folder_entry, within
 from anymesh.viewer.report_html import html_report
 
 MEGABYTES = 100.0  # maximum size of a page that browsers open quickly
@@ -45,17 +50,9 @@ def write_report(
     Raise InputError if there is no asset, OutputError if the file cannot be written.
     """
     folder = Path(folder)
-    if not folder.is_dir():
-        raise InputError(f"{folder} is not a folder; valid is one that `anymesh articulate` made, or a folder of such")
+    entries = within(_entries(folder, faces, progress), megabytes)
     whole = folder.resolve()
     out = whole.parent / f"{whole.name}_report.html" if out is None else Path(out)
-    folders = find_assets(folder)
-    entries = []
-    for k, place in enumerate(folders):
-        title = whole.name if place == folder else place.relative_to(folder).as_posix()
-        progress("report", title, k, len(folders))
-        entries.append(folder_entry(place, title, faces=faces))
-    entries = within(sorted(entries, key=lambda entry: (entry.least, entry.title)), megabytes)
     data = html_report(whole.name, entries).encode()
     with writing(out):
         temporary = out.with_name(f".{out.name}.part")  # so that the page is written atomically
@@ -70,24 +67,60 @@ def write_report(
     )
 
 
-class NotebookReport:
-    """Result of `show`, which a notebook displays."""
+def _entries(folder: Path, faces: int, progress: Progress = silent) -> list[ReportEntry]:
+    """Return the entries of all assets in a folder, least confident first. Raise InputError if there is none."""
+    if not folder.is_dir():
+        raise InputError(f"{folder} is not a folder; valid is one that `anymesh articulate` made, or a folder of such")
+    folders, entries = find_assets(folder), []
+    for k, place in enumerate(folders):
+        title = folder.resolve().name if place == folder else place.relative_to(folder).as_posix()
+        progress("report", title, k, len(folders))
+        entries.append(folder_entry(place, title, faces=faces))
+    return sorted(entries, key=lambda entry: (entry.least, entry.title))
 
-    def __init__(self, html: str) -> None:
-        self._html = html
+
+class NotebookReport:
+    """Result of `show`, which a notebook displays. path: of the page that was written outside of a notebook."""
+
+    def __init__(self, html: str, path: Path | None = None) -> None:
+        self._html, self.path = html, path
 
     def _repr_html_(self) -> str:
         return self._html
 
+    def __repr__(self) -> str:
+        return "report in a notebook" if self.path is None else f"report in {self.path}"
 
-def show(asset: Asset, *, height: int = HEIGHT) -> NotebookReport:
-    """Return the asset for display in a notebook: 3D view, a slider per joint, tables. height: of the frame [px]."""
-    return NotebookReport(asset_html(asset, height=height))
+
+def show(asset: str | Path | Asset | EditableAsset, *, height: int = HEIGHT) -> NotebookReport:
+    """Show an asset with a 3D view, a slider per joint, and tables: in a notebook, else in the browser.
+
+    asset: an output folder, or a folder of several; or an asset. height: of the frame in a notebook [px]. Outside of a notebook
+    the page is written to a temporary folder and its path is printed; without a display no browser is opened.
+    Raise InputError if a folder holds no asset.
+    """
+    if isinstance(asset, (str, Path)):
+        name, entries = Path(asset).resolve().name, within(_entries(Path(asset), FACES), MEGABYTES)
+    else:
+        plain = asset.asset if isinstance(asset, EditableAsset) else asset
+        name, entries = plain.name, [asset_entry(plain, faces=FACES)]
+    page = html_report(name, entries)
+    if "ipykernel" in sys.modules:  # the kernel of a notebook
+        return NotebookReport(_framed(page, height))
+    path = Path(mkdtemp(prefix="anymesh-")) / f"{name}.html"
+    path.write_text(page, encoding="utf-8")
+    sys.stdout.write(f"the report of {name} is {path}\n")
+    if sys.platform != "linux" or {"DISPLAY", "WAYLAND_DISPLAY"} & {*os.environ}:
+        webbrowser.open(path.as_uri())
+    return NotebookReport(_framed(page, height), path)
 
 
 def asset_html(asset: Asset, *, height: int = HEIGHT) -> str:
     """Return the report of an asset in a frame that may only run its own scripts."""
-    page = html_report(asset.name, [asset_entry(asset, faces=FACES)])
+    return _framed(html_report(asset.name, [asset_entry(asset, faces=FACES)]), height)
+
+
+def _framed(page: str, height: int) -> str:
     return (
         f'<iframe sandbox="allow-scripts" srcdoc="{escape(page)}" width="100%" height="{int(height)}" '
         'style="border:1px solid #ccc"></iframe>'
