@@ -20,15 +20,16 @@ from anymesh.types import Asset, Joint, JointType
 from anymesh.viewer.scene import color_of
 from anymesh.viewer.session import Session
 
-COLORS = {"sure": "#2b8a3e", "check": "#b35c00", "guess": "#c92a2a"}  # green, amber and red, dark enough for white text
+COLORS = {"sure": ("#2b8a3e", "#fff"), "check": ("#f2b01e", "#201500"), "guess": ("#c92a2a", "#fff")}  # green, amber, red
 SMALL = 'style="font-size:0.8em;line-height:1.35;padding:0 0.8em 0.4em;overflow-wrap:anywhere"'
 
 
 def badge(value: float, word: str = "") -> str:
     """Return a confidence as a coloured label. word: sure, check or guess, by default as the confidence says."""
     word = word or confidence_word(value)
-    style = f"background:{COLORS[word]};color:#fff;border-radius:3px;padding:0 0.35em"
-    return f'<span title="{word}" style="{style}">{value:.2f}</span>'
+    ground, text = COLORS[word]
+    style = f"background:{ground};color:{text};border-radius:3px;padding:0 0.35em"
+    return f'<span role="img" aria-label="{value:.2f}: {word}" style="{style}">{value:.2f}</span>'
 
 
 def head(asset: Asset, *, unsaved: int, note: str, tool: str) -> str:

@@ -24,7 +24,7 @@ def test_a_doubted_joint_says_why_and_can_be_confirmed():
     assert "low confidence (0.30)" in card
     assert 'data-say="confirm"' in card
     assert "Looking for its motions" in card
-    assert "#b35c00" in card  # amber: the joint itself has .9
+    assert "#f2b01e" in card  # amber: the joint itself has .9
     sure = part_card(apply(SIDEWAYS, Confirm("drawer")), "drawer", None, None)
     assert "✓ confirmed by hand" in sure
     assert 'data-say="confirm"' not in sure
