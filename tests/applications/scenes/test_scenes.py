@@ -216,6 +216,8 @@ def test_a_finished_scene_is_kept_and_an_unfinished_one_is_continued(split, kitc
     assert json.loads((out / "scene.json").read_text()) == record
     with pytest.raises(OptionError, match="auto and nodes"):
         anymesh.articulate_scene(kitchen, out, parts="labels.npy")
+    with pytest.raises(OptionError, match="--mass is that of one object"):
+        anymesh.articulate_scene(kitchen, out, mass=20.0)
 
 
 def test_the_command_lists_the_assets(kitchen, tmp_path, capsys) -> None:

@@ -118,6 +118,14 @@ def test_an_answered_range_that_is_not_free_is_told_and_lowers_the_confidence(na
     assert not told or told.startswith(f"joint {joint.name}: ")
 
 
+def test_an_answered_range_of_what_turns_endlessly_is_told() -> None:
+    told = RecognizedLabel("part", JointType.REVOLUTE, None, (0.0, 1.0))
+    case = replace(case_of("left"), answer=KindAnswer(ALONG, endless=True), recognized=told)
+    joint, warning = _joint(case, Choice(EDGE, "so", 0.8), "off")
+    assert joint.type is JointType.CONTINUOUS
+    assert "the answer 0 to 57.3 degrees is not used, it turns endlessly" in warning
+
+
 STACK = {"base": [box((0, 0, 0), (2, 2, 0.2))], "low": [box((0.5, 0.5, 0.2), (1.5, 1.5, 1))]}
 STACK["high"] = [box((0.8, 0.8, 1), (1, 1, 1.2))]
 

@@ -68,7 +68,7 @@ from anymesh.prompted.questions.prompting import (
 )
 from anymesh.runtime import Progress, silent
 from anymesh.types import Joint, JointType, Motion, Segmentation
-from anymesh.types.motion import Recognition
+from anymesh.types.motion import Recognition, RecognizedLabel
 from anymesh.types.questions import VisualAnswerer
 
 MIN_GUIDED_SHARE = 0.4  # minimum share of the sideways directions in which an outward slide is guided
@@ -311,10 +311,22 @@ def _joint(case: PartCase, choice: Choice, verify: str) -> tuple[Joint, str]:
     best = away_from_closed(case.context, choice.best) if answered is None else opening_as_answered(choice.best, answered)
     joint = joint_of(case.context, case.name, case.parent, best, kind, choice.confidence, choice.reason, answered)
     if answered is None:
-        stated = case.recognized.limits if case.recognized is not None and case.recognized.moves is kind else None
-        unused = f"joint {joint.name}: the answer {_range_words(kind, stated)} is no range{PLEASE_CHECK}" if stated else ""
-        return joint, unused
+        return joint, _unused(joint, case.recognized)
     return (joint, "") if pressed(best, answered) else _as_answered(case, best, joint, answered)
+
+
+def _unused(joint: Joint, recognized: RecognizedLabel | None) -> str:
+    """Return a warning about an answered range that a joint of the answered kind does not have, else "".
+
+    Other kinds contradict the answer, which has a warning of its own.
+    """
+    if recognized is None or recognized.limits is None or recognized.moves is None:
+        return ""
+    endless = joint.type is JointType.CONTINUOUS and recognized.moves is JointType.REVOLUTE
+    if not endless and joint.type is not recognized.moves:
+        return ""
+    why = "is not used, it turns endlessly" if endless else "is no range"
+    return f"joint {joint.name}: the answer {_range_words(recognized.moves, recognized.limits)} {why}{PLEASE_CHECK}"
 
 
 def _as_answered(case: PartCase, best: Candidate, joint: Joint, answered: tuple[float, float]) -> tuple[Joint, str]:
