@@ -8,6 +8,7 @@ import warnings
 from pathlib import Path
 
 import numpy as np
+import pytest
 import trimesh
 
 from anymesh.cli.app import quiet_libraries
@@ -83,3 +84,10 @@ def test_importing_the_package_changes_no_filter(tmp_path) -> None:
     code = "import warnings, logging; b = list(warnings.filters); import anymesh.pipeline; print(b == warnings.filters)"
     lines = command("-c", f"import numpy, scipy.sparse, trimesh, embreex, PIL.Image\n{code}", folder=tmp_path)
     assert lines.stdout == "True\n", lines.stderr
+
+
+def test_a_library_that_reports_leaks_has_none_to_report(tmp_path) -> None:
+    pytest.importorskip("ompl")
+    code = "from ompl import base; base.RealVectorStateSpace(2); from anymesh.cli import main; main(['--version'])"
+    ended = subprocess.run([sys.executable, "-c", code], cwd=tmp_path, capture_output=True, text=True, timeout=100)
+    assert (ended.returncode, ended.stderr) == (0, "")

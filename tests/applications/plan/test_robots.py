@@ -2,6 +2,7 @@
 
 import importlib.metadata
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -9,7 +10,7 @@ import pytest
 from anymesh.applications.plan.hand_ import measure_hand
 from anymesh.applications.plan.kinematics_ import Kinematics
 from anymesh.applications.plan.robot_ import load_robot
-from anymesh.applications.plan.robot_packages_ import PRESETS, _downloaded, find_robot
+from anymesh.applications.plan.robot_packages_ import DEFAULT_ROBOT, PRESETS, _downloaded, find_robot
 from anymesh.errors import OptionError
 
 
@@ -78,3 +79,13 @@ def test_the_panda_stands_as_its_maker_says():
     tool = Kinematics(robot, hand).forward(np.array([0, 0, 0, -math.pi / 2, 0, math.pi / 2, math.pi / 4]))
     expected = (0.0825 + 0.384 + 0.088, 0, 0.333 + 0.316 + 0.0825 - 0.107 - 0.1034)  # by its Denavit-Hartenberg table
     np.testing.assert_allclose(tool[:3, 3], expected, atol=2e-3)
+
+
+def test_without_options_the_surest_joint_is_planned_by_half_of_its_range(things):
+    from anymesh.applications.plan.asset_ import AUTO, open_object
+
+    thing = open_object(things / "panel.xml", AUTO)
+    assert thing.limits is not None
+    assert abs(thing.usual_value()) == pytest.approx(max(map(abs, thing.limits)) / 2)
+    assert replace(thing, limits=None).usual_value() == pytest.approx(np.pi / 3)
+    assert find_robot(DEFAULT_ROBOT).arm.is_file()

@@ -15,8 +15,11 @@ from anymesh.checking.engines.locate import find_description
 from anymesh.checking.engines.mujoco_ import read_spec
 from anymesh.errors import InputError, OptionError
 from anymesh.mujoco_ import load_mujoco
+from anymesh.runtime import read_json
 from anymesh.types import Brief, JointType, Motion
 
+AUTO = "auto"
+USUAL_RATIO, USUAL_TURN = 0.5, np.deg2rad(60.0)  # share of a range that is planned by default; of endless joints [rad]
 OVERLAP = 1e-4  # share of the object's extent; links that overlap by more at rest do not collide
 
 
@@ -47,6 +50,10 @@ class ArticulatedObject(Brief):
         """Format a value of the joint for messages, in degrees or millimetres."""
         return f"{np.rad2deg(value):.1f} deg" if self.turns else f"{1000 * value:.1f} mm"
 
+    def usual_value(self) -> float:
+        """Return half of the range in its longer direction, 60 degrees of an endless joint [rad or m]."""
+        return USUAL_TURN if self.limits is None else USUAL_RATIO * max(self.limits, key=abs)
+
     def check_value(self, value: float) -> float:
         """Return the value, clipped to the joint's range. Raise PlanError with the nearest value if it is outside the range."""
         if not np.isfinite(value):
@@ -65,7 +72,9 @@ class ArticulatedObject(Brief):
 
 
 def open_object(path: str | Path, joint: str) -> ArticulatedObject:
-    """Read an asset folder, a URDF or an MJCF. joint: name of the joint or of the part that it moves.
+    """Read an asset folder, a URDF or an MJCF.
+
+    joint: name of the joint or of the part that it moves, or auto: the one of highest confidence, else the first.
 
     Raise InputError if there is nothing to read, OptionError if the joint does not exist or does not move.
     """
@@ -83,7 +92,7 @@ def open_object(path: str | Path, joint: str) -> ArticulatedObject:
         raise InputError(f"MuJoCo cannot load {file}: {' '.join(str(error).split())}") from error
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    number = _joint(model, joint)
+    number = _joint(model, _surest(model, Path(path)) if joint == AUTO else joint)
     body = int(model.jnt_bodyid[number])
     carried = tuple(model.body(int(b)).name for b in np.flatnonzero(bodies_below(model, [body])))
     shown = _shown_geoms(model)
@@ -114,6 +123,13 @@ def description(path: Path) -> Path:
     file = find_description(path)
     beside = file.with_suffix(".xml")
     return beside if path.is_dir() and beside.is_file() else file
+
+
+def _surest(model: Any, folder: Path) -> str:
+    """Return the moving joint of highest confidence, the first of equal ones; "" if no joint moves."""
+    stated = (read_json(folder / "asset.json") or {}).get("joints", [])
+    confidence = {j.get("name"): float(j.get("confidence", 0.0)) for j in stated if isinstance(j, dict)}
+    return max((model.joint(j).name for j in single_joints(model)), key=lambda n: confidence.get(n, 0.0), default="")
 
 
 def _joint(model: Any, name: str) -> int:

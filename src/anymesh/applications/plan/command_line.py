@@ -8,16 +8,24 @@ from typing import Annotated, Any
 
 import typer
 
+from anymesh.applications.plan.robot_packages_ import DEFAULT_ROBOT
 from anymesh.cli.options import Force, Json, Quiet
 from anymesh.cli.output import Shown, plain, print_result
 
+AUTO = "auto"
 AssetPath = Annotated[
     Path, typer.Argument(metavar="ASSET", help="A folder that anymesh made, or any URDF or MJCF with a joint that moves.")
 ]
-RobotName = Annotated[str, typer.Option("--robot", help="panda, ur5e, or the path of a URDF or MJCF.")]
-JointName = Annotated[str, typer.Option("--joint", help="The joint's name, or that of the part it carries.")]
-To = Annotated[str, typer.Option("--to", help="Target position: radians or metres, or with a unit: 60deg, 10mm.")]
-Out = Annotated[Path, typer.Option("--out", "-o", metavar="FILE", help="The trajectory.")]
+RobotName = Annotated[str, typer.Option("--robot", help="ur5e (no network needed), panda, or the path of a URDF or MJCF.")]
+JointName = Annotated[str, typer.Option("--joint", help="The joint's name, or that of the part it carries; auto: the surest.")]
+To = Annotated[
+    str | None,
+    typer.Option("--to", help="Target: radians or metres, or with a unit: 60deg, 10mm; half of the range by default."),
+]
+Out = Annotated[
+    Path | None,
+    typer.Option("--out", "-o", metavar="FILE", help="The trajectory; default: ASSET_plan.json beside ASSET, with a picture."),
+]
 Kind = Annotated[
     str, typer.Option("--format", help="json (all), csv, or ros: the fields of trajectory_msgs/JointTrajectory as JSON.")
 ]
@@ -36,10 +44,10 @@ SeedNumber = Annotated[int, typer.Option("--seed", help="From 0 up; the same inp
 
 def plan(
     asset: AssetPath,
-    joint: JointName,
-    to: To,
-    out: Out,
-    robot: RobotName = "panda",
+    joint: JointName = AUTO,
+    to: To = None,
+    out: Out = None,
+    robot: RobotName = DEFAULT_ROBOT,
     kind: Kind = "json",
     base: Base = "auto",
     contact: ContactKind = "auto",
@@ -57,10 +65,14 @@ def plan(
     from anymesh.applications.plan.planner import plan as find
     from anymesh.applications.plan.plans import parse_value, write_plan
 
+    if out is None:
+        out = asset.parent / f"{asset.resolve().stem}_plan.json"
+        video = video or out.with_suffix(".png")
     joints = tuple(name for name in gripper.split(",") if name)
     with Shown(quiet or json_) as progress:
         planned = find(
-            asset, robot=robot, joint=joint, to=parse_value(to), base=base, contact=contact, tool=tool, gripper=joints,
+            asset, robot=robot, joint=joint, to=None if to is None else parse_value(to),
+            base=base, contact=contact, tool=tool, gripper=joints,
             seed=seed, speed=speed, seconds=math.inf if seconds is None else seconds, progress=progress,
         )  # fmt: skip
         write_plan(planned, out, kind, force=force)

@@ -7,15 +7,16 @@ import time
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from anymesh.applications.plan.asset_ import ArticulatedObject, open_object
+from anymesh.applications.plan.asset_ import AUTO, ArticulatedObject, open_object
 from anymesh.applications.plan.hand_ import measure_hand
 from anymesh.applications.plan.kinematics_ import Kinematics
 from anymesh.applications.plan.plans import BasePose, GripperContact, MotionPlan, PlanError, Target
 from anymesh.applications.plan.robot_ import load_robot
-from anymesh.applications.plan.robot_packages_ import find_robot
+from anymesh.applications.plan.robot_packages_ import DEFAULT_ROBOT, find_robot
 from anymesh.applications.plan.scene_ import HandWorld
 from anymesh.applications.plan.search import Arm, Search, Settings
 from anymesh.applications.plan.targets import PartSurfaces, sample_targets, velocity
@@ -25,7 +26,6 @@ from anymesh.runtime import Progress, silent
 
 TARGETS = 60  # targets tried per base
 SHORT = 0.03  # [m] travel of the part below which pushing is tried before grasping
-AUTO = "auto"
 CONTACTS = {AUTO: (), **{c.value: (c,) for c in GripperContact}}
 
 
@@ -39,9 +39,9 @@ def open_arm(robot: str | Path, *, tool: str | None = None, gripper: Sequence[st
 def plan(
     asset: str | Path,
     *,
-    robot: str | Path = "panda",
-    joint: str,
-    to: float,
+    robot: str | Path = DEFAULT_ROBOT,
+    joint: str = AUTO,
+    to: float | None = None,
     base: BasePose | str = AUTO,
     contact: str = AUTO,
     tool: str | None = None,
@@ -54,7 +54,8 @@ def plan(
     """Plan how a robot arm moves a joint of an asset from rest to a value (paper, 4.2).
 
     asset: a folder written by anymesh, a URDF or an MJCF; robot: panda, ur5e, or a URDF or MJCF; joint: name of the joint or of
-    the part that it moves; to: [rad or m]; base: auto, "X,Y,Z,YAW" [m, deg] or a pose; contact: auto, grasp or push; tool,
+    the part that it moves, or auto (the surest); to: [rad or m], None for half of the range or what of it can be reached;
+    base: auto, "X,Y,Z,YAW" [m, deg] or a pose; contact: auto, grasp or push; tool,
     gripper: as for `load_robot`; speed: share of the joints' limits; seconds: after which no further target is tried.
     Raise PlanError with the reason and the nearest feasible value if no plan is found, OptionError, InputError or
     MissingExtraError.
@@ -69,9 +70,13 @@ def plan(
     arm = open_arm(robot, tool=tool, gripper=gripper)
     thing = open_object(asset, joint)
     loaded = time.perf_counter() - begin
-    motion_plan = plan_motion(
-        thing, arm, to, base=place, contacts=CONTACTS[contact], settings=Settings(seed, speed, seconds), progress=progress
-    )
+    how: dict[str, Any] = {"base": place, "contacts": CONTACTS[contact], "settings": Settings(seed, speed, seconds)}
+    try:
+        motion_plan = plan_motion(thing, arm, thing.usual_value() if to is None else to, progress=progress, **how)
+    except PlanError as error:
+        if to is not None or not error.nearest:
+            raise
+        motion_plan = plan_motion(thing, arm, error.nearest, progress=progress, **how)
     return replace(motion_plan, seconds={"load": round(loaded, 3), **motion_plan.seconds})
 
 

@@ -37,6 +37,7 @@ class Preset:
 # Panda: Franka Control Interface documentation, "Robot and interface specifications" (joint limits, continuous grasping force).
 # UR5e: data sheet of Universal Robots (180 deg/s). It states no joint acceleration; 2.5 rad/s2 is between the default (1.4)
 # and the maximum (40) of URScript's movej.
+DEFAULT_ROBOT = "ur5e"  # its files come with the extra `plan`, so that it needs no network
 PRESETS = {
     "panda": Preset(
         menagerie=("franka_emika_panda", "panda"),
