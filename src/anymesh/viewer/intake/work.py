@@ -109,6 +109,9 @@ class ArticulationWork:
             except ChildError as error:
                 if not self.cancelled:
                     self.error = _reason(error)
+            except (OSError, ValueError):  # its pipe was closed while it was read
+                if not self.cancelled:
+                    raise
 
     def _note(self, *fields: Any) -> None:
         """Take a message of the child: its placed mesh, or a stage, an item, and how many of how many are done."""
