@@ -29,10 +29,12 @@ def test_a_joint_is_set_in_degrees_and_saved(tmp_path):
     folder = write_output(tmp_path / "out")
     asset = anymesh.load(folder, author="Ada")
     door = asset.joint("hinge")
+    assert door.verdict == "check"
     assert (door.part, door.name, door.type, door.parent, door.label) == ("door", "hinge", "revolute", "base", "door")
     axis = door.axis
     door.limits = (0, 90)
     assert door.flip() is door
+    assert door.verdict == "sure"
     np.testing.assert_array_equal(door.axis, -axis)
     assert door.limits == pytest.approx((0, 90))
     asset.joint("drawer").limits = "0,25cm"
@@ -108,7 +110,7 @@ def test_the_command_lists_parts_motions_and_regions_and_writes_nothing(tmp_path
     assert run(["correct", str(out), "--json"]) == 0
     record = told(capsys)
     assert [(r["part"], r["joint"]) for r in record["joints"]] == [("door", "hinge"), ("drawer", "slide"), ("knob", "turn")]
-    assert record["warnings"]
+    assert (record["joints"][0]["verdict"], record["joints"][0]["why"]) == ("check", "low confidence (0.20)")
     assert run(["correct", str(out), "door", "--motions", "--json"]) == 0
     assert [(r["number"], r["motion"]) for r in told(capsys)["motions"]] == [(1, "hinge right, vertical")]
     assert run(["correct", str(out), "base", "--regions", "--json"]) == 0

@@ -15,6 +15,7 @@ from anymesh.correcting.edits import joint_of_part, part_number
 from anymesh.correcting.history import History, Opened, open_asset, save_asset
 from anymesh.correcting.listing import changed_rows, motion_rows, named_part, part_rows, region_rows
 from anymesh.correcting.parsing import corrections_of
+from anymesh.pipeline.results import verdict
 from anymesh.types import Asset, Joint, JointType
 
 SHOWN = 8  # joints that are printed
@@ -139,7 +140,7 @@ class EditableAsset:
         rows, name = part_rows(self.asset), self.asset.name
         unsaved = "" if self._opened.history.done == self._saved.done else ", not saved"
         head = f"{name}: {len(self.parts)} parts, {len(self._opened.history.done)} corrections{unsaved} ({self.folder})"
-        lines = [f"  {r['part']}: {r['motion']}, {r['range'] or 'fixed'}, confidence {r['confidence']:.2f}" for r in rows]
+        lines = [f"  {r['part']}: {r['motion']}, {r['range'] or 'fixed'}, {r['verdict']}" for r in rows]
         more = [f"  and {len(rows) - SHOWN} more"] if len(rows) > SHOWN else []
         return "\n".join((head, *lines[:SHOWN], *more))
 
@@ -219,6 +220,12 @@ class EditableJoint:
         self._do(label=value)
 
     @property
+    def verdict(self) -> str:
+        """How far the joint is to be trusted: sure, check or guess."""
+        asset = self._asset.asset
+        return verdict(asset.segmentation, self._joint, asset.warnings).word
+
+    @property
     def confidence(self) -> float:
         """0..1; 1 for what was corrected or confirmed."""
         return self._joint.confidence
@@ -268,4 +275,4 @@ class EditableJoint:
     def __repr__(self) -> str:
         row: Mapping[str, Any] = next(r for r in part_rows(self._asset.asset) if r["part"] == self._joint.child)
         parts = (f"{row['joint']}: {row['motion']}", row["range"], f"part {row['part']} on {row['parent']}")
-        return ", ".join((*(p for p in parts if p), f"confidence {row['confidence']:.2f}"))
+        return ", ".join((*(p for p in parts if p), row["verdict"]))

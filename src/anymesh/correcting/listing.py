@@ -13,6 +13,7 @@ from anymesh.correcting.edits import apply, components_of, joint_of_part, part_n
 from anymesh.correcting.motions import motion_words, ranked_motions, told_apart
 from anymesh.correcting.picking import PickedPart
 from anymesh.names import listed
+from anymesh.pipeline.results import verdict
 from anymesh.types import Asset, Joint
 from anymesh.types.motion import extent
 
@@ -70,18 +71,13 @@ def region_rows(asset: Asset, part: str) -> list[dict[str, Any]]:
 
 
 def part_rows(asset: Asset) -> list[dict[str, Any]]:
-    """Return one row per joint: part, joint, motion in words, range, parent, confidence."""
-    return [
-        {
-            "part": j.child,
-            "joint": j.name,
-            "motion": motion_words(asset, j),
-            "range": extent(j),
-            "parent": j.parent,
-            "confidence": j.confidence,
-        }
-        for j in asset.joints
-    ]
+    """Return one row per joint: part, joint, motion in words, range, parent, confidence, verdict (sure, check, guess), why."""
+    rows = []
+    for j in asset.joints:
+        sure = verdict(asset.segmentation, j, asset.warnings)
+        row = {"part": j.child, "joint": j.name, "motion": motion_words(asset, j), "range": extent(j), "parent": j.parent}
+        rows.append(row | {"confidence": j.confidence, "verdict": sure.word, "why": sure.why})
+    return rows
 
 
 def changed_rows(before: Asset, after: Asset) -> list[dict[str, Any]]:
