@@ -55,9 +55,7 @@ def articulate_scene(
     if parts not in ("auto", "nodes"):
         raise OptionError(f"--scene split finds the parts of each object; valid are --parts auto and nodes, found {parts!r}")
     written = {k: options.pop(k, d) for k, d in defaults(FormatOptions).items()}
-    how = ExportOptions.parse(written)
-    if how.mass is not None:
-        raise OptionError("--mass is that of one object, not of each of a scene; give it to `anymesh export DIR/assets/NAME`")
+    how = _how(written)
     load_libraries(how.formats)
     placing = PlacementOptions(**{k: options.pop(k, d) for k, d in defaults(PlacementOptions).items()})
     time_limit = options.pop("time_limit", DEFAULT_SECONDS)
