@@ -87,6 +87,14 @@ def articulate_scene(
     return scene
 
 
+def _how(written: dict[str, Any]) -> ExportOptions:
+    """Return how the objects are written. Raise OptionError for a mass, which is that of one object."""
+    how = ExportOptions.parse(written)
+    if how.mass is not None:
+        raise OptionError("--mass is that of one object, not of each of a scene; give it to `anymesh export DIR/assets/NAME`")
+    return how
+
+
 @dataclass(frozen=True, eq=False)
 class _Kind(Brief):
     """Equal objects. mesh: of the first in its own frame [m, Z up]; origin: of that frame in the scene [m]."""
