@@ -34,6 +34,7 @@ Role = Literal[
     "slide", "contact_slide", "asked",
 ]  # fmt: skip
 BOX_RIM_ROLES: tuple[Role, ...] = ("edge", "edge_mid")  # hinges along the rims of the part's box
+HINGE_ROLES: tuple[Role, ...] = (*BOX_RIM_ROLES, "barrel", "two_pivot", "asked")  # rotations that doors, lids and handles make
 ProposedMotion = tuple[Role, Motion]
 
 
@@ -94,6 +95,9 @@ class Candidate:
     guided: float = 0.0  # 0..1, for a slide: share of the sideways directions in which the part is guided
     captured: bool = False  # whether a slide is stopped in both directions, with free travel between
     contact_retention: float = 0.0  # 0..1, share of the contact that remains when the part opens slightly
+    pivots: bool = (
+        False  # whether a rotation is free both ways about one end of its axis, as of a crank or rotor, not of a door
+    )
 
     @property
     def vertical(self) -> float:

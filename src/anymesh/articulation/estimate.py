@@ -16,6 +16,7 @@ from anymesh.articulation.limits import MAX_DOOR_DEG, away_from_closed, limits
 from anymesh.articulation.motion_features import swept_features, unswept_features
 from anymesh.articulation.part_contexts import (
     context_by_gaps,
+    have_one_handle,
     in_a_row,
     parents,
     part_context,
@@ -27,7 +28,7 @@ from anymesh.config import SAME_AXIS_COSINE
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
-from anymesh.runtime import JOINTS, Deadline
+from anymesh.runtime import JOINTS, Deadline, Progress, silent
 from anymesh.types import Joint, JointType, Motion, Segmentation
 
 MAX_SWEPT = 8  # motions of a part that are swept, the likeliest of the part at rest; more choose no better
@@ -52,20 +53,34 @@ class PartMotions(NamedTuple):
 
 
 def part_motions(
-    whole: ObjectShape, segmentation: Segmentation, deadline: Deadline | None = None, most_swept: int = MAX_SWEPT
+    whole: ObjectShape,
+    segmentation: Segmentation,
+    deadline: Deadline | None = None,
+    most_swept: int = MAX_SWEPT,
+    progress: Progress = silent,
 ) -> Iterator[PartMotions]:
-    """Yield the motions of each part but the root, copies together. Only the likeliest motions are swept and offered."""
+    """Yield the motions of each part but the root, copies together. Only the likeliest motions are swept and offered.
+
+    Parts that stand above or beside each other with the same handle at the same side move as copies do.
+    """
     label, parts = segmentation.face_part[whole.source], segmentation.parts
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(parts))]
     parent = parents(shapes, whole.diagonal)
-    for numbers in same_size(shapes, parent):
+    scored: dict[int, tuple[PartContext, PartMotionScores]] = {}
+    groups = same_size(shapes, parent)
+    for numbers in groups:
         contexts = share_opening_directions([part_context(whole, label, shapes, parent, i) for i in numbers])
-        scored = [
-            score_motions(a, parts[i].label, _most_swept(most_swept, deadline)) for i, a in zip(numbers, contexts, strict=True)
-        ]
-        for i, context, motions in zip(numbers, contexts, scored, strict=True):
-            row = (m for m, a in zip(scored, contexts, strict=True) if a is not context and in_a_row(context, a))
-            yield PartMotions(i, parent[i], context, motions.averaged(tuple(itertools.islice(row, MAX_COPIES))))
+        for i, context in zip(numbers, contexts, strict=True):
+            progress("joints", parts[i].name, len(scored), len(parts) - 1)
+            scored[i] = context, score_motions(context, parts[i].label, _most_swept(most_swept, deadline))
+    for numbers in groups:
+        for i in numbers:
+            context, mine = scored[i]
+            row = (m for k in numbers if k != i for a, m in [scored[k]] if in_a_row(context, a))
+            alike = (
+                m for k, (a, m) in scored.items() if k not in numbers and parent[k] == parent[i] and have_one_handle(context, a)
+            )
+            yield PartMotions(i, parent[i], context, mine.averaged(tuple(itertools.islice((*row, *alike), MAX_COPIES))))
 
 
 def with_labels_of(segmentation: Segmentation, motions: Iterable[PartMotions]) -> list[PartMotions]:

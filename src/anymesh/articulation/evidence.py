@@ -8,7 +8,14 @@ from dataclasses import replace
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.articulation.candidate_motions import Candidate, ProposedMotion, Role, contact_points, contact_tolerance
+from anymesh.articulation.candidate_motions import (
+    HINGE_ROLES,
+    Candidate,
+    ProposedMotion,
+    Role,
+    contact_points,
+    contact_tolerance,
+)
 from anymesh.config import ACROSS_COSINE
 from anymesh.geometry.circles import MIN_CIRCLE_ROUNDNESS
 from anymesh.geometry.sweep import free_amounts, sweep_all
@@ -25,6 +32,8 @@ RETAINED_FACTOR = 1.5  # contact is retained within this multiple of the distanc
 CROSSWISE_HANDLE_WEIGHT = 0.6  # weight of the side of a bar handle that runs across the line
 MIN_ARM_RATIO = 0.05  # of the part's diagonal: nearer to its center, a rotation has no direction
 GUIDE_STEP_RATIO = 0.02  # of the tolerance length: a slide is guided if a sideways step of this length is blocked
+# of its length along the axis: contact and reach of a part that turns endlessly where it is free all round
+MAX_HELD_RATIO, MIN_REACH_RATIO = 0.5, 0.5
 UNSWEPT = Sweep(0.0, 0.0, clear_forward=False, clear_backward=False)
 ENDLESS = Sweep(np.pi, np.pi, clear_forward=True, clear_backward=True)
 
@@ -105,7 +114,9 @@ def swept(context: PartContext, candidates: Sequence[Candidate]) -> tuple[Candid
         chosen = [k for k, m in enumerate(motions) if k not in sweeps and context.obstacles_of(m) is obstacles]
         sweeps.update(zip(chosen, sweep_all(obstacles, [motions[k] for k in chosen], steps), strict=True))
     ahead = [
-        _swept_hinge(c, sweeps[k]) if c.motion.kind is JointType.REVOLUTE else _swept_slide(context, c, sweeps[k], next(guided))
+        _swept_hinge(context, c, sweeps[k])
+        if c.motion.kind is JointType.REVOLUTE
+        else _swept_slide(context, c, sweeps[k], next(guided))
         for k, c in enumerate(candidates)
     ]
     both = [way for c in ahead for way in (c, c.reversed())]
@@ -113,8 +124,17 @@ def swept(context: PartContext, candidates: Sequence[Candidate]) -> tuple[Candid
     return tuple(replace(c, contact_retention=float(share)) for c, share in zip(both, shares, strict=True))
 
 
-def _swept_hinge(c: Candidate, sweep: Sweep) -> Candidate:
-    return replace(c, sweep=sweep, opening=sweep.forward, closing=sweep.backward)
+def _swept_hinge(context: PartContext, c: Candidate, sweep: Sweep) -> Candidate:
+    c = replace(c, sweep=sweep, opening=sweep.forward, closing=sweep.backward)
+    return replace(c, pivots=c.is_endless and c.role not in HINGE_ROLES and _held_at_one_end(context, c.motion))
+
+
+def _held_at_one_end(context: PartContext, motion: Motion) -> bool:
+    """Return whether the contact is short along an axis, and the part reaches off it; doors are held all along."""
+    points = context.part.samples.points
+    length = float(np.ptp(points @ motion.axis))
+    held = float(np.ptp(context.contact @ motion.axis)) if len(context.contact) else 0.0
+    return held < MAX_HELD_RATIO * length and float(motion.distance(points).max()) > MIN_REACH_RATIO * length
 
 
 def _swept_slide(context: PartContext, c: Candidate, sweep: Sweep, guided: float) -> Candidate:

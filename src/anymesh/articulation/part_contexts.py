@@ -181,6 +181,8 @@ def context_by_gaps(whole: ObjectShape, label: Int[np.ndarray, " F"], part: int)
 # maximum component of the offset along the opening direction, over its length, between parts in a row
 MAX_ROW_OFFSET_RATIO = 0.25
 SAME_BALANCE = 0.2  # maximum difference of the feature "balance" of axes in a similar position: through the center, or at a rim
+MAX_HANDLE_DIFFERENCE = 0.1  # of their lengths and of the fronts' sides: difference of fronts with the same handle; an estimate
+MIN_HANDLE_OFFSET = 0.3  # of half the front's side: a handle nearer to the middle is at no side
 MIN_SAME_SIDE_PRODUCT = -0.05  # minimum product of two directions or offsets to the same side; 0 is on no side
 
 
@@ -195,6 +197,31 @@ def same_size(shapes: Sequence[TriangleSet], parent: Sequence[int]) -> list[list
         else:
             group.append(i)
     return groups
+
+
+def have_one_handle(a: PartContext, b: PartContext) -> bool:
+    """Return whether two fronts of one width, or height, have the same handle at the same side, as two doors of a fridge do."""
+    if a.handle is None or b.handle is None or a.opening_direction @ b.opening_direction < SAME_AXIS_COSINE:
+        return False
+    lengths = a.handle.size * a.part.box.diagonal, b.handle.size * b.part.box.diagonal
+    if min(lengths) < (1 - MAX_HANDLE_DIFFERENCE) * max(lengths):
+        return False
+    places = _handle_place(a), _handle_place(b)
+    for axis in (a.body_obb.axes[k] for k in a.face_axes):
+        half = np.array([core.half @ np.abs(core.axes @ axis) for core in (a.body_obb, b.body_obb)])
+        middles = np.array([a.body_obb.center @ axis, b.body_obb.center @ axis])
+        off = (np.array([place @ axis for place in places]) - middles) / half
+        level = max(np.ptp(middles), np.ptp(half)) < MAX_HANDLE_DIFFERENCE * half.min()
+        if level and np.ptp(off) < MAX_HANDLE_DIFFERENCE and np.abs(off).min() > MIN_HANDLE_OFFSET:
+            return True
+    return False
+
+
+def _handle_place(context: PartContext) -> Float[np.ndarray, " 3"]:
+    """Return the middle of the handle of a part on its face [m]."""
+    assert context.handle is not None
+    core, flat = context.body_obb, context.face_axes
+    return core.center + (np.array(context.handle.across) * core.half[flat]) @ core.axes[flat]
 
 
 def share_opening_directions(contexts: Sequence[PartContext]) -> list[PartContext]:

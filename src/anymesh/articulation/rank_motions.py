@@ -11,7 +11,14 @@ from functools import cache
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.articulation.candidate_motions import Candidate, CandidateMotions, MotionChoice, PartFacts, SlideDirection
+from anymesh.articulation.candidate_motions import (
+    BOX_RIM_ROLES,
+    Candidate,
+    CandidateMotions,
+    MotionChoice,
+    PartFacts,
+    SlideDirection,
+)
 from anymesh.articulation.motion_features import Features, motion_features
 from anymesh.articulation.part_contexts import ScoredMotions, mean_over_copies
 from anymesh.config import FACING_COSINE, LEVEL_COSINE, SAME_AXIS_COSINE
@@ -73,6 +80,7 @@ SAME_LINE_RATIO = 0.1  # of the part's size: maximum distance between lines that
 SIDES = "on no side", "on one side", "on two sides", "on three sides", "on all sides"  # by how many of four guide a slide
 MIN_LARGE_RATIO = 0.15  # of the object's diagonal: a smaller part that slides in is a button, one that spins is a knob
 MIN_DRAWER_TRAVEL_RATIO = 0.1  # of its size: a slide with less travel is not labelled as a drawer
+MAX_SWING_RAD = float(np.deg2rad(240))  # [rad] a door or a lid is stopped at some side
 # of its height: a part with a level hinge that rises higher than this above its parent is a lid modelled open
 MIN_OPEN_LID_RISE_RATIO = 0.5
 
@@ -94,13 +102,13 @@ def rank_motions(motions: CandidateMotions) -> MotionChoice:
         return MotionChoice(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "blocked whichever way it is moved")
     share = np.clip(share_of_best(_scores_by_geometry(motions), same), 1e-6, 1 - 1e-6)
     confidence = shipped_classifier().confidence(float(np.log(share / (1 - share))))
-    return MotionChoice(ranking, joint_type(best), confidence, reason(best))
+    return MotionChoice(ranking, joint_type(best, motions.part.label), confidence, reason(best))
 
 
 def _order_of_endless(c: Candidate, *, same: bool) -> tuple[bool, bool]:
     """Order candidates: first the same joint about the axis of the round outline, along this axis before against it."""
-    continuous = same and joint_type(c) is JointType.CONTINUOUS
-    return not continuous, continuous and c.opening_sign < 0
+    outlined = same and c.role == "round" and c.is_endless
+    return not outlined, outlined and c.opening_sign < 0
 
 
 def _scores_by_geometry(motions: CandidateMotions) -> Float[np.ndarray, " k"]:
@@ -145,11 +153,12 @@ def share_of_best(scores: Float[np.ndarray, " k"], same: Bool[np.ndarray, " k"])
     return float(likely[same].sum() / likely.sum())
 
 
-def joint_type(c: Candidate) -> JointType:
-    """Return the type of joint of a candidate."""
+def joint_type(c: Candidate, label: str = "part") -> JointType:
+    """Return the type of joint of a candidate. A rotation that is free all round is endless, unless the label names a hinge."""
     if c.motion.kind is JointType.PRISMATIC:
         return JointType.PRISMATIC
-    return JointType.CONTINUOUS if c.role == "round" and c.is_endless else JointType.REVOLUTE
+    spins = c.pivots and typical_motion(label) is not JointType.REVOLUTE
+    return JointType.CONTINUOUS if (c.role == "round" and c.is_endless) or spins else JointType.REVOLUTE
 
 
 def reason(c: Candidate) -> str:
@@ -157,6 +166,8 @@ def reason(c: Candidate) -> str:
     if c.motion.kind is JointType.PRISMATIC:
         return f"slides {_centimetres(c.opening_sweep.forward)} {c.slide_direction}, guided {SIDES[round(4 * c.guided)]}"
     range_ = "endlessly" if c.is_endless else f"from {-round(np.degrees(c.closing))} to {round(np.degrees(c.opening))} degrees"
+    if c.pivots:
+        return f"turns {range_} about the {c.motion.source}"
     if c.role == "round":
         return f"turns {range_} about the axis of its round outline"
     notes = [f"swings {range_} about the {c.motion.source}"]
@@ -172,7 +183,7 @@ def _centimetres(length: float) -> str:
 
 
 def label_of(context: PartContext, best: Candidate) -> str:
-    """Return drawer, button, slider, knob, wheel, handle, lid or door, or "" for a part that hardly moves.
+    """Return drawer, button, slider, knob, wheel, handle, lid or door, else "part"; "" for a part that hardly moves.
 
     best: the motion of the part.
     """
@@ -182,13 +193,16 @@ def label_of(context: PartContext, best: Candidate) -> str:
             return "slider"
         if size <= MIN_LARGE_RATIO and best.outward < 0:
             return "button"
-        return (
-            "drawer" if best.opening * context.tolerance_length >= MIN_DRAWER_TRAVEL_RATIO * context.part.box.diagonal else ""
-        )
+        if best.opening * context.tolerance_length < MIN_DRAWER_TRAVEL_RATIO * context.part.box.diagonal:
+            return ""
+        return "drawer" if best.vertical < FACING_COSINE else "part"
     if best.role == "round":
-        return "knob" if size < MIN_LARGE_RATIO else "wheel"
+        flat = best.vertical < FACING_COSINE and context.outline.radius >= context.outline.height
+        return "knob" if size < MIN_LARGE_RATIO else "wheel" if flat else "part"
     if best.role == "two_pivot":
         return "handle" if context.part.slender else "lid"  # a plate on two pivots is the lid of a laptop
+    if best.role not in (*BOX_RIM_ROLES, "barrel") or best.opening + best.closing > MAX_SWING_RAD:
+        return "part"
     low, high = context.part.bounds[:, 2]
     raised = best.vertical < FACING_COSINE and high - context.parent.bounds[1, 2] > MIN_OPEN_LID_RISE_RATIO * (high - low)
     return "lid" if context.opening_direction[2] > LEVEL_COSINE or raised else "door"

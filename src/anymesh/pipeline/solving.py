@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from functools import cached_property, partial
 from pathlib import Path
@@ -18,6 +17,7 @@ from anymesh.config import Config
 from anymesh.entry_points import PROMPTED_STAGES, STATED_JOINTS, STATED_PARTS, resolve
 from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.surface import DividedSurface, ObjectShape, ground_faces
+from anymesh.names import SURE
 from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.runtime import Deadline, Progress, silent
@@ -105,21 +105,25 @@ class GeometryStages:
         return with_ground(segment_parts(object_, whole, labels, self.config.at_least, progress, self.deadline))
 
     def _labels(self, segmentation: Segmentation) -> list[str]:
-        """Return a label of each part but the base from its motion by geometry; "" for a part that cannot move."""
+        """Return a label of each part but the base from its motion by geometry; "" for a part that cannot move.
+
+        It is "part" where the motion is not sure, except for buttons and sliders (docs/decisions/0043).
+        """
         labels = {}
         for i, _, context, motions in self.motions(segmentation):
             choice, best = choose_motion(context, motions)
-            labels[i] = "" if choice.type is JointType.FIXED else label_of(context, best)
+            label = "" if choice.type is JointType.FIXED else label_of(context, best)
+            labels[i] = label if choice.confidence >= SURE or label in ("", "button", "slider") else "part"
         return [labels[i] for i in sorted(labels)]
 
     def motions(self, segmentation: Segmentation, progress: Progress = silent) -> list[PartMotions]:
         """Sweep the motions of all parts; the last result is cached."""
         faces = segmentation.face_part.tobytes()
         if self._swept is None or self._swept[0] != faces:
-            motions = part_motions(self.shape_for(segmentation), segmentation, self.deadline)
-            self._swept = faces, list(_with_progress(motions, segmentation, progress))
+            shape = self.shape_for(segmentation)
+            self._swept = faces, list(part_motions(shape, segmentation, self.deadline, progress=progress))
             return self._swept[1]
-        return list(_with_progress(with_labels_of(segmentation, self._swept[1]), segmentation, progress))
+        return with_labels_of(segmentation, self._swept[1])
 
     def shape_for(self, segmentation: Segmentation) -> ObjectShape:
         """Return the object's shape, simplified so that no face lies in two of these parts."""
@@ -127,13 +131,6 @@ class GeometryStages:
         if (label == label[whole.source][np.unique(whole.patch, return_index=True)[1]][whole.mesh_patch]).all():
             return whole
         return self._divided.simplified(label)
-
-
-def _with_progress(swept: Iterable[PartMotions], segmentation: Segmentation, progress: Progress) -> Iterator[PartMotions]:
-    """Report progress for each part."""
-    for done, motions in enumerate(swept):
-        progress("joints", segmentation.parts[motions.part].name, done, len(segmentation.parts) - 1)
-        yield motions
 
 
 class StageAnswerer(Protocol):
