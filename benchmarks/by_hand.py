@@ -17,7 +17,7 @@ from pathlib import Path
 from typing import Any
 from unittest.mock import patch
 
-from anymesh.articulation import estimate
+from anymesh.articulation import estimate, vetting
 from anymesh.articulation.candidate_motions import CandidateMotions
 from anymesh.articulation.rank_motions import motion_scores
 from anymesh.evaluation.changes import changed
@@ -70,7 +70,7 @@ def key(value: Any) -> bytes:
 # What depends on the scores only through its arguments.
 COMPUTED_ONCE = (
     (solving, "divide_surface"), (segment, "find_contacts"), (segment, "examine_candidates"),
-    (estimate, "score_motions"), (solving, "choose_motion"), (estimate, "estimate_joint"),
+    (estimate, "score_motions"), (solving, "choose_motion"), (vetting, "estimate_joint"),
 )  # fmt: skip
 
 

@@ -19,7 +19,7 @@ CALLED = {
     "laptop": ["lid"],
     "laptop_fused": ["lid"],
     "storage_box": ["lid"],
-    "microwave_fused": ["door", "door"],
+    "microwave_fused": ["door", "part"],  # the second is the panel of controls
     "cabinet": ["door", "door", "drawer", "drawer", "drawer"],
     "valve": ["wheel"],
 }

@@ -13,7 +13,8 @@ from scenes import case
 from anymesh.articulation.candidate_motions import Candidate
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import answered_range, limits, opening_as_answered, pressed
-from anymesh.articulation.rank_motions import label_of
+from anymesh.articulation.part_contexts import have_one_handle
+from anymesh.articulation.rank_motions import joint_type, label_of
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
 from anymesh.types.motion import RecognizedLabel
@@ -242,3 +243,49 @@ def test_an_answered_range_must_be_of_the_joints_kind_and_not_empty() -> None:
     assert answered_range(turns, JointType.REVOLUTE) == (-1 * DEG, 1.5 * DEG)
     assert answered_range(turns, JointType.CONTINUOUS) is None
     assert candidate("edge", JointType.REVOLUTE, Z).is_free
+
+
+POST = [box((-0.02, 0, 0), (0.02, 0.04, 0.5)), box((-0.01, -0.05, 0.44), (0.01, 0.0, 0.46))]  # with a short axle
+CRANK = [box((-0.02, -0.08, 0.43), (0.2, -0.05, 0.47))]
+PANEL = [box((0.022, 0.01, 0.1), (0.3, 0.03, 0.5))]  # beside the post, and free all round
+
+
+def test_a_crank_is_endless_and_a_door_on_a_post_is_not() -> None:
+    crank = sweep_candidates(context_of(CRANK, POST), [("pin", turn(Y, (0, 0, 0.45)))])[0]
+    assert crank.pivots
+    assert joint_type(crank) is JointType.CONTINUOUS
+    assert joint_type(crank, "lid") is JointType.REVOLUTE  # the label names a hinge
+    assert label_of(context_of(CRANK, POST), crank) == "part"
+    context = context_of(PANEL, POST[:1])
+    for role in ("edge", "contact"):
+        door = sweep_candidates(context, [(role, turn(Z, (0.022, 0.02, 0)))])[0]
+        assert joint_type(door) is JointType.REVOLUTE
+    stopped = sweep_candidates(
+        context_of(CRANK, [*POST, box((0.1, -0.1, 0.3), (0.12, 0, 0.35))]), [("pin", turn(Y, (0, 0, 0.45)))]
+    )
+    assert not stopped[0].pivots
+
+
+def test_labels_are_neutral_where_the_motion_does_not_tell() -> None:
+    context = context_of(LEAF, BLOCK)
+    assert label_of(context, replace(EDGE, closing=0.2)) == "door"
+    assert label_of(context, replace(EDGE, closing=1.6)) == "part"  # a door is stopped on one side
+    assert label_of(context, replace(EDGE, role="center")) == "part"
+    assert label_of(context, replace(PULL, outward=1.0)) == "drawer"
+    assert label_of(context, candidate("slide", JointType.PRISMATIC, Z)) == "part"
+    assert label_of(context, candidate("round", JointType.REVOLUTE, Z, closing=np.pi)) == "part"  # a plate
+
+
+def test_fronts_with_one_handle_are_recognized() -> None:
+    """Two doors above each other have their handles at the left; of a third it is in the middle, a fourth has none."""
+
+    def front(z: float, high: float, *handle: tuple[float, float]) -> PartContext:
+        bars = [box((x, -0.05, at), (x + 0.02, -0.022, at + 0.1)) for x, at in handle]
+        return context_of([box((0, -0.022, z), (0.6, -0.002, z + high)), *bars], [box((0, 0, 0), (0.6, 0.5, 1.5))])
+
+    upper, lower = front(1.01, 0.49, (0.03, 1.1)), front(0, 1.0, (0.03, 0.8))
+    assert have_one_handle(upper, lower)
+    assert have_one_handle(lower, upper)
+    assert not have_one_handle(upper, front(0, 1.0, (0.29, 0.8)))
+    assert not have_one_handle(upper, front(0, 1.0))
+    assert not have_one_handle(upper, front(0, 1.0, (0.55, 0.8)))

@@ -24,6 +24,7 @@ from anymesh.segmentation.segment import (
     conflicts,
     join_floating,
     likely_parts,
+    with_copies,
 )
 from anymesh.types import Segmentation
 
@@ -57,6 +58,18 @@ def test_an_uncertain_candidate_is_a_part_only_where_the_others_are_uncertain_to
     assert assign_parts(apart, np.full(6, 0.4)) == list(range(6))
     assert assign_parts(apart, np.array([0.9, 0.9, 0.9, 0.9, 0.9, 0.4])) == list(range(5))
     assert assign_parts(apart, np.full(6, MIN_PART_PROBABILITY - 0.01)) == []
+
+
+def test_copies_share_their_fate_where_most_are_parts() -> None:
+    """Four wheels, of which the last is uncertain, and two larger candidates."""
+    members = np.eye(6, dtype=bool)
+    wheels = overlap(members, np.array([1.0, 1, 1, 1, 5, 5]))
+    assert with_copies(wheels, [0, 1, 2], np.array([0.9, 0.9, 0.9, 0.1, 0.1, 0.1])) == [0, 1, 2, 3]
+    assert with_copies(wheels, [0, 1], np.array([0.9, 0.9, 0.1, 0.1, 0.1, 0.1])) == [0, 1]  # only half of them
+    assert with_copies(wheels, [0, 1, 2, 4], np.array([0.9, 0.9, 0.9, 0.0, 0.9, 0.2])) == [0, 1, 2, 4]  # one cannot move
+    members[4, 3] = True  # the fifth crosses the last wheel
+    crossed = overlap(members, np.array([1.0, 1, 1, 1, 1, 5]))
+    assert with_copies(crossed, [0, 1, 2, 4], np.array([0.9, 0.9, 0.9, 0.1, 0.9, 0.1])) == [0, 1, 2, 4]
 
 
 def test_few_candidates_are_tried_and_ties_or_many_are_programmed(monkeypatch: pytest.MonkeyPatch) -> None:

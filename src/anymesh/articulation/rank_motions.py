@@ -23,6 +23,7 @@ from anymesh.articulation.motion_features import Features, motion_features
 from anymesh.articulation.part_contexts import ScoredMotions, mean_over_copies
 from anymesh.config import FACING_COSINE, LEVEL_COSINE, SAME_AXIS_COSINE
 from anymesh.motion.part_context import PartContext
+from anymesh.names import CHECK, SURE
 from anymesh.scoring import by_hand
 from anymesh.scoring.classifier import Classifier
 from anymesh.types import JointType
@@ -80,7 +81,10 @@ SAME_LINE_RATIO = 0.1  # of the part's size: maximum distance between lines that
 SIDES = "on no side", "on one side", "on two sides", "on three sides", "on all sides"  # by how many of four guide a slide
 MIN_LARGE_RATIO = 0.15  # of the object's diagonal: a smaller part that slides in is a button, one that spins is a knob
 MIN_DRAWER_TRAVEL_RATIO = 0.1  # of its size: a slide with less travel is not labelled as a drawer
-MAX_SWING_RAD = float(np.deg2rad(240))  # [rad] a door or a lid is stopped at some side
+# [rad] a door is stopped at some side; a lid that lies on its parent, at once
+MAX_SWING_RAD, MAX_LID_SWING_RAD = float(np.deg2rad(270)), float(np.deg2rad(215))
+# confidence of a motion from which it tells these labels, by how often they are right (docs/decisions/0043); others always
+MIN_LABEL_CONFIDENCE = {"door": SURE, "drawer": SURE, "knob": SURE, "wheel": SURE, "lid": CHECK}
 # of its height: a part with a level hinge that rises higher than this above its parent is a lid modelled open
 MIN_OPEN_LID_RISE_RATIO = 0.5
 
@@ -197,12 +201,14 @@ def label_of(context: PartContext, best: Candidate) -> str:
             return ""
         return "drawer" if best.vertical < FACING_COSINE else "part"
     if best.role == "round":
-        flat = best.vertical < FACING_COSINE and context.outline.radius >= context.outline.height
-        return "knob" if size < MIN_LARGE_RATIO else "wheel" if flat else "part"
+        upright, flat = best.vertical < FACING_COSINE, context.outline.radius >= context.outline.height
+        # lying, a handwheel has spokes; a plate has none
+        return "knob" if size < MIN_LARGE_RATIO else "wheel" if flat and (upright or context.part.slender) else "part"
     if best.role == "two_pivot":
         return "handle" if context.part.slender else "lid"  # a plate on two pivots is the lid of a laptop
-    if best.role not in (*BOX_RIM_ROLES, "barrel") or best.opening + best.closing > MAX_SWING_RAD:
-        return "part"
     low, high = context.part.bounds[:, 2]
     raised = best.vertical < FACING_COSINE and high - context.parent.bounds[1, 2] > MIN_OPEN_LID_RISE_RATIO * (high - low)
-    return "lid" if context.opening_direction[2] > LEVEL_COSINE or raised else "door"
+    lid, swing = context.opening_direction[2] > LEVEL_COSINE, best.opening + best.closing
+    if best.role not in (*BOX_RIM_ROLES, "barrel") or swing > (MAX_LID_SWING_RAD if lid and not raised else MAX_SWING_RAD):
+        return "part"
+    return "lid" if lid or raised else "door"

@@ -11,13 +11,12 @@ import numpy as np
 from jaxtyping import Bool
 
 from anymesh.articulation.estimate import PartMotions, choose_motion, part_motions, with_labels_of
-from anymesh.articulation.rank_motions import label_of
+from anymesh.articulation.rank_motions import MIN_LABEL_CONFIDENCE, label_of
 from anymesh.articulation.vetting import vetted_joints
 from anymesh.config import Config
 from anymesh.entry_points import PROMPTED_STAGES, STATED_JOINTS, STATED_PARTS, resolve
 from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.surface import DividedSurface, ObjectShape, ground_faces
-from anymesh.names import SURE
 from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.runtime import Deadline, Progress, silent
@@ -107,13 +106,13 @@ class GeometryStages:
     def _labels(self, segmentation: Segmentation) -> list[str]:
         """Return a label of each part but the base from its motion by geometry; "" for a part that cannot move.
 
-        It is "part" where the motion is not sure, except for buttons and sliders (docs/decisions/0043).
+        It is "part" where the motion is not sure enough to tell.
         """
         labels = {}
         for i, _, context, motions in self.motions(segmentation):
             choice, best = choose_motion(context, motions)
             label = "" if choice.type is JointType.FIXED else label_of(context, best)
-            labels[i] = label if choice.confidence >= SURE or label in ("", "button", "slider") else "part"
+            labels[i] = label if choice.confidence >= MIN_LABEL_CONFIDENCE.get(label, 0.0) else "part"
         return [labels[i] for i in sorted(labels)]
 
     def motions(self, segmentation: Segmentation, progress: Progress = silent) -> list[PartMotions]:

@@ -29,6 +29,7 @@ from anymesh.vocabulary import recognize
 MIN_PART_PROBABILITY = 0.3  # of a part; F1 on kinds left out of training is the same from .25 to .35
 UNLIKELY = 0.05  # probability below which a candidate does not count
 NEARLY = 2  # candidates that are named where there is no part
+MIN_COPIES = 2  # number of copies of a candidate that are parts from which it is one too, if they are most of its copies
 MAX_TRIED = 10  # candidates in conflict, directly or through others, up to which all sets are tried
 TIE = 1e-6  # difference of sums of probabilities below which two sets are equally good
 MIN_DUPLICATE_IOU = 0.3  # minimum IoU at which a candidate within another one is the same part
@@ -56,6 +57,20 @@ def assign_parts(overlap: Overlap, probability: Float[np.ndarray, " n"]) -> list
     likely = probability[likely_parts(clash, probability)]
     f1 = 2 * likely.cumsum() / (np.arange(1, len(likely) + 1) + likely.sum())
     return _best_set(probability - max(f1.max(initial=0.0) / 2, MIN_PART_PROBABILITY), clash)
+
+
+def with_copies(overlap: Overlap, chosen: list[int], probability: Float[np.ndarray, " n"]) -> list[int]:
+    """Return what is chosen, and candidates of whose copies most, and at least two, are chosen: the fourth of four wheels.
+
+    probability: of each candidate; copies without one, or in conflict with what is chosen, are left out.
+    """
+    clash, copies = conflicts(overlap), overlap.copies
+    for k in np.argsort(-probability, kind="stable"):
+        taken = int(copies[k, chosen].sum())
+        most = taken >= MIN_COPIES and 2 * taken > copies[k].sum() + 1
+        if most and k not in chosen and probability[k] > UNLIKELY and not clash[k, chosen].any():
+            chosen = sorted([*chosen, int(k)])
+    return chosen
 
 
 def likely_parts(clash: Bool[np.ndarray, "n n"], probability: Float[np.ndarray, " n"]) -> list[int]:
@@ -168,7 +183,7 @@ def segment_parts(
     probability, likely = classifier.probability(score), list[int]()
     free = probability.copy()  # 0 for candidates that turned out to be fixed
     for _ in range(MAX_ASSIGNMENTS):
-        likely = assign_parts(examined.overlap, free)
+        likely = with_copies(examined.overlap, assign_parts(examined.overlap, free), free)
         face_part, order = _face_part(mesh, examined, _filled(examined, free, likely, at_least))
         labels = list(label_parts(segmentation(face_part, order, ["part"] * len(order), likely)))
         fixed = [k for k, label in zip(order, labels, strict=True) if not label]
