@@ -246,16 +246,20 @@ def test_an_answered_range_must_be_of_the_joints_kind_and_not_empty() -> None:
 
 
 POST = [box((-0.02, 0, 0), (0.02, 0.04, 0.5)), box((-0.01, -0.05, 0.44), (0.01, 0.0, 0.46))]  # with a short axle
-CRANK = [box((-0.02, -0.08, 0.43), (0.2, -0.05, 0.47))]
+LEVER = box((-0.02, -0.08, 0.43), (0.2, -0.05, 0.47))
+CRANK = [LEVER, box((0.17, -0.2, 0.43), (0.2, -0.08, 0.47))]  # with a grip
+ROTOR = [box((-0.2, -0.08, 0.43), (0.2, -0.05, 0.47))]
 PANEL = [box((0.022, 0.01, 0.1), (0.3, 0.03, 0.5))]  # beside the post, and free all round
 
 
 def test_a_crank_is_endless_and_a_door_on_a_post_is_not() -> None:
     crank = sweep_candidates(context_of(CRANK, POST), [("pin", turn(Y, (0, 0, 0.45)))])[0]
-    assert crank.pivots
+    assert crank.spins
     assert joint_type(crank) is JointType.CONTINUOUS
     assert joint_type(crank, "lid") is JointType.REVOLUTE  # the label names a hinge
     assert label_of(context_of(CRANK, POST), crank) == "part"
+    assert sweep_candidates(context_of(ROTOR, POST), [("pin", turn(Y, (0, 0, 0.45)))])[0].spins
+    assert not sweep_candidates(context_of([LEVER], POST), [("pin", turn(Y, (0, 0, 0.45)))])[0].spins
     context = context_of(PANEL, POST[:1])
     for role in ("edge", "contact"):
         door = sweep_candidates(context, [(role, turn(Z, (0.022, 0.02, 0)))])[0]
@@ -263,7 +267,7 @@ def test_a_crank_is_endless_and_a_door_on_a_post_is_not() -> None:
     stopped = sweep_candidates(
         context_of(CRANK, [*POST, box((0.1, -0.1, 0.3), (0.12, 0, 0.35))]), [("pin", turn(Y, (0, 0, 0.45)))]
     )
-    assert not stopped[0].pivots
+    assert not stopped[0].spins
 
 
 def test_labels_are_neutral_where_the_motion_does_not_tell() -> None:

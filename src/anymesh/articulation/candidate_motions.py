@@ -95,9 +95,7 @@ class Candidate:
     guided: float = 0.0  # 0..1, for a slide: share of the sideways directions in which the part is guided
     captured: bool = False  # whether a slide is stopped in both directions, with free travel between
     contact_retention: float = 0.0  # 0..1, share of the contact that remains when the part opens slightly
-    pivots: bool = (
-        False  # whether a rotation is free both ways about one end of its axis, as of a crank or rotor, not of a door
-    )
+    spins: bool = False  # whether a rotation is free all round, of a rotor or a crank and not of a door or a lever
 
     @property
     def vertical(self) -> float:

@@ -16,7 +16,7 @@ from anymesh.articulation.candidate_motions import (
     contact_points,
     contact_tolerance,
 )
-from anymesh.config import ACROSS_COSINE
+from anymesh.config import ACROSS_COSINE, FACING_COSINE
 from anymesh.geometry.circles import MIN_CIRCLE_ROUNDNESS
 from anymesh.geometry.sweep import free_amounts, sweep_all
 from anymesh.motion.part_context import PartContext
@@ -34,6 +34,11 @@ MIN_ARM_RATIO = 0.05  # of the part's diagonal: nearer to its center, a rotation
 GUIDE_STEP_RATIO = 0.02  # of the tolerance length: a slide is guided if a sideways step of this length is blocked
 # of its length along the axis: contact and reach of a part that turns endlessly where it is free all round
 MAX_HELD_RATIO, MIN_REACH_RATIO = 0.5, 0.5
+MAX_BALANCE_RATIO = (
+    0.1  # of its reach: distance of the centroid from the axis of a rotor; 75 % of such free rotations turn fully
+)
+# of its reach: where the end of a crank begins, and the length of its grip along the axis, which levers lack; an estimate
+END_RATIO, MIN_GRIP_RATIO, MAX_GRIP_RATIO = 0.75, 0.45, 0.9
 UNSWEPT = Sweep(0.0, 0.0, clear_forward=False, clear_backward=False)
 ENDLESS = Sweep(np.pi, np.pi, clear_forward=True, clear_backward=True)
 
@@ -126,15 +131,20 @@ def swept(context: PartContext, candidates: Sequence[Candidate]) -> tuple[Candid
 
 def _swept_hinge(context: PartContext, c: Candidate, sweep: Sweep) -> Candidate:
     c = replace(c, sweep=sweep, opening=sweep.forward, closing=sweep.backward)
-    return replace(c, pivots=c.is_endless and c.role not in HINGE_ROLES and _held_at_one_end(context, c.motion))
+    return replace(c, spins=c.is_endless and c.role not in HINGE_ROLES and _spins(context, c.motion))
 
 
-def _held_at_one_end(context: PartContext, motion: Motion) -> bool:
-    """Return whether the contact is short along an axis, and the part reaches off it; doors are held all along."""
+def _spins(context: PartContext, motion: Motion) -> bool:
+    """Return whether a part turns about its own middle, or as a crank does, held at one end of its length along the axis."""
     points = context.part.samples.points
-    length = float(np.ptp(points @ motion.axis))
+    along, off = points @ motion.axis, motion.distance(points)
+    length, reach = float(np.ptp(along)), float(off.max())
     held = float(np.ptp(context.contact @ motion.axis)) if len(context.contact) else 0.0
-    return held < MAX_HELD_RATIO * length and float(motion.distance(points).max()) > MIN_REACH_RATIO * length
+    if held > MAX_HELD_RATIO * length or reach < MIN_REACH_RATIO * length:
+        return False  # doors and louvers
+    grip = float(np.ptp(along[off > END_RATIO * reach])) / max(reach, 1e-9)
+    crank = abs(motion.axis[2]) < FACING_COSINE and MIN_GRIP_RATIO < grip < MAX_GRIP_RATIO
+    return crank or float(motion.distance(context.part.centroid[None])[0]) < MAX_BALANCE_RATIO * reach
 
 
 def _swept_slide(context: PartContext, c: Candidate, sweep: Sweep, guided: float) -> Candidate:

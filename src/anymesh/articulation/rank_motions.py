@@ -161,7 +161,7 @@ def joint_type(c: Candidate, label: str = "part") -> JointType:
     """Return the type of joint of a candidate. A rotation that is free all round is endless, unless the label names a hinge."""
     if c.motion.kind is JointType.PRISMATIC:
         return JointType.PRISMATIC
-    spins = c.pivots and typical_motion(label) is not JointType.REVOLUTE
+    spins = c.spins and typical_motion(label) is not JointType.REVOLUTE
     return JointType.CONTINUOUS if (c.role == "round" and c.is_endless) or spins else JointType.REVOLUTE
 
 
@@ -170,7 +170,7 @@ def reason(c: Candidate) -> str:
     if c.motion.kind is JointType.PRISMATIC:
         return f"slides {_centimetres(c.opening_sweep.forward)} {c.slide_direction}, guided {SIDES[round(4 * c.guided)]}"
     range_ = "endlessly" if c.is_endless else f"from {-round(np.degrees(c.closing))} to {round(np.degrees(c.opening))} degrees"
-    if c.pivots:
+    if c.spins:
         return f"turns {range_} about the {c.motion.source}"
     if c.role == "round":
         return f"turns {range_} about the axis of its round outline"

@@ -30,6 +30,7 @@ STOPPED = 0.5  # share of the distance to a limit; a part that stops earlier is 
 FREER = 2.0  # ratio of the free distances from which the axis counts as reversed
 OVERTRAVEL = 0.1  # share of the way that is blocked; a joint that moves further the other way is not reversed
 EDGE_RATIO = 0.25  # of the thickness of the thinner of two parts: penetration of one by the other
+SAME_CONFIDENCE = 0.05  # difference of the confidences of two joints of which none is at fault more than the other
 STEPS = 24
 MIN_MOTION_RATIO = 0.02  # share of the object's diagonal or of a turn; shorter motions are not tested
 MAX_ADDED_GAP_RATIO = 0.02  # share of the object's diagonal: gap that a motion may add between its part and all others
@@ -110,7 +111,7 @@ def _comes_off(context: PartContext, joint: Joint) -> bool:
 
 
 def _conflicts(contexts: Mapping[str, PartContext], joints: Sequence[Joint]) -> Iterator[tuple[str, str]]:
-    """Yield parts that go through another one on the same parent, and that one.
+    """Yield parts that go through another one on the same parent, and that one: the less likely joint of two, both if alike.
 
     Another part that is in the way at rest, such as a door before a drawer, must be able to open first, and then be out of the
     way.
@@ -125,7 +126,7 @@ def _conflicts(contexts: Mapping[str, PartContext], joints: Sequence[Joint]) -> 
         if (a.child, b.child) in stopped:
             opened = _moved(contexts[b.child].part, joint_motion(b).transform(max(b.limits or (0.0,), key=abs)))
             if (b.child, a.child) in stopped or _is_stopped(contexts[a.child], a, opened):
-                yield a.child, b.child
+                yield from ((x.child, y.child) for x, y in ((a, b), (b, a)) if x.confidence < y.confidence + SAME_CONFIDENCE)
 
 
 def _is_stopped(context: PartContext, joint: Joint, other: TriangleSet) -> bool:
