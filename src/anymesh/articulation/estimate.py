@@ -8,14 +8,12 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Int
 
 from anymesh.articulation.candidate_motions import BOX_RIM_ROLES, Candidate, CandidateMotions, MotionChoice, propose
 from anymesh.articulation.evidence import SWEEP_STEPS, sweep_candidates, swept, unswept
 from anymesh.articulation.limits import MAX_DOOR_DEG, away_from_closed, limits
 from anymesh.articulation.motion_features import swept_features, unswept_features
 from anymesh.articulation.part_contexts import (
-    context_by_gaps,
     have_one_handle,
     in_a_row,
     parents,
@@ -38,9 +36,6 @@ MAX_RIM_THICKNESSES = 1.5  # hinge lines within this multiple of the rim's thick
 TIGHT_PENETRATION_SCALE = 0.2  # penetration scale for the clearance to neighbours, which is a few millimetres
 MAX_COPIES = 8  # maximum number of copies whose motions are compared with those of a part
 MIN_OPENING_GAIN_RAD = np.deg2rad(5)  # [rad] minimum gain in opening angle
-MOTIONS_PER_TYPE = 4  # likeliest motions of each kind, one of which must stay free with the gained patches
-MIN_FREE_RATIO = 0.8  # minimum opening of a part with gained patches, relative to its opening without them
-SUFFICIENT_OPENING = float(np.deg2rad(60))  # [rad, or share of the tolerance length] larger openings are not compared
 
 
 class PartMotions(NamedTuple):
@@ -188,29 +183,3 @@ def joint_of(
 def _on_part(motion: Motion, context: PartContext) -> np.ndarray:
     """Return the point of the axis nearest to the center of the part [m]."""
     return motion.origin + ((context.part.box.center - motion.origin) @ motion.axis) * motion.axis
-
-
-def stays_free(
-    whole: ObjectShape,
-    without: Int[np.ndarray, " F"],
-    joined: Int[np.ndarray, " F"],
-    part: int,
-    moves: JointType | None = None,
-) -> bool:
-    """Return whether a part opens as far with the unseen patches that it would gain.
-
-    without, joined: part index of each face of `whole`, without and with these patches; moves: the recognized motion of the
-    part, if known.
-    """
-    alone, gained = context_by_gaps(whole, without, part), context_by_gaps(whole, joined, part)
-    motions = all_motions(alone, "part")
-    best: dict[int, Candidate] = {}  # the better one of the two directions along each axis
-    for k in rank_motions(motions).ranking:
-        best.setdefault(id(motions.candidates[k].motion), motions.candidates[k])
-    kinds = (JointType.REVOLUTE, JointType.PRISMATIC)
-    if moves is not None:
-        kinds = (JointType.PRISMATIC if moves is JointType.PRISMATIC else JointType.REVOLUTE,)
-    likely = [c for kind in kinds for c in [c for c in best.values() if c.motion.kind is kind][:MOTIONS_PER_TYPE]]
-    after = sweep_candidates(gained, [(c.role, c.motion) for c in likely])[::2]
-    far = [(max(c.opening, c.closing), max(a.opening, a.closing)) for c, a in zip(likely, after, strict=True)]
-    return any(now >= MIN_FREE_RATIO * min(before, SUFFICIENT_OPENING) for before, now in far)

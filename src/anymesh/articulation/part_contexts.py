@@ -170,14 +170,6 @@ def part_context(
     )
 
 
-def context_by_gaps(whole: ObjectShape, label: Int[np.ndarray, " F"], part: int) -> PartContext:
-    """Build the context of a part where parents are not known yet. label: part index of each face; not all need to occur."""
-    numbers, rank = np.unique(label, return_inverse=True)
-    shapes = [whole.of(np.flatnonzero(label == k)) for k in numbers]
-    number = int(np.searchsorted(numbers, part))
-    return part_context(whole, rank, shapes, parents(shapes, whole.diagonal), number)
-
-
 # maximum component of the offset along the opening direction, over its length, between parts in a row
 MAX_ROW_OFFSET_RATIO = 0.25
 SAME_BALANCE = 0.2  # maximum difference of the feature "balance" of axes in a similar position: through the center, or at a rim

@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cached_property, partial
 
-from anymesh.articulation.estimate import stays_free
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.pipeline.solving import GeometryStages
 from anymesh.prompted.answerers.question_files import NAME as FILES
 from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer, reference_of
 from anymesh.prompted.grounding.cloud import seen_points
+from anymesh.prompted.grounding.faces import stays_free
 from anymesh.prompted.grounding.ground import Ground, ground_by_masks, ground_exactly, ground_parts
 from anymesh.prompted.grounding.mark_questions import MarkQuestioner
 from anymesh.prompted.grounding.regrounding import ground_again

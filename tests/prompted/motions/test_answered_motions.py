@@ -12,8 +12,9 @@ from known import KNOWN, QUICK, ready, the_case
 from made import EDGE, PULL, X, Y, Z, slide, turn
 from scenes import door, prism
 
-from anymesh.articulation.estimate import MAX_LATE_SWEPT, MAX_SWEPT, part_motions, stays_free
+from anymesh.articulation.estimate import MAX_LATE_SWEPT, MAX_SWEPT, part_motions
 from anymesh.articulation.evidence import sweep_candidates
+from anymesh.prompted.grounding.faces import stays_free
 from anymesh.prompted.motions import lines
 from anymesh.prompted.motions.cases import PartCase, labels_by_name, make_cases, relabelled, unlabelled
 from anymesh.prompted.motions.joints import _joint, as_answered, normal_outwards

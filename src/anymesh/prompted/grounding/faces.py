@@ -8,14 +8,20 @@ import numpy as np
 from jaxtyping import Bool, Int
 from scipy.spatial import KDTree
 
+from anymesh.articulation.candidate_motions import Candidate
+from anymesh.articulation.estimate import all_motions
+from anymesh.articulation.evidence import sweep_candidates
+from anymesh.articulation.part_contexts import parents, part_context
+from anymesh.articulation.rank_motions import rank_motions
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.topology import label_connected
+from anymesh.motion.part_context import PartContext
 from anymesh.prompted.grounding.cloud import Cloud
 from anymesh.prompted.grounding.fuse import Instances
 from anymesh.segmentation.contacts import Contacts, dominated_by, find_contacts
 from anymesh.segmentation.divide import FUSED_SIZE_RATIO
 from anymesh.segmentation.handles import patch_sizes
-from anymesh.types import Mesh
+from anymesh.types import JointType, Mesh
 from anymesh.types.triangles import boxes_meet
 
 UNSEEN = -1
@@ -31,6 +37,9 @@ JOIN_RATIO = 0.03  # of the diagonal: maximum distance of a component that joins
 # minimum share of a patch's visible surface in one part for that part to take the whole patch, if the patch may hold several
 # parts because it is large or was cut out of a fused surface
 MIN_CUTTABLE_PATCH_SHARE = 0.85
+MOTIONS_PER_TYPE = 4  # likeliest motions of each kind, one of which must stay free with the gained patches
+MIN_FREE_RATIO = 0.8  # minimum opening of a part with gained patches, relative to its opening without them
+SUFFICIENT_OPENING = float(np.deg2rad(60))  # [rad, or share of the tolerance length] larger openings are not compared
 
 
 def join_unseen(whole: ObjectShape, part: Int[np.ndarray, " P"], stays_free: StaysFree | None = None) -> Int[np.ndarray, " P"]:
@@ -239,3 +248,37 @@ def mark_parts(
 def point_parts(cloud: Cloud, instances: Instances, shown: Bool[np.ndarray, " n"]) -> Int[np.ndarray, " n"]:
     """Return the part index of each point, from its superpoint: 0 for the base, -1 if no view shows the point."""
     return np.where(shown, instances.number[cloud.superpoint], UNSEEN)
+
+
+def _context_by_gaps(whole: ObjectShape, label: Int[np.ndarray, " F"], part: int) -> PartContext:
+    """Build the context of a part where parents are not known yet. label: part index of each face; not all need to occur."""
+    numbers, rank = np.unique(label, return_inverse=True)
+    shapes = [whole.of(np.flatnonzero(label == k)) for k in numbers]
+    number = int(np.searchsorted(numbers, part))
+    return part_context(whole, rank, shapes, parents(shapes, whole.diagonal), number)
+
+
+def stays_free(
+    whole: ObjectShape,
+    without: Int[np.ndarray, " F"],
+    joined: Int[np.ndarray, " F"],
+    part: int,
+    moves: JointType | None = None,
+) -> bool:
+    """Return whether a part opens as far with the unseen patches that it would gain.
+
+    without, joined: part index of each face of `whole`, without and with these patches; moves: the recognized motion of the
+    part, if known.
+    """
+    alone, gained = _context_by_gaps(whole, without, part), _context_by_gaps(whole, joined, part)
+    motions = all_motions(alone, "part")
+    best: dict[int, Candidate] = {}  # the better one of the two directions along each axis
+    for k in rank_motions(motions).ranking:
+        best.setdefault(id(motions.candidates[k].motion), motions.candidates[k])
+    kinds = (JointType.REVOLUTE, JointType.PRISMATIC)
+    if moves is not None:
+        kinds = (JointType.PRISMATIC if moves is JointType.PRISMATIC else JointType.REVOLUTE,)
+    likely = [c for kind in kinds for c in [c for c in best.values() if c.motion.kind is kind][:MOTIONS_PER_TYPE]]
+    after = sweep_candidates(gained, [(c.role, c.motion) for c in likely])[::2]
+    far = [(max(c.opening, c.closing), max(a.opening, a.closing)) for c, a in zip(likely, after, strict=True)]
+    return any(now >= MIN_FREE_RATIO * min(before, SUFFICIENT_OPENING) for before, now in far)
