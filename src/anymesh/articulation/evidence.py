@@ -37,8 +37,8 @@ MAX_HELD_RATIO, MIN_REACH_RATIO = 0.5, 0.5
 MAX_BALANCE_RATIO = (
     0.1  # of its reach: distance of the centroid from the axis of a rotor; 75 % of such free rotations turn fully
 )
-# of its reach: where the end of a crank begins, and the length of its grip along the axis, which levers lack; an estimate
-END_RATIO, MIN_GRIP_RATIO, MAX_GRIP_RATIO = 0.75, 0.45, 0.9
+# of its reach: where the end of a crank begins, and how far this end stands off along the axis; an estimate
+END_RATIO, MIN_ARM_END_RATIO, MAX_ARM_END_RATIO = 0.75, 0.45, 0.9
 UNSWEPT = Sweep(0.0, 0.0, clear_forward=False, clear_backward=False)
 ENDLESS = Sweep(np.pi, np.pi, clear_forward=True, clear_backward=True)
 
@@ -142,8 +142,8 @@ def _spins(context: PartContext, motion: Motion) -> bool:
     held = float(np.ptp(context.contact @ motion.axis)) if len(context.contact) else 0.0
     if held > MAX_HELD_RATIO * length or reach < MIN_REACH_RATIO * length:
         return False  # doors and louvers
-    grip = float(np.ptp(along[off > END_RATIO * reach])) / max(reach, 1e-9)
-    crank = abs(motion.axis[2]) < FACING_COSINE and MIN_GRIP_RATIO < grip < MAX_GRIP_RATIO
+    end = float(np.ptp(along[off > END_RATIO * reach])) / max(reach, 1e-9)
+    crank = abs(motion.axis[2]) < FACING_COSINE and MIN_ARM_END_RATIO < end < MAX_ARM_END_RATIO
     return crank or float(motion.distance(context.part.centroid[None])[0]) < MAX_BALANCE_RATIO * reach
 
 

@@ -36,7 +36,9 @@ MIN_MOTION_RATIO = 0.02  # share of the object's diagonal or of a turn; shorter 
 MAX_ADDED_GAP_RATIO = 0.02  # share of the object's diagonal: gap that a motion may add between its part and all others
 POSES = 7  # of a range, whose bounds tell which other parts are near
 MAX_ROUNDS = 3  # motions of a part that are tried after the chosen one
-MAX_LOSS = 3.0  # [log-odds] a motion that is worse than the best one by more is not tried; an estimate
+MAX_MOTION_LOSS = (
+    1.5  # [log-odds] a motion that is worse than the best by more is not tried; the three right ones lost up to 1.0
+)
 DOUBTED = 0.5  # factor of the confidence of a joint whose likeliest motion fails its test: 3 of 10 were right with the next one
 
 
@@ -193,7 +195,7 @@ def _ways(m: PartMotions, names: Sequence[str]) -> Iterator[Joint]:
     while len(motions.candidates):
         scores = motion_scores(motions)
         k = int(scores.argmax())
-        if motions is not m.motions and (scores[k] < best - MAX_LOSS or not motions.candidates[k].is_free):
+        if motions is not m.motions and (scores[k] < best - MAX_MOTION_LOSS or not motions.candidates[k].is_free):
             return
         yield estimate_joint(m.context, names[m.part], names[m.parent], motions)
         left = np.flatnonzero(~same_joints(motions.part, motions.candidates, k))
