@@ -27,7 +27,7 @@ Part = Annotated[
 Motions = Annotated[bool, typer.Option("--motions", help="List the free motions of the part with their numbers.")]
 Regions = Annotated[bool, typer.Option("--regions", help="List the regions of the part with their numbers.")]
 PART_COLUMNS = ("part", "joint", "motion", "range", "parent", "verdict", "why")
-MOTION_COLUMNS, REGION_COLUMNS = ("number", "motion", "range", "share"), ("number", "faces", "size", "middle")
+MOTION_COLUMNS, REGION_COLUMNS = ("number", "motion", "range", "share"), ("number", "kind", "faces", "size", "middle")
 PAIR = "merge"  # the operation that takes two names
 CHANGE_COLUMNS = ("part", "joint", "motion", "range", "parent", "change")
 

@@ -105,7 +105,7 @@ class EditableAsset:
         return EditableJoint(self, next(p for p in self.parts if p not in before))
 
     def regions(self, part: str) -> list[dict[str, Any]]:
-        """Return the regions of a part that may become new parts: number, faces, size and middle [m], the largest first."""
+        """Return the regions of a part that may become new parts: number, kind, faces, size and middle [m]."""
         return region_rows(self.asset, part)
 
     def undo(self) -> EditableAsset:

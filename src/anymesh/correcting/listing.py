@@ -32,14 +32,19 @@ def named_part(asset: Asset, name: str) -> str:
 
 
 def regions_of(asset: Asset, part: str) -> list[Int[np.ndarray, " n"]]:
-    """Return the regions of a part, the largest surface first: connected components, or the patches of a single one."""
-    groups = components_of(asset, part)
-    if len(groups) > 1:
-        return groups
-    faces = groups[0]
-    label, area = PickedPart(asset, int(faces[0])).patches(), asset.mesh.face_areas[faces]
-    order = np.argsort(-np.bincount(label, area), kind="stable")
-    return [faces[label == k] for k in order]
+    """Return the regions of a part: its connected components if there are several, then the patches of each that has several.
+
+    Each of the two kinds begins with the largest surface.
+    """
+    pieces, area = components_of(asset, part), asset.mesh.face_areas
+    faces = asset.segmentation.faces(part_number(asset, part))
+    label = PickedPart(asset, int(faces[0])).patches()
+    patches = []
+    for piece in pieces:
+        of = label[np.searchsorted(faces, piece)]
+        patches += [piece[of == k] for k in np.unique(of)] if len(np.unique(of)) > 1 else []
+    patches.sort(key=lambda patch: -float(area[patch].sum()))
+    return [*(pieces if len(pieces) > 1 else []), *patches] or pieces
 
 
 def motion_rows(asset: Asset, part: str, motions: Sequence[ChooseMotion] | None = None) -> list[dict[str, Any]]:
@@ -60,13 +65,15 @@ def _joint_after(asset: Asset, motion: ChooseMotion) -> Joint:
 
 
 def region_rows(asset: Asset, part: str) -> list[dict[str, Any]]:
-    """Return one row per region of a part, the largest first: number, faces, size and middle [m]."""
+    """Return one row per region of a part: number, kind (piece, or patch of one), faces, size and middle [m]."""
+    count = len(components_of(asset, named_part(asset, part)))
     rows = []
     for k, faces in enumerate(regions_of(asset, named_part(asset, part))[:MAX_REGIONS], 1):
         corners = asset.mesh.triangles[faces].reshape(-1, 3)
         low, high = corners.min(0), corners.max(0)
         sides, middle = ([round(float(v), 4) for v in values] for values in (high - low, (low + high) / 2))
-        rows.append({"number": k, "faces": len(faces), "size": sides, "middle": middle})
+        kind = "piece" if 1 < count >= k else "patch"
+        rows.append({"number": k, "kind": kind, "faces": len(faces), "size": sides, "middle": middle})
     return rows
 
 
