@@ -226,7 +226,7 @@ def _carried(asset: Asset, whole: _Surface, theirs: Sequence[np.ndarray], T: np.
 
 
 @dataclass(frozen=True, eq=False)
-class _Facets:
+class _Facets(Brief):
     """The flat facets of some faces: label of each face; area, center and normal of each facet."""
 
     faces: Int[np.ndarray, " f"]
