@@ -88,3 +88,14 @@ def test_what_lies_behind_the_eye_is_in_no_outline():
     mesh, _ = mesh_of([box((-1, -9, 0), (1, -8, 1))])
     whole = np.array([[0.0, 0], [1, 0], [1, 1], [0, 1]])
     assert len(faces_inside(mesh.triangles, FRONT, whole)[0]) == 0
+
+
+def test_a_piece_comes_with_what_hangs_on_it_alone():
+    hub, blades = box((-1, 0, -1), (1, 0.2, 1)), [box((0.9, 0, -0.2), (2.5, 0.2, 0.6)), box((0.9, 0, 0.5), (2.5, 0.2, 1))]
+    mast = box((-0.2, 0.2, -9), (0.2, 0.6, 0.5))
+    mesh, piece = mesh_of([hub, *blades, mast])
+    part = np.zeros(len(mesh.faces), np.int64)
+    assert set(piece[Regions(mesh).of(0, Level.PIECE, part)]) == {0, 1, 2}  # blades that touch each other, not the mast
+    mesh, piece = mesh_of([hub, *blades, mast, box((2, 0.2, -9), (2.2, 0.4, 0.8))])
+    part = np.zeros(len(mesh.faces), np.int64)
+    assert set(piece[Regions(mesh).of(0, Level.PIECE, part)]) == {0}  # a post holds the blades too

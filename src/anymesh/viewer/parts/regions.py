@@ -53,7 +53,7 @@ class Regions:
     def of(self, face: int, level: Level, face_part: Int[np.ndarray, " F"]) -> Int[np.ndarray, " n"]:
         """Return the faces of the region around a face, within its part.
 
-        A piece comes with the smaller pieces that touch nothing else, as a handle on a front.
+        A piece comes with the smaller pieces that touch nothing else, as a handle on a front, or the blades on a hub.
         """
         mine = face_part == face_part[face]
         if level is Level.FACET:
@@ -62,8 +62,7 @@ class Regions:
         chosen = np.flatnonzero((label == label[face]) & mine)
         if level is Level.REGION:
             return chosen
-        added = [f for f in self._touching(chosen, mine) if self._is_smaller(f, chosen) and self._hangs_on(f, chosen, mine)]
-        return np.unique(np.concatenate([chosen, *added]))
+        return np.unique(np.concatenate([chosen, *self._hanging_on(chosen, mine)]))
 
     def grown(self, chosen: Int[np.ndarray, " n"], face_part: Int[np.ndarray, " F"]) -> Int[np.ndarray, " m"]:
         """Return the chosen faces with the rest of their regions, at the first level where that adds some.
@@ -99,11 +98,15 @@ class Regions:
         longest = [float(np.ptp(self._mesh.triangles[f].reshape(-1, 3), axis=0).max()) for f in (faces, chosen)]
         return longest[0] <= longest[1]
 
-    def _hangs_on(self, faces: np.ndarray, chosen: np.ndarray, mine: Bool[np.ndarray, " F"]) -> bool:
-        """Return whether a piece touches chosen ones and nothing else."""
-        others = mine.copy()
+    def _hanging_on(self, chosen: np.ndarray, mine: Bool[np.ndarray, " F"]) -> list[Int[np.ndarray, " n"]]:
+        """Return the smaller pieces that touch chosen ones, and apart from each other nothing else."""
+        piece, others = self._labels[Level.PIECE], mine.copy()
         others[chosen] = False
-        return not self._touching(faces, others)
+        hanging = {int(piece[f[0]]): f for f in self._touching(chosen, mine) if self._is_smaller(f, chosen)}
+        meets = {k: {int(piece[other[0]]) for other in self._touching(f, others)} for k, f in hanging.items()}
+        while held := {k for k in hanging if not meets[k] <= hanging.keys()}:
+            hanging = {k: f for k, f in hanging.items() if k not in held}
+        return list(hanging.values())
 
     def _touches(self, tree: TriangleTree, faces: np.ndarray, chosen: np.ndarray, reach: float) -> bool:
         """Return whether a piece comes near the chosen faces: its points near them, or theirs near it."""
