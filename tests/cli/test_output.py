@@ -2,14 +2,16 @@
 
 import io
 import re
+import time
 from contextlib import redirect_stdout
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 from assets import cabinet
+from called import called
 
-from anymesh.cli.output import MAX_WIDTH, echo, print_joints, print_result, table, unsure_hint
+from anymesh.cli.output import MAX_WIDTH, Shown, echo, print_joints, print_result, table, unsure_hint
 from anymesh.pipeline.results import summary
 
 COLOR = re.compile(r"\x1b\[[\d;]*m")
@@ -73,3 +75,26 @@ def test_nothing_is_cut_in_a_file(capsys) -> None:
     rows = [{"mesh": "m" * 90, "note": "note " * 20}]
     assert table(rows, ("mesh", "note"))[1] == f"{'m' * 90}  {('note ' * 20).strip()}"
     assert MAX_WIDTH == 100
+
+
+def test_progress_names_the_step_and_estimates_from_shares_or_from_the_items_so_far() -> None:
+    run = Shown(hidden=True, whole=True)
+    begin = time.monotonic()
+    assert re.fullmatch(r"reading the mesh: a.glb, \d s", run.line("load", "a.glb", 0, 1, begin))
+    assert "left" not in run.line("segment", "candidate 1", 0, 20, begin + 1)
+    assert run.line("export", "files", 0, 2, begin + 27) == "writing the asset: files (1/2), 27 s, about 25 s left"
+    items = Shown(hidden=True)
+    items.line("eval", "a", 0, 100, begin)
+    assert items.line("eval", "b", 20, 100, begin + 60).endswith("evaluating: b (21/100), 60 s, about 4 min left")
+    many = Shown(hidden=True)
+    many.line("batch", "a", 0, 2, begin)
+    many.line("batch", "b", 1, 2, begin + 40)
+    assert many.line("joints", "door", 0, 3, begin + 41) == "b (2 of 2), finding the joints, 41 s, about 40 s left"
+
+
+def test_the_help_is_in_groups_and_fits(capfd, monkeypatch) -> None:
+    monkeypatch.setenv("COLUMNS", "100")
+    code, out, _ = called(capfd, "articulate", "--help")
+    places = [out.index(f" {group} ─") for group in ("Input", "Parts", "Output", "With a model", "Advanced")]
+    assert (code, places) == (0, sorted(places))
+    assert max(map(len, out.splitlines())) <= 100

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from anymesh.cli.options import (
+    INPUT,
     Animation,
     Answering,
     Folder,
@@ -30,20 +31,30 @@ from anymesh.cli.output import Shown, echo, plain, print_asset, print_joints, pr
 from anymesh.entry_points import ARTICULATE_SCENE, resolve
 from anymesh.errors import OpenQuestionError, OptionError
 from anymesh.isolation import AHEAD, shared_pool
-from anymesh.pipeline.options import AnswererOptions
+from anymesh.pipeline.options import GEOMETRY, AnswererOptions
 
 if TYPE_CHECKING:
     from anymesh.pipeline.batch import MeshOutcome
 
 Meshes = Annotated[
     list[Path],
-    typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF or DAE, or a zip of one; several with --batch."),
+    typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF, DAE, 3MF, USD, FBX, STEP, zip; several with --batch."),
 ]
 SceneOption = Annotated[
-    str, typer.Option("--scene", help="auto: the mesh is one object, with a warning if not; split: each object of a scene.")
+    str,
+    typer.Option(
+        "--scene",
+        help="auto: the mesh is one object, with a warning if not; split: each object of a scene.",
+        rich_help_panel=INPUT,
+    ),
 ]
 Batch = Annotated[
-    bool, typer.Option("--batch", help="Several meshes, or folders of them; a failure of one does not stop the others.")
+    bool,
+    typer.Option(
+        "--batch",
+        help="Several meshes, or folders of them; a failure of one does not stop the others.",
+        rich_help_panel=INPUT,
+    ),
 ]
 
 
@@ -78,7 +89,7 @@ def articulate(
     if scene == "split":
         resolve(ARTICULATE_SCENE)(mesh[0], out, options, json_, quiet)
         return
-    with Shown(quiet or json_) as progress:
+    with Shown(quiet or json_, whole=answering["answerer"] == GEOMETRY) as progress:
         asset = pipeline.articulate(mesh[0], out, progress=progress, **options)
     print_asset(asset, out, json_, quiet, verbose)
 

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Annotated, Any, get_args, get_type_hints
 
 import typer
+from typer.models import OptionInfo
 
 from anymesh.pipeline.options import (
     FLAGS,
@@ -24,22 +25,41 @@ from anymesh.pipeline.options import (
     command_fields,
 )
 
-MeshPath = Annotated[Path, typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF or DAE, or a zip of one.")]
+ORDER = INPUT, PARTS, OUTPUT, MODEL, ADVANCED = "Input", "Parts", "Output", "With a model", "Advanced"  # groups of the help
+GROUPS = {PlacementOptions: INPUT, FormatOptions: OUTPUT, AnswererOptions: MODEL, RunOptions: OUTPUT}
+OTHER_GROUPS = {  # of fields that differ from their class
+    "category": INPUT,
+    **dict.fromkeys(("parts_list", "at_least"), PARTS),
+    **dict.fromkeys(("hulls", "resistance", "mechanisms", "visuals", "shapes", "profile", "time_limit", "seed"), ADVANCED),
+    **dict.fromkeys(("animation", "root", "cache", "timeout", "viewpoints", "verify", "proposer"), ADVANCED),
+}
+MeshPath = Annotated[
+    Path, typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF, DAE, 3MF, USD, FBX or STEP, or a zip of one.")
+]
 Folder = Annotated[Path, typer.Argument(metavar="DIR", help="A folder that `anymesh segment` made.")]
 FolderPath = Annotated[
     Path, typer.Argument(metavar="FOLDER", help="An output of `anymesh articulate`, or a folder with several of them.")
 ]
-Out = Annotated[Path, typer.Option("--out", "-o", metavar="DIR", help="Folder to write.")]
+Out = Annotated[Path, typer.Option("--out", "-o", metavar="DIR", help="Folder to write.", rich_help_panel=OUTPUT)]
 Parts = Annotated[
-    str, typer.Option(help="auto, nodes (the scene's nodes), none (nothing moves), or a .npy/.json file of face labels.")
+    str,
+    typer.Option(
+        help="auto, nodes (the scene's nodes), none (nothing moves), or a .npy/.json file of face labels.",
+        rich_help_panel=PARTS,
+    ),
 ]
 Package = Annotated[
-    Path | None, typer.Option(metavar="DIR", help="Also write a ROS 2 package of the URDF, as a new folder in DIR.")
+    Path | None,
+    typer.Option(
+        metavar="DIR",
+        help="Also write a ROS 2 package of the URDF, as a new folder in DIR.",
+        rich_help_panel=OUTPUT,
+    ),
 ]
-Zip = Annotated[Path | None, typer.Option("--zip", metavar="FILE", help="Also write the asset as one .zip file.")]
-Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.")]
-Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="Also the reason of each joint.")]
-Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.")]
+Zip = Annotated[Path | None, typer.Option("--zip", metavar="FILE", help="Also write one .zip file.", rich_help_panel=OUTPUT)]
+Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.", rich_help_panel=OUTPUT)]
+Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="Also the reason of each joint.", rich_help_panel=OUTPUT)]
+Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.", rich_help_panel=OUTPUT)]
 
 
 @dataclass(frozen=True)
@@ -64,7 +84,7 @@ class OptionsOf:
         if kind is tuple:
             kind, default = str, ",".join(default)
         hint: Any = kind | None if default is None else kind
-        value = _typer_option(f, self.helps.get(f.name), self.flags.get(f.name))
+        value = _typer_option(self.kind, f, self.helps.get(f.name), self.flags.get(f.name))
         annotation = Annotated[hint, value]
         return inspect.Parameter(f.name, inspect.Parameter.KEYWORD_ONLY, default=default, annotation=annotation)
 
@@ -81,12 +101,19 @@ class OptionsOf:
 def option_of(kind: type, name: str) -> Any:
     """Return the option of one field, for a command that has no other field of the class."""
     option_field = next(f for f in command_fields(kind) if f.name == name)
-    return _typer_option(option_field)
+    return _typer_option(kind, option_field)
 
 
-def _typer_option(f: Field[Any], text: str | None = None, flags: tuple[str, ...] | None = None) -> Any:
+def _typer_option(kind: type, f: Field[Any], text: str | None = None, flags: tuple[str, ...] | None = None) -> Any:
     names = flags or f.metadata[FLAGS] or (f"--{f.name.replace('_', '-')}",)
-    return typer.Option(*names, metavar=f.metadata[METAVAR], help=text or f.metadata[HELP])
+    group = OTHER_GROUPS.get(f.name, GROUPS.get(kind))
+    return typer.Option(*names, metavar=f.metadata[METAVAR], help=text or f.metadata[HELP], rich_help_panel=group)
+
+
+def _group(parameter: inspect.Parameter) -> int:
+    """Return the place of a parameter's group in the help; what has no group comes first."""
+    options = [o for o in get_args(parameter.annotation)[1:] if isinstance(o, OptionInfo)]
+    return ORDER.index(options[0].rich_help_panel) if options and options[0].rich_help_panel in ORDER else -1
 
 
 def with_options(function: Callable[..., None]) -> Callable[..., None]:
@@ -99,6 +126,8 @@ def with_options(function: Callable[..., None]) -> Callable[..., None]:
             parameters += classes[name].parameters()
         else:
             parameters.append(parameter.replace(kind=inspect.Parameter.KEYWORD_ONLY, annotation=hints[name]))
+
+    parameters.sort(key=_group)
 
     @wraps(function)
     def command(**given: Any) -> None:
