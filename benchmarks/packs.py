@@ -46,12 +46,16 @@ SEED = 73  # of the order of the sheets
 WIDTH = 1100  # [px] of a sheet
 HEAD = """# Meshes of public packs
 
-`python -m benchmarks.packs FOLDER OUT`, {date}; before: {before}, after: {after}. No model, default options. Viewers see the
-preview, the joints and the warnings, in random order, without the state. Usable: all main moving parts, with the right type,
-axis, direction and a plausible range. Nearly: one correction repairs it. Nothing: nothing was found although something should
-move; where nothing should, nothing is usable. Silently wrong: a wrong joint without a warning that has the word "sure" (the
-word that the terminal gives today, for both states), or a confidence from 0.8 or 0.5. Held-out packs have other sources than
-the dev packs and were not looked at while the code was changed.
+`python -m benchmarks.packs FOLDER OUT`, {date}, without a model, with default options.
+Before: {before}. After: {after}.
+
+Viewer A made the list and knew the states; viewer B sees the previews, joints and warnings of both states in random order
+under neutral ids. Usable: all main moving parts, with the right type, axis, direction and a plausible range. Nearly: one
+correction repairs it. Nothing: nothing was found although something should move; where nothing should, nothing is usable.
+Silently wrong: a wrong joint without a warning that has the word "sure" (the word that the terminal gives today, for both
+states), or a confidence from 0.8 or 0.5. Held-out packs have other sources than the dev packs and were not looked at while
+the code was changed. What should move was written down before the runs, and corrected afterwards for `pal_wardrobe`, whose
+front had not been seen.
 """
 Row = dict[str, Any]
 
