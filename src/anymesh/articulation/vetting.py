@@ -33,13 +33,11 @@ EDGE_RATIO = 0.25  # of the thickness of the thinner of two parts: penetration o
 SAME_CONFIDENCE = 0.05  # difference of the confidences of two joints of which none is at fault more than the other
 STEPS = 24
 MIN_MOTION_RATIO = 0.02  # share of the object's diagonal or of a turn; shorter motions are not tested
-MAX_ADDED_GAP_RATIO = 0.02  # share of the object's diagonal: gap that a motion may add between its part and all others
+MAX_ADDED_GAP_RATIO = 0.04  # share of the object's diagonal: gap that a motion may add; true ones add .038 and less
 POSES = 7  # of a range, whose bounds tell which other parts are near
 MAX_ROUNDS = 3  # motions of a part that are tried after the chosen one
-MAX_MOTION_LOSS = (
-    1.5  # [log-odds] a motion that is worse than the best by more is not tried; the three right ones lost up to 1.0
-)
-DOUBTED = 0.5  # factor of the confidence of a joint whose likeliest motion fails its test: 3 of 10 were right with the next one
+MAX_MOTION_LOSS = 1.5  # [log-odds] a motion that is worse than the best by more is not tried; an estimate
+DOUBTED = 0.5  # factor of the confidence of a joint whose likeliest motion fails its test: 2 of 6 were right with the next
 
 
 class Stop(NamedTuple):
