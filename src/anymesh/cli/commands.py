@@ -38,7 +38,9 @@ if TYPE_CHECKING:
 
 Meshes = Annotated[
     list[Path],
-    typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF, DAE, 3MF, USD, FBX, STEP, zip; several with --batch."),
+    typer.Argument(
+        metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF, DAE, 3MF, USD, FBX, STEP or zip; several with --batch."
+    ),
 ]
 SceneOption = Annotated[
     str,
@@ -50,11 +52,7 @@ SceneOption = Annotated[
 ]
 Batch = Annotated[
     bool,
-    typer.Option(
-        "--batch",
-        help="Several meshes, or folders of them; a failure of one does not stop the others.",
-        rich_help_panel=INPUT,
-    ),
+    typer.Option("--batch", help="Several meshes, or folders; one that fails does not stop the others.", rich_help_panel=INPUT),
 ]
 
 

@@ -34,7 +34,7 @@ OTHER_GROUPS = {  # of fields that differ from their class
     **dict.fromkeys(("animation", "root", "cache", "timeout", "viewpoints", "verify", "proposer"), ADVANCED),
 }
 MeshPath = Annotated[
-    Path, typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF, DAE, 3MF, USD, FBX or STEP, or a zip of one.")
+    Path, typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF, DAE, 3MF, USD, FBX, STEP or zip.")
 ]
 Folder = Annotated[Path, typer.Argument(metavar="DIR", help="A folder that `anymesh segment` made.")]
 FolderPath = Annotated[
@@ -49,12 +49,7 @@ Parts = Annotated[
     ),
 ]
 Package = Annotated[
-    Path | None,
-    typer.Option(
-        metavar="DIR",
-        help="Also write a ROS 2 package of the URDF, as a new folder in DIR.",
-        rich_help_panel=OUTPUT,
-    ),
+    Path | None, typer.Option(metavar="DIR", help="Also write a ROS 2 package of the URDF, in DIR.", rich_help_panel=OUTPUT)
 ]
 Zip = Annotated[Path | None, typer.Option("--zip", metavar="FILE", help="Also write one .zip file.", rich_help_panel=OUTPUT)]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.", rich_help_panel=OUTPUT)]

@@ -32,7 +32,7 @@ STEPS = {  # words; begin and length as shares of a run: medians of the 21 examp
 }
 OTHER_STEPS = {
     "finish": "completing shapes", "picture": "drawing", "report": "writing the report", "eval": "evaluating",
-    "interaction": "moving joints", "train": "training", "generate": "making the mesh", "targets": "looking for places to touch",
+    "interaction": "moving joints", "train": "training", "generate": "making the mesh", "targets": "choosing where to touch",
     "route": "planning the arm's way", "check": "checking frames", "splat": "making depth", "allocate": "finding the space",
     "fuse": "fusing depth", "color": "colouring", "clean": "cleaning", "smooth": "smoothing", "simplify": "simplifying",
 }  # fmt: skip
@@ -47,22 +47,14 @@ def joint_row(asset: Asset, joint: Joint) -> dict[str, Any]:
     from anymesh.rendering.preview import extent
 
     word, why = verdict(asset.segmentation, joint, asset.warnings)
+    part = next(p.confidence for p in asset.segmentation.parts if p.name == joint.child)
     return {
-        "name": joint.name,
-        "type": joint.type.value,
-        "parent": joint.parent,
-        "child": joint.child,
-        "origin": [float(v) for v in joint.origin],
-        "axis": [float(v) for v in joint.axis],
-        "limits": None if joint.limits is None else list(joint.limits),
-        "range": extent(joint),
-        "motion": resolve(MOTION_WORDS)(asset, joint),
-        "part": next(p.confidence for p in asset.segmentation.parts if p.name == joint.child),
-        "confidence": joint.confidence,
-        "reason": joint.reason,
-        "verdict": word,
-        "why": why,
-    }
+        "name": joint.name, "type": joint.type.value, "parent": joint.parent, "child": joint.child,
+        "origin": [float(v) for v in joint.origin], "axis": [float(v) for v in joint.axis],
+        "limits": None if joint.limits is None else list(joint.limits), "range": extent(joint),
+        "motion": resolve(MOTION_WORDS)(asset, joint), "part": part, "confidence": joint.confidence, "reason": joint.reason,
+        "verdict": word, "why": why,
+    }  # fmt: skip
 
 
 def print_joints(asset: Asset, record: dict[str, Any], json_: bool, verbose: bool) -> None:
@@ -93,17 +85,10 @@ def print_asset(asset: Asset, out: Path, json_: bool, quiet: bool, verbose: bool
     from anymesh.export.asset_json import usage
 
     record: dict[str, Any] = {
-        "name": asset.name,
-        "out": str(out),
-        "answerer": asset.answerer,
-        "hint": unsure_hint(asset, out),
-        "parts": [p.name for p in asset.segmentation.parts],
-        "notes": list(asset.source.notes),
-        "finish": list(asset.notes),
-        "warnings": list(asset.warnings),
-        "usage": usage(asset.exchanges),
-        "timing": dict(asset.timing),
-    }
+        "name": asset.name, "out": str(out), "answerer": asset.answerer, "hint": unsure_hint(asset, out),
+        "parts": [p.name for p in asset.segmentation.parts], "notes": list(asset.source.notes), "finish": list(asset.notes),
+        "warnings": list(asset.warnings), "usage": usage(asset.exchanges), "timing": dict(asset.timing),
+    }  # fmt: skip
     if not json_:
         for line in (*asset.source.notes, *asset.notes):
             echo(line)
@@ -201,8 +186,8 @@ def ended_by_signal() -> Generator[None]:
 class Shown:
     """Progress on stderr, only on a terminal: the step in words, its item, the time, and about how much is left.
 
-    whole: whether the steps are those of one mesh by geometry, whose usual shares of a run are known (STEPS). Else the time that
-    is left is that of the step, by how fast its items went so far.
+    whole: whether the steps are those of one mesh by geometry, whose usual shares of a run are known. Else the time left is
+    that of the step, by how fast its items went so far.
     """
 
     def __init__(self, hidden: bool, *, whole: bool = False) -> None:
@@ -236,11 +221,12 @@ class Shown:
             share, since = self._outer_share, self._begin
         elif self._whole:
             share, since = begin + length * share, self._begin
-        begin_of_line = self._outer if self._outer else f"{words}: {item}" + (f" ({done + 1}/{total})" if total > 1 else "")
-        steps = words if self._outer and stage not in MANY else ""
+        text = f"{words}: {item}" + (f" ({done + 1}/{total})" if total > 1 else "")
+        if self._outer:
+            text = self._outer.rstrip(", ") if stage in MANY else self._outer + words
         left = (now - since) * (1 / share - 1) if share > MIN_SHARE and now - since > MIN_SECONDS else 0.0
         about = f", about {_rounded(left)} left" if left > MIN_SECONDS else ""
-        return f"{plain(begin_of_line + steps)[: width() - ESTIMATE_WIDTH]}, {now - self._begin:.0f} s{about}"
+        return f"{plain(text)[: width() - ESTIMATE_WIDTH]}, {now - self._begin:.0f} s{about}"
 
     def __exit__(self, *_: object) -> None:
         if self._status is not None:
