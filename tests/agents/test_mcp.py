@@ -106,7 +106,7 @@ async def finish(agent: Agent, work: Path, told: dict[str, Any], pictures: list[
     (joint,) = told["joints"]
     assert (joint["type"], 0 < joint["confidence"] <= 1) == ("revolute", True)
     assert len(pictures) == 1  # the preview
-    assert any("joints" in words for _, words in agent.progress)
+    assert any("segment" in words for _, words in agent.progress)
     counts = [count for count, _ in agent.progress]
     assert all(after > before or after == 1 for before, after in pairwise(counts))
     upper = {"correction": "set_limits", "part": "lid", "lower": 0.0, "upper": 1.0}
@@ -115,8 +115,10 @@ async def finish(agent: Agent, work: Path, told: dict[str, Any], pictures: list[
     given = [{"part": "lid", "motion": 1, "limits": "0,1rad"}, {"part": "lid_joint", "right": True}]
     told, _ = await agent.call("correct", asset="out", corrections=given)
     assert [(r["part"], r["change"], r["confidence"]) for r in told["changed"]] == [("lid", "changed", 1.0)]
-    refused, _ = await agent.call("correct", asset="out", corrections=[{"part": "lid", "flip": True}, {"part": "li"}])
-    assert "valid" in refused["error"] or "parts are" in refused["error"]
+    no_part, no_name = ({"part": "li", "flip": True}, "parts are base, lid"), ({"part": ["lid"]}, "name of a part")
+    for wrong, words in (no_part, no_name):
+        refused, _ = await agent.call("correct", asset="out", corrections=[{"part": "lid", "flip": True}, wrong])
+        assert words in refused["error"]
     told, _ = await agent.call("correct", asset="out", corrections=[{"undo": True}, {"undo": True}])
     assert (told["joints"][0]["limits"], told["corrections"]) == ([0.0, 1.0], 1)
     report, _ = await agent.call("check", asset="out")

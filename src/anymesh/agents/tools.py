@@ -235,10 +235,12 @@ def _corrected(history: History, correction: Mapping[str, Any]) -> History:
     """Apply one object of an agent."""
     if "correction" in correction:
         return history.do(*unpack_log([{"how": "by numbers", **correction, "time": now(), "author": AUTHOR}]))
-    operations = {name: value for name, value in correction.items() if name != "part"}
+    operations, part = {name: value for name, value in correction.items() if name != "part"}, correction.get("part")
+    if not (part is None or isinstance(part, str)):
+        raise CorrectionError(f"part is the name of a part or joint, found {str(part)[:60]!r}")
     if operations.pop("undo", False):
         history = history.undo()
-    return history.do_all(corrections_of(history.asset, correction.get("part"), operations), now(), AUTHOR)
+    return history.do_all(corrections_of(history.asset, part, operations), now(), AUTHOR)
 
 
 def _packed(motion: Any) -> dict[str, Any]:
