@@ -52,10 +52,9 @@ WRITE_PACKAGE = "formats.packed:write_package"
 CHECK_ZIP = "formats.packed:check_zip"
 WRITE_ZIP = "formats.packed:write_zip"
 
-# What is usual for a kind of object: which kind it is, its size, and doubts about its size and mass.
-KIND_OF = "kinds.usual:kind_of"
+# What is usual for a kind of object: its bodies, with doubts about size and mass, and its size.
+USUAL_BODIES = "kinds.bodies:usual_bodies"
 USUAL_SIZE = "kinds.usual:usual_size"
-DOUBTS = "kinds.usual:doubts"
 
 # Resistance, springs, catches and detents of joints.
 CHOOSE_MECHANISMS = "mechanisms.choosing:choose_mechanisms"

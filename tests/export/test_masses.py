@@ -9,8 +9,9 @@ from models import CONFIG
 
 from anymesh.errors import OptionError
 from anymesh.export.asset_json import asset_record
-from anymesh.export.model import CLOSED_TO, build_model
+from anymesh.export.model import build_model
 from anymesh.export.options import ExportOptions
+from anymesh.kinds.bodies import CLOSED_TO
 from anymesh.physics.substances import SUBSTANCES
 from anymesh.types import Asset, Material, Part, Segmentation
 

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.entry_points import CHOOSE_MECHANISMS, DOUBTS, KIND_OF, RESISTANCES, resolve
+from anymesh.entry_points import CHOOSE_MECHANISMS, RESISTANCES, USUAL_BODIES, resolve
 from anymesh.export.flat_looks import losses, tiled, tinted, with_materials
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.options import Driven, ExportOptions, Shapes, Visuals
@@ -24,19 +24,15 @@ from anymesh.physics.convex import as_hull, planes
 from anymesh.physics.inertia import Inertia, InertiaConfig, MadeOf, link_inertia
 from anymesh.physics.mechanism import Mechanism
 from anymesh.physics.resistance import Resistance, crossing
-from anymesh.physics.substances import SUBSTANCES, Substance, substance_of, usual_substance
+from anymesh.physics.substances import Substance, substance_of, usual_substance
 from anymesh.runtime import Deadline
 from anymesh.types import Asset, Hull, Joint, Mesh, Shape
 from anymesh.types.triangles import normals_and_areas
-from anymesh.vocabulary import recognize
 
 FOLDER = "meshes"
 VOTERS = 5000  # maximum number of triangles that decide on the substances of shapes
 OVERLAP = "their surfaces overlap at rest"
 TIGHT = "their collision shapes touch where the surfaces do not, or while one moves"
-CLOSED_TO = SUBSTANCES["wood"].solid_to  # [m] mean thickness above which bodies of closed furniture and appliances are hollow
-CASE, FRONTS = SUBSTANCES["chipboard"], ("door", "drawer")  # of an unknown object with such parts, which is furniture
-LARGEST_CASE = 2.7  # [m] longest side of furniture, as of a wardrobe; larger things with doors are buildings and gates
 WITHIN = 0.02  # of a joint's range: maximum steady-state error of a drive under its load
 
 
@@ -174,7 +170,7 @@ def build_model(
     collision = collision_shapes(asset, triangles, origins, shapes, cache, deadline=deadline)
     warnings = (*asset.warnings, *collision.warnings, *losses(asset.mesh, asset.segmentation.face_part))
     asset = replace(asset, warnings=tuple(dict.fromkeys(warnings)))
-    bodies, usual = [], _Usual.of(asset)
+    bodies, usual = [], resolve(USUAL_BODIES)(asset)
     for link in links:
         shapes, (surface, kept) = collision.shapes[link.name], plain[link.name]
         shapes = tuple(map(as_hull, shapes)) if how.shapes is Shapes.HULLS else shapes
@@ -183,7 +179,8 @@ def build_model(
         surfaces = _surfaces(link.triangles, made_of, shapes, shares[0].substance)
         bodies.append(ExportLink(link, inertia, shapes, collision.openings.get(link.name), shares, surfaces))
     bodies = bodies if how.mass is None else _weighing(bodies, how.mass, config)
-    doubts = usual.doubts(asset, bodies, given=how.mass is not None)
+    labelled = [(body.link.part.label or body.name, body.inertia.mass) for body in bodies]
+    doubts = usual.doubts(asset, labelled, given=how.mass is not None)
     asset = replace(asset, warnings=tuple(dict.fromkeys((*asset.warnings, *doubts))))
     excluded = [Exclusion(a, b, OVERLAP) for a, b in collision.overlapping]
     excluded += [Exclusion(a, b, TIGHT) for a, b in collision.tight]
@@ -199,45 +196,7 @@ def _weighing(bodies: Sequence[ExportLink], mass: float, config: InertiaConfig) 
     return [replace(body, inertia=body.inertia.scaled(factor, config)) for body in bodies]
 
 
-@dataclass(frozen=True)
-class _Usual:
-    """What is usual for an object.
-
-    kind: as in the table of kinds, None if unknown; closed: its solid bodies are hollow; wall: of bodies of the substance, None
-    for that of the substance [m].
-    """
-
-    kind: Any
-    closed: bool
-    substance: Substance | None
-    wall: float | None = None
-
-    @classmethod
-    def of(cls, asset: Asset) -> _Usual:
-        kind, longest = resolve(KIND_OF)(asset.category, asset.name), float(max(asset.mesh.extents))
-        if kind is not None:
-            size = 1.0 if kind.usual is None else min(1.0, longest / kind.usual)  # walls of small models are thin
-            return cls(kind, kind.closed, SUBSTANCES.get(kind.substance), None if kind.wall is None else kind.wall * size)
-        words = (recognize(part.label) for part in asset.segmentation.parts)
-        closed = longest <= LARGEST_CASE and any(word is not None and word.label in FRONTS for word in words)
-        return cls(None, closed, CASE if closed else None)
-
-    def walled(self, substance: Substance | None) -> Substance | None:
-        """Return a substance as the object's bodies have it: hollow if they are thick, with the walls of the kind."""
-        if substance is None or not self.closed:
-            return substance
-        walled = self.wall is not None and self.substance is not None and substance.density == self.substance.density
-        sheet = self.wall if self.wall is not None and walled else substance.sheet
-        return replace(substance, solid_to=min(substance.solid_to, CLOSED_TO), sheet=sheet)
-
-    def doubts(self, asset: Asset, bodies: Sequence[ExportLink], *, given: bool) -> tuple[str, ...]:
-        """Return warnings about an implausible size or mass."""
-        labels = [body.link.part.label or body.name for body in bodies]
-        masses = [(label, body.inertia.mass) for label, body in zip(labels, bodies, strict=True)]
-        return resolve(DOUBTS)(self.kind, asset.mesh.extents, masses, given=given)
-
-
-def _shares(asset: Asset, link: Link, of_object: _Usual) -> tuple[tuple[SubstanceShare, ...], MadeOf]:
+def _shares(asset: Asset, link: Link, of_object: Any) -> tuple[tuple[SubstanceShare, ...], MadeOf]:
     """Return what a link is made of, the most first, and the substance of each of its triangles."""
     usual = of_object.walled(usual_substance(f"{link.name} {link.part.label}") or of_object.substance)
     areas, made_of = dict[tuple[Substance | None, str], float](), list[Substance | None]()
