@@ -68,7 +68,7 @@ def test_arrays_are_described_and_vectors_printed():
     assert brief(np.array([0.0, -0.0, 1.23456])) == "(0, 0, 1.235)"
     assert brief(np.zeros((4, 4))) == "float64 (4, 4)"
     assert brief(b"abc") == "3 bytes"
-    assert brief({"a": b"abc"}) == "{a: 3 bytes}"
+    assert brief({"a": b"abc"}) == "(a: 3 bytes)"
     assert brief([Texture(b"", "image/png")] * 9) == "9 Texture"
     assert repr(Material("oak")).startswith("Material(name='oak', base_color=4 float")
 

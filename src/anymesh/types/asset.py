@@ -58,8 +58,7 @@ class Segmentation:
             raise ValueError(f"parts without faces: {missing}")
 
     def __repr__(self) -> str:
-        names = ", ".join(p.name for p in self.parts[:SHOWN]) + (", ..." if len(self.parts) > SHOWN else "")
-        return f"Segmentation of {len(self.face_part)} faces into {len(self.parts)} parts: {names}"
+        return f"Segmentation of {len(self.face_part)} faces into {len(self.parts)} parts, the root {self.parts[0].name!r}"
 
     def faces(self, part: int) -> Int[np.ndarray, " n"]:
         """Return the face indices of one part."""

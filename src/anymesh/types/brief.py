@@ -13,21 +13,18 @@ SHOWN, LONGEST = 3, 80  # items of a collection and characters of a value that a
 
 def brief(value: Any) -> str:
     """Describe a value in at most 80 characters or so: a vector in full, other arrays by shape, bytes by number."""
-    match value:
-        case np.ndarray(ndim=1, size=size) if size <= SHOWN:
-            return f"({', '.join(f'{float(v) + 0.0:.4g}' for v in value)})" if value.dtype.kind in "fiub" else f"{value.dtype}"
-        case np.ndarray():
-            return f"{value.dtype} {value.shape}"
-        case bytes() | bytearray() | memoryview():
-            return f"{len(value)} bytes"
-        case Mapping() | tuple() | list() | set() | frozenset() if len(value) > SHOWN:
+    if isinstance(value, np.ndarray):
+        short = value.ndim == 1 and value.size <= SHOWN and value.dtype.kind in "fiub"
+        return f"({', '.join(f'{float(v) + 0.0:.4g}' for v in value)})" if short else f"{value.dtype} {value.shape}"
+    if isinstance(value, bytes):
+        return f"{len(value)} bytes"
+    if isinstance(value, (Mapping, tuple, list)):
+        if len(value) > SHOWN:
             return f"{len(value)} {type(next(iter(value))).__name__}"
-        case Mapping():
-            text = f"{{{', '.join(f'{key}: {brief(v)}' for key, v in value.items())}}}"
-        case tuple() | list():
-            text = f"({', '.join(brief(v) for v in value)})"
-        case _:
-            text = repr(value)
+        items = [f"{k}: {brief(v)}" for k, v in value.items()] if isinstance(value, Mapping) else map(brief, value)
+        text = f"({', '.join(items)})"
+    else:
+        text = repr(value)
     return text if len(text) <= LONGEST else f"{text[: LONGEST - 3]}..."
 
 
@@ -35,11 +32,8 @@ class Brief:
     """Base of dataclasses that hold arrays or bytes: their repr is one line. It stands in the class, so dataclass keeps it."""
 
     def __init_subclass__(cls) -> None:
-        super().__init_subclass__()
         if "__repr__" not in vars(cls):
-            cls.__repr__ = brief_repr
+            cls.__repr__ = Brief.__repr__
 
-
-def brief_repr(value: Any) -> str:
-    """Return the repr of a dataclass with brief values."""
-    return f"{type(value).__name__}({', '.join(f'{f.name}={brief(getattr(value, f.name))}' for f in fields(value) if f.repr)})"
+    def __repr__(self: Any) -> str:
+        return f"{type(self).__name__}({', '.join(f'{f.name}={brief(getattr(self, f.name))}' for f in fields(self) if f.repr)})"
