@@ -24,7 +24,7 @@ CORE = [
 ]
 TOOLS = [
     {"kinds"},
-    {"stated", "mechanisms"},
+    {"stated", "mechanisms", "sunken"},
     {"formats", "openusd"},
     {"prompted"},
     {"finishing"},

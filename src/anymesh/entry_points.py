@@ -17,6 +17,8 @@ GLTF_JOINTS = "formats.gltf.joints:stated_joints"
 # What the pipeline needs of the packages around it.
 OPEN_ANSWERER = "prompted.answerers.answering:open_answerer"
 STATED_PARTS = "stated.stages:parts_with_stated"
+SEALED = "sunken.drawing:sealed"
+DRAWN_OUT = "sunken.drawing:drawn_out"
 STATED_JOINTS = "stated.stages:joints_with_stated"
 PROMPTED_STAGES = "prompted.stages:PromptedStages"
 WRITE_TRANSCRIPT = "prompted.answerers.recordings:write_transcript"

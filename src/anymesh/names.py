@@ -10,6 +10,7 @@ LONGEST = 80  # characters; leaves space for suffixes within the 255 bytes of co
 # Reserved by a format or a system: MuJoCo's root body, URDF parsers' base names, the device names of Windows.
 RESERVED = frozenset({"world", "con", "prn", "aux", "nul"} | {f"{port}{i}" for port in ("com", "lpt") for i in range(10)})
 
+GIVEN, NAMED = "given", "named"  # words with which the reason of a part begins whose label is a name of the file or of a user
 SURE, CHECK = 0.8, 0.5  # confidence from which a part or joint is called sure, and from which a person only needs to check it
 
 

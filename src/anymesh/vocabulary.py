@@ -128,6 +128,8 @@ def is_fixed_name(name: str) -> bool:
 def _part_word(name: str) -> str:
     """Return the last word that names a part, ignoring positions if possible; "" for none."""
     known = [word for word in words_of(name) if word in _BY_NAME or word in FIXED]
+    if "sliding" in known and _BY_NAME.get(known[-1], _BY_NAME["sliding"]).motion is JointType.REVOLUTE:
+        return "sliding"  # a sliding door turns about nothing
     return next((word for word in reversed(known) if word not in PLACES), known[-1] if known else "")
 
 

@@ -17,7 +17,7 @@ from jaxtyping import Float
 
 from anymesh.config import ALONG_COSINE
 from anymesh.geometry.boxes import OrientedBox
-from anymesh.geometry.circles import fit_revolution, outline_about
+from anymesh.geometry.circles import MIN_CIRCLE_ROUNDNESS, fit_revolution, outline_about
 from anymesh.motion.part_context import PartContext
 from anymesh.types import Brief, JointType, Motion, Sweep
 
@@ -25,6 +25,7 @@ MIN_GAP_FACTOR = 1.5  # a part that touches nothing is in contact within this mu
 CONTACT_RATIO = 0.008  # of the tolerance length: points closer to the parent are in contact
 MIN_FREE_ANGLE_RAD = float(np.deg2rad(12))  # [rad] a hinge that opens less is blocked
 MIN_FREE_TRAVEL_RATIO = 0.008  # of the tolerance length: a slide with less free travel is blocked
+MIN_LARGE_RATIO = 0.15  # of the object's diagonal: a smaller part that slides in is a button, one that spins is a knob
 ENDLESS_ANGLE_RAD = 3.0  # [rad] minimum free angle in each direction of an endless rotation; the sweep ends at half a turn
 
 # Relation of a motion to its part: of a hinge's axis ("center" also names the normal of the connecting area, "pin" its width);
@@ -60,17 +61,26 @@ class SlideDirection(StrEnum):
 class PartFacts:
     """What is known of a part whatever its motion.
 
-    label: standard term, "part" if unknown; size: its diagonal [m]; roundness: of its roundest outline, 0..1.
+    label: standard term, "part" if unknown; size: its diagonal [m]; roundness: of its roundest outline, 0..1; pressed: whether
+    it may be pressed into a body that fills the hole, as buttons are modelled; named: whether the label is a given name and
+    not made from the motion: then it decides over the score.
     """
 
     label: str
     size: float
     roundness: float
+    pressed: bool = True
+    named: bool = False
 
     @classmethod
     def of(cls, context: PartContext, label: str) -> PartFacts:
         """Return the facts of a part with this label."""
-        return cls(label, context.part.box.diagonal, context.outline.roundness)
+        size = context.part.box.diagonal
+        sunk = context.overlap_depth > context.penetration
+        outline = context.outline
+        knob = outline.roundness > MIN_CIRCLE_ROUNDNESS and outline.height > outline.radius  # a button is flat
+        button = size <= MIN_LARGE_RATIO * context.diagonal and not knob
+        return cls(label, size, outline.roundness, button or not sunk)
 
 
 @dataclass(frozen=True, eq=False)

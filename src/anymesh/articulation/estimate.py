@@ -21,13 +21,14 @@ from anymesh.articulation.part_contexts import (
     same_size,
     share_opening_directions,
 )
-from anymesh.articulation.rank_motions import PartMotionScores, likeliest, rank_motions, reason
+from anymesh.articulation.rank_motions import PartMotionScores, fits_label, likeliest, rank_motions, reason
 from anymesh.config import SAME_AXIS_COSINE
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
+from anymesh.names import GIVEN, NAMED
 from anymesh.runtime import JOINTS, Deadline, Progress, silent
-from anymesh.types import Joint, JointType, Motion, Segmentation
+from anymesh.types import Joint, JointType, Motion, Part, Segmentation
 
 MAX_SWEPT = 8  # motions of a part that are swept, the likeliest of the part at rest; more choose no better
 MAX_LATE_SWEPT = 2  # the same when most of the time limit is spent
@@ -67,7 +68,8 @@ def part_motions(
         contexts = share_opening_directions([part_context(whole, label, shapes, parent, i) for i in numbers])
         for i, context in zip(numbers, contexts, strict=True):
             progress("joints", parts[i].name, len(scored), len(parts) - 1)
-            scored[i] = context, score_motions(context, parts[i].label, _most_swept(most_swept, deadline))
+            swept = _most_swept(most_swept, deadline)
+            scored[i] = context, score_motions(context, parts[i].label, swept, is_named(parts[i]))
     for numbers in groups:
         for i in numbers:
             context, mine = scored[i]
@@ -75,17 +77,24 @@ def part_motions(
             alike = (
                 m for k, (a, m) in scored.items() if k not in numbers and parent[k] == parent[i] and have_one_handle(context, a)
             )
-            yield PartMotions(i, parent[i], context, mine.averaged(tuple(itertools.islice((*row, *alike), MAX_COPIES))))
+            together = mine.averaged(tuple(itertools.islice((*row, *alike), MAX_COPIES)))
+            yield from with_labels_of(segmentation, [PartMotions(i, parent[i], context, together)])
 
 
 def with_labels_of(segmentation: Segmentation, motions: Iterable[PartMotions]) -> list[PartMotions]:
     """Return the motions of parts with the same faces, with the labels of this segmentation."""
 
     def named(m: PartMotions) -> PartMotions:
-        part = replace(m.motions.part, label=segmentation.parts[m.part].label)
+        own = segmentation.parts[m.part]
+        part = replace(m.motions.part, label=own.label, named=is_named(own))
         return m._replace(motions=replace(m.motions, part=part))
 
     return [named(m) for m in motions]
+
+
+def is_named(part: Part) -> bool:
+    """Return whether the label of a part is a name of the file or of a user."""
+    return part.reason.startswith((GIVEN, NAMED))
 
 
 def choose_motion(context: PartContext, motions: CandidateMotions) -> tuple[MotionChoice, Candidate]:
@@ -99,11 +108,11 @@ def all_motions(context: PartContext, label: str) -> CandidateMotions:
     return PartMotionScores(context, label, sweep_candidates(context, propose(context))).averaged()
 
 
-def score_motions(context: PartContext, label: str, most: int) -> PartMotionScores:
-    """Score the `most` motions of a part that are likeliest before any is swept."""
+def score_motions(context: PartContext, label: str, most: int, named: bool = False) -> PartMotionScores:
+    """Score the `most` motions of a part that are likeliest before any is swept. named: as in `PartFacts`."""
     motions = unswept(context, propose(context))
     rest = unswept_features(context, motions)
-    likely = likeliest(rest, most)
+    likely = likeliest(rest, most, fits_label(label if named else "", motions))
     candidates = swept(context, [motions[k] for k in likely])
     features = [rest[k] | way for k, way in zip(likely.repeat(2), swept_features(context, candidates), strict=True)]
     return PartMotionScores(context, label, candidates, features)

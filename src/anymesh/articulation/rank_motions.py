@@ -13,6 +13,8 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.articulation.candidate_motions import (
     BOX_RIM_ROLES,
+    MIN_FREE_TRAVEL_RATIO,
+    MIN_LARGE_RATIO,
     Candidate,
     CandidateMotions,
     MotionChoice,
@@ -51,12 +53,19 @@ class PartMotionScores:
         return CandidateMotions(self.facts, self.candidates, scores)
 
 
-def likeliest(features: Sequence[Features], most: int) -> Int[np.ndarray, " m"]:
-    """Return the indices of at most `most` motions, the likeliest by features that need no sweep, in ascending order."""
+def likeliest(features: Sequence[Features], most: int, fits: Bool[np.ndarray, " n"] | None = None) -> Int[np.ndarray, " m"]:
+    """Return the indices of at most `most` motions, the likeliest by features that need no sweep, in ascending order.
+
+    fits: motions that fit the label; if none of these is among them, the likeliest of these are returned.
+    """
     if len(features) <= most:
         return np.arange(len(features))
     classifier = unswept_classifier()
-    return highest(classifier.score(classifier.table(features)), most)
+    score = classifier.score(classifier.table(features))
+    likely = highest(score, most)
+    if fits is None or fits[likely].any():
+        return likely
+    return np.intersect1d(highest(np.where(fits, score, -np.inf), most), np.flatnonzero(fits))
 
 
 def highest(score: Float[np.ndarray, " n"], most: int) -> Int[np.ndarray, " m"]:
@@ -76,10 +85,10 @@ def shipped_classifier() -> Classifier:
     return Classifier.read("anymesh.articulation", "motion_classifier.npz")
 
 
+DRAWER = "drawer"  # the label of parts that slide out of the body
 NO_MOTION_CONFIDENCE = 0.3  # confidence of a joint without a plausible motion
 SAME_LINE_RATIO = 0.1  # of the part's size: maximum distance between lines that a user sees as one
 SIDES = "on no side", "on one side", "on two sides", "on three sides", "on all sides"  # by how many of four guide a slide
-MIN_LARGE_RATIO = 0.15  # of the object's diagonal: a smaller part that slides in is a button, one that spins is a knob
 MIN_DRAWER_TRAVEL_RATIO = 0.1  # of its size: a slide with less travel is not labelled as a drawer
 # [rad] a door is stopped at some side; a lid that lies on its parent, at once
 MAX_SWING_RAD, MAX_LID_SWING_RAD = float(np.deg2rad(270)), float(np.deg2rad(215))
@@ -94,19 +103,44 @@ def rank_motions(motions: CandidateMotions) -> MotionChoice:
 
     An endless rotation is about the axis of the round outline, if that is the same joint to a user; it has no opening side, so
     its axis keeps the sign that it is proposed with. The confidence comes from the probability of the candidates that a user
-    sees as the best one; a label does not count, since it may be made from the motion.
+    sees as the best one; a label does not count, unless it is a name that decides against the geometry: then the probability is
+    that among the motions that fit it.
     """
-    scores = motion_scores(motions)
-    order = [int(i) for i in np.argsort(-scores, kind="stable")]
+    scores, fits = motion_scores(motions), fits_name(motions)
+    order = [int(i) for i in np.lexsort((-scores, ~fits))]
     same = same_joints(motions.part, motions.candidates, order[0])
     if motions.candidates[order[0]].is_endless:
         order.sort(key=lambda k: _order_of_endless(motions.candidates[k], same=bool(same[k])))
-    ranking, best = tuple(order), motions.candidates[order[0]]
+    ranking, best, plain = tuple(order), motions.candidates[order[0]], _scores_by_geometry(motions)
     if not best.is_free:
-        return MotionChoice(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, "blocked whichever way it is moved")
-    share = np.clip(share_of_best(_scores_by_geometry(motions), same), 1e-6, 1 - 1e-6)
+        free = any(c.is_free for c in motions.candidates)
+        why = f"blocked in every motion of a {motions.part.label}" if free else "blocked whichever way it is moved"
+        return MotionChoice(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, why)
+    counted = fits | fits[scores.argmax()]
+    share = np.clip(share_of_best(np.where(counted, plain, -np.inf), same), 1e-6, 1 - 1e-6)
     confidence = shipped_classifier().confidence(float(np.log(share / (1 - share))))
     return MotionChoice(ranking, joint_type(best, motions.part.label), confidence, reason(best))
+
+
+def fits_name(motions: CandidateMotions) -> Bool[np.ndarray, " k"]:
+    """Return which motions fit the name of their part, all if it has none."""
+    return fits_label(motions.part.label if motions.part.named else "", motions.candidates)
+
+
+def fits_label(label: str, candidates: Sequence[Candidate]) -> Bool[np.ndarray, " k"]:
+    """Return which motions are of the kind that a label names, all if none is or if it names no kind.
+
+    A drawer slides outwards if it can; a door turns, if possible not about the axis of a round outline.
+    """
+    kind, every = typical_motion(label), np.ones(len(candidates), bool)
+    if kind is None:
+        return every
+    fits = np.array([(c.motion.kind is JointType.PRISMATIC) == (kind is JointType.PRISMATIC) for c in candidates], bool)
+    if label == DRAWER:
+        better = np.array([c.slide_direction is SlideDirection.OUTWARDS for c in candidates], bool)
+    else:
+        better = np.array([kind is not JointType.REVOLUTE or c.role != "round" for c in candidates], bool)
+    return next(some for some in (fits & better, fits, every) if some.any())
 
 
 def _order_of_endless(c: Candidate, *, same: bool) -> tuple[bool, bool]:
@@ -117,7 +151,14 @@ def _order_of_endless(c: Candidate, *, same: bool) -> tuple[bool, bool]:
 
 def _scores_by_geometry(motions: CandidateMotions) -> Float[np.ndarray, " k"]:
     """Return the log-odds of each candidate, with a penalty for blocked motions."""
-    return motions.scores + np.array([0.0 if c.is_free else by_hand.BLOCKED_SCORE for c in motions.candidates])
+    penalty = [0.0 if c.is_free else by_hand.BLOCKED_SCORE for c in motions.candidates]
+    stuck = [not motions.part.pressed and _stuck(c) for c in motions.candidates]
+    return motions.scores + np.where(stuck, by_hand.STUCK_SCORE, penalty)
+
+
+def _stuck(c: Candidate) -> bool:
+    """Return whether a slide goes into a body that leaves it no room."""
+    return c.slide_direction is SlideDirection.INWARDS and c.opening < MIN_FREE_TRAVEL_RATIO
 
 
 def motion_scores(motions: CandidateMotions) -> Float[np.ndarray, " k"]:
@@ -199,7 +240,7 @@ def label_of(context: PartContext, best: Candidate) -> str:
             return "button"
         if best.opening * context.tolerance_length < MIN_DRAWER_TRAVEL_RATIO * context.part.box.diagonal:
             return ""
-        return "drawer" if best.vertical < FACING_COSINE else "part"
+        return DRAWER if best.vertical < FACING_COSINE else "part"
     if best.role == "round":
         upright, flat = best.vertical < FACING_COSINE, context.outline.radius >= context.outline.height
         # lying, a handwheel has spokes; a plate has none

@@ -10,12 +10,12 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Bool, Float
 
 from anymesh.articulation.candidate_motions import CandidateMotions
 from anymesh.articulation.estimate import PartMotions, estimate_joint
 from anymesh.articulation.limits import Range
-from anymesh.articulation.rank_motions import motion_scores, same_joints
+from anymesh.articulation.rank_motions import fits_name, motion_scores, same_joints
 from anymesh.config import ALONG_COSINE, LEVEL_COSINE
 from anymesh.geometry.kinematics import joint_motion
 from anymesh.geometry.sweep import Obstacles, free_amount
@@ -189,15 +189,20 @@ def vetted_joints(segmentation: Segmentation, motions: Sequence[PartMotions]) ->
 
 def _ways(m: PartMotions, names: Sequence[str]) -> Iterator[Joint]:
     """Yield the joint of a part, and of its other motions that are free and not much less likely, the likeliest first."""
-    motions, best = m.motions, float(motion_scores(m.motions).max())
+    motions = _only(m.motions, fits_name(m.motions))
+    best, first = float(motion_scores(motions).max()), motions
     while len(motions.candidates):
         scores = motion_scores(motions)
         k = int(scores.argmax())
-        if motions is not m.motions and (scores[k] < best - MAX_MOTION_LOSS or not motions.candidates[k].is_free):
+        if motions is not first and (scores[k] < best - MAX_MOTION_LOSS or not motions.candidates[k].is_free):
             return
         yield estimate_joint(m.context, names[m.part], names[m.parent], motions)
-        left = np.flatnonzero(~same_joints(motions.part, motions.candidates, k))
-        motions = CandidateMotions(motions.part, tuple(motions.candidates[c] for c in left), motions.scores[left])
+        motions = _only(motions, ~same_joints(motions.part, motions.candidates, k))
+
+
+def _only(motions: CandidateMotions, which: Bool[np.ndarray, " k"]) -> CandidateMotions:
+    kept = np.flatnonzero(which)
+    return CandidateMotions(motions.part, tuple(motions.candidates[c] for c in kept), motions.scores[kept])
 
 
 def _doubted(joint: Joint, first: Joint, doubt: str) -> Joint:

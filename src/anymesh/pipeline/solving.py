@@ -20,12 +20,13 @@ from anymesh.geometry.surface import DividedSurface, ObjectShape, ground_faces
 from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.runtime import Deadline, Progress, silent
-from anymesh.segmentation.divide import divide_surface, object_shape
+from anymesh.segmentation.divide import divide_surface
 from anymesh.segmentation.naming import GIVEN, parts_from_file, parts_from_nodes, whole_as_base, with_names_of_file
 from anymesh.segmentation.segment import segment_parts
 from anymesh.types import Joint, JointType, Mesh, Segmentation
 from anymesh.types.motion import Recognition
 from anymesh.types.questions import AnswererFactory
+from anymesh.vocabulary import typical_motion
 
 GROUND_WARNING = "the file contains a ground, which is part of the base"
 __all__ = ["Solver", "StageAnswerer", "solve"]
@@ -50,6 +51,11 @@ class GeometryStages:
     @cached_property
     def _divided(self) -> DividedSurface:
         return divide_surface(self.mesh, self.config.seed, seams=self._seams)
+
+    @staticmethod
+    def _shapes(divided: DividedSurface) -> list[ObjectShape]:
+        """Return the shapes in which parts are looked for: as modelled, and with what is sunk into others drawn out."""
+        return [d.simplified() for d in (divided, divided.drawn_out) if d is not None]
 
     @cached_property
     def _ground(self) -> Bool[np.ndarray, " F"]:
@@ -85,13 +91,14 @@ class GeometryStages:
         if self._by_itself is None:
             above = self._parts_above_ground(progress) if self._ground.any() else None
             if above is None or len(above.parts) <= max(1, self.config.at_least):
-                above = segment_parts(self.mesh, self.whole, self._labels, self.config.at_least, progress, self.deadline)
+                shapes = self._shapes(self._divided)
+                above = segment_parts(self.mesh, shapes, self._labels, self.config.at_least, progress, self.deadline)
             self._by_itself = above
         return self._by_itself
 
     def _parts_above_ground(self, progress: Progress) -> Segmentation:
         object_ = self.mesh.subset(~self._ground)
-        whole = object_shape(object_, self.config.seed, seams=self._seams)
+        shapes = self._shapes(divide_surface(object_, self.config.seed, seams=self._seams))
 
         def with_ground(segmentation: Segmentation) -> Segmentation:
             face_part = np.zeros(len(self.mesh.faces), np.int64)
@@ -101,17 +108,18 @@ class GeometryStages:
         def labels(segmentation: Segmentation) -> list[str]:
             return self._labels(with_ground(segmentation))
 
-        return with_ground(segment_parts(object_, whole, labels, self.config.at_least, progress, self.deadline))
+        return with_ground(segment_parts(object_, shapes, labels, self.config.at_least, progress, self.deadline))
 
     def _labels(self, segmentation: Segmentation) -> list[str]:
-        """Return a label of each part but the base from its motion by geometry; "" for a part that cannot move.
+        """Return a label of each part but the base from its motion by geometry; "" for one without a name that cannot move.
 
         It is "part" where the motion is not sure enough to tell.
         """
         labels = {}
         for i, _, context, motions in self.motions(segmentation):
             choice, best = choose_motion(context, motions)
-            label = "" if choice.type is JointType.FIXED else label_of(context, best)
+            still = choice.type is JointType.FIXED and typical_motion(segmentation.parts[i].label) is None
+            label = "" if still else label_of(context, best)
             labels[i] = label if choice.confidence >= MIN_LABEL_CONFIDENCE.get(label, 0.0) else "part"
         return [labels[i] for i in sorted(labels)]
 

@@ -16,6 +16,8 @@ CUT_SCORE = 0.5
 NAME_SCORE: Mapping[str, float] = {"movable": 5.0, "fixed": -6.0}
 # For a motion that the sweep finds blocked.
 BLOCKED_SCORE = -4.0
+# For a slide into a solid that leaves no room, of a part that is sunk into it and no button: it stands for "never".
+STUCK_SCORE = -12.0
 # For a part whose label has a typical joint: for a hinge, for a rotation about the axis of a round outline, for a slide.
 LABEL_PRIOR: Mapping[JointType, tuple[float, float, float]] = {
     JointType.REVOLUTE: (1.5, -2.5, -2.0),

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from jaxtyping import Bool, Int
 from scipy.spatial import KDTree
 
 from anymesh.config import SAME_SIZE
+from anymesh.entry_points import DRAWN_OUT, SEALED, resolve
 from anymesh.geometry.creases import MIN_CREASE_DEG, convex_regions, divide_at_seams
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.surface import DividedSurface, MeshSurface, ObjectShape, mesh_surface
@@ -39,11 +42,14 @@ def object_shape(
 
 def divide_surface(mesh: Mesh, seed: int, *, seams: bool = False, soft: bool = True) -> DividedSurface:
     """Orient a mesh and divide it into patches, as `split_patches` does; the mesh is not modified."""
-    surface = mesh_surface(mesh, seed)
-    patch = split_patches(surface, seams=seams, soft=soft)
+    surface = resolve(SEALED)(mesh_surface(mesh, seed))
+    drawn = resolve(DRAWN_OUT)(surface)
+    # a cut through the front of a body would otherwise go through what is sunk into it
+    patch = split_patches(surface if drawn is None else replace(surface, shape=drawn), seams=seams, soft=soft)
     pairs = np.sort(patch[surface.components.edges.faces], 1)
     shared = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
-    return DividedSurface(surface.shape.take(surface.row), surface.copy, patch[surface.row], shared, surface.diagonal)
+    apart = None if drawn is None else drawn.take(surface.row)
+    return DividedSurface(surface.shape.take(surface.row), surface.copy, patch[surface.row], shared, surface.diagonal, apart)
 
 
 def split_patches(surface: MeshSurface, *, seams: bool, soft: bool) -> Int[np.ndarray, " F"]:

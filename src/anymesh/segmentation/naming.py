@@ -15,11 +15,10 @@ from jaxtyping import Float, Int
 
 from anymesh.errors import InputError, OptionError
 from anymesh.loading.scene_graph import materials_of_nodes
-from anymesh.names import legal_names, listed
+from anymesh.names import GIVEN, legal_names, listed
 from anymesh.types import Mesh, Part, Segmentation
 from anymesh.vocabulary import is_fixed_name, recognize
 
-GIVEN = "given"
 THIN = 0.2  # ratio of two sides of a box below which a piece is a panel or a bar
 ASIDE = 0.3  # of half of the object's extent: where a piece with its middle further from the object's lies at a side
 PLACES_OF_PIECES = (("left", "front", "bottom"), ("right", "back", "top"))  # towards -x, -y, -z and x, y, z

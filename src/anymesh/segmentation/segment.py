@@ -16,12 +16,13 @@ from scipy.sparse import csr_array
 
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.topology import label_connected
+from anymesh.names import NAMED
 from anymesh.runtime import SEGMENT, Deadline, Progress, silent, usable_cores
 from anymesh.scoring import by_hand
 from anymesh.segmentation.contacts import Contacts, find_contacts
 from anymesh.segmentation.naming import described, named_parts
-from anymesh.segmentation.part_candidates import Overlap, PartCandidates, name_class, part_candidates, shared_name
-from anymesh.segmentation.part_classifier import score_parts, shipped_classifier
+from anymesh.segmentation.part_candidates import Overlap, PartCandidates, distinct, name_class, part_candidates, shared_name
+from anymesh.segmentation.part_classifier import Reasons, score_parts, shipped_classifier
 from anymesh.segmentation.part_features import FeatureInputs, candidate_context, part_features
 from anymesh.types import Mesh, Segmentation
 from anymesh.vocabulary import recognize
@@ -152,23 +153,24 @@ MAX_ASSIGNMENTS = 3  # maximum number of assignments, each without the candidate
 
 
 def segment_parts(
-    mesh: Mesh, whole: ObjectShape, label_parts: LabelParts, at_least: int = 0, progress: Progress = silent,
+    mesh: Mesh, shapes: Sequence[ObjectShape], label_parts: LabelParts, at_least: int = 0, progress: Progress = silent,
     deadline: Deadline | None = None,
 ) -> Segmentation:  # fmt: skip
     """Return the movable parts of a mesh and its base, which is the rest.
 
-    label_parts: stage B's test of how parts move, with "" for a part that cannot; at_least: minimum number of parts, even with
-    weak evidence, for objects that are known to move.
+    shapes: the object as modelled, and perhaps as it looks otherwise, with the same patches; label_parts: stage B's test of how
+    parts move, with "" for a part that cannot; at_least: minimum number of parts, even with weak evidence, for objects that are
+    known to move.
 
     After the deadline no further contact is measured and no further candidate examined.
     """
     progress("segment", "contacts", 0, 2)
     deadline = deadline or Deadline()
-    contacts = find_contacts(whole, deadline)
-    candidates = part_candidates(mesh, whole, contacts)
+    groups = [part_candidates(mesh, whole, find_contacts(whole, deadline)) for whole in shapes]
+    members = np.array(distinct(mask for c in groups for mask in c.members), bool).reshape(-1, groups[0].members.shape[1])
     progress("segment", "candidates", 1, 2)
-    examined, place, features = examine_candidates(mesh, candidates, progress, deadline)
-    score, reasons = score_parts(examined, place, features)
+    looks = [examine_candidates(mesh, replace(c, members=members), progress, deadline) for c in groups]
+    examined, score, reasons = _scored_together(looks)
     words = [shared_name(examined, k) for k in range(len(score))]
     score = score + np.array([by_hand.NAME_SCORE.get(name_class(word), 0.0) for word in words])
     classifier = shipped_classifier()
@@ -245,8 +247,21 @@ def examine_candidates(
     return examined, np.array(places).reshape(-1, 12), features
 
 
+def _scored_together(
+    looks: Sequence[tuple[PartCandidates, Float[np.ndarray, "n 12"], list[dict[str, float]]]],
+) -> tuple[PartCandidates, Float[np.ndarray, " n"], Reasons]:
+    """Return the candidates as modelled, the highest of their scores in all shapes, and the reasons as modelled.
+
+    looks: as from `examine_candidates`, first the object as modelled; after the deadline, shapes may lack candidates, and only
+    this one counts.
+    """
+    scored = [score_parts(*look) for look in looks]
+    (score, reasons), examined = scored[0], looks[0][0]
+    return examined, np.max([s for s, _ in scored if len(s) == len(score)], axis=0), reasons
+
+
 def _reason(learned: str, name: str, likely: bool) -> str:
-    reasons = [f'named "{name}"'] if name_class(name) else []
+    reasons = [f'{NAMED} "{name}"'] if name_class(name) else []
     reasons += [] if likely else ["stands out most, where parts were asked for"]
     return "; ".join([*reasons, learned])
 

@@ -1,0 +1,1 @@
+"""What is sunk into other bodies, as both stages see it."""
