@@ -35,6 +35,7 @@ from anymesh.types.triangles import normals_and_areas
 from anymesh.viewer.scene import report_scene
 
 PREVIEW = "preview.png"
+THUMBNAIL = (240, 180)  # [px]
 WIDTH, QUALITY = 1280, 82  # [px] width of the preview, and its JPEG quality
 ASKED_WIDTH, ASKED_QUALITY = 800, 75  # of the pictures shown to a model
 RECORD = "asset.json"
@@ -355,6 +356,17 @@ def _pictures(asset: Asset) -> dict[str, bytes]:
         if key not in pictures:
             pictures[key] = _jpeg(picture.png, ASKED_WIDTH, ASKED_QUALITY)
     return {key: data for key, data in pictures.items() if data}
+
+
+def thumbnail(preview: bytes) -> bytes:
+    """Return the last panel of a preview, the object opened with coloured parts, as a small JPEG."""
+    with Image.open(io.BytesIO(preview)) as image:
+        width, height = image.size
+        panel = image.convert("RGB").crop((2 * width // 3, 0, width, height))
+    panel.thumbnail(THUMBNAIL)
+    buffer = io.BytesIO()
+    panel.save(buffer, "JPEG", quality=QUALITY)
+    return buffer.getvalue()
 
 
 def _preview(path: Path) -> bytes:

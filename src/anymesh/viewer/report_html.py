@@ -14,7 +14,7 @@ from anymesh.names import confidence_word
 from anymesh.pipeline.results import verdict
 from anymesh.rendering.preview import extent
 from anymesh.types import Asset, Exchange, Joint, JointType
-from anymesh.viewer.report_asset import ReportEntry, picture_key
+from anymesh.viewer.report_asset import ReportEntry, picture_key, thumbnail
 from anymesh.viewer.scene import color_class, palette
 
 SCRIPTS = ("three.min.js", "report_view.js", "report_page.js")
@@ -194,20 +194,21 @@ def _head(title: str, entries: Sequence[ReportEntry]) -> str:
     header = f"<header><h1>{html_text(title)}</h1><p>{count}; {size:.1f} MB of 3D data and pictures in this file</p></header>"
     if len(entries) == 1:
         return header
-    rows = "".join(
-        f'<tr><td><a href="#a{k}">{html_text(e.title)}</a></td>'
-        + (
-            f"<td>{len(e.asset.joints)}</td><td>{sure(e.least) if e.asset.joints else ''}</td><td>{len(e.asset.warnings)}</td>"
-            if e.asset
-            else '<td colspan="3" class="bad">cannot be shown</td>'
-        )
-        + "</tr>"
-        for k, e in enumerate(entries)
-    )
-    head = "<tr><th>asset, least confident first</th><th>joints</th><th>lowest confidence</th><th>warnings</th></tr>"
-    table = f'<div class="wide"><table><thead>{head}</thead><tbody>{rows}</tbody></table></div>'
-    folded = f"<details open><summary>All assets</summary>{table}</details>"
-    return header + folded
+    return f'{header}<nav class="cards">{"".join(_card(k, e) for k, e in enumerate(entries))}</nav>'
+
+
+def _card(number: int, entry: ReportEntry) -> str:
+    """Return the picture of an asset opened, its name, and one word on its joints, as a link to its section."""
+    if entry.asset is None:
+        word = '<span class="bad">cannot be shown</span>'
+    else:
+        words = [verdict(entry.asset.segmentation, j, entry.asset.warnings).word for j in entry.asset.joints]
+        worst = next((w for w in ("guess", "check", "sure") if w in words), "nothing moves")
+        count = f"{len(words)} joint{'' if len(words) == 1 else 's'}"
+        word = f'<span>{count} <span class="mark {worst.split()[0]}">{worst}</span></span>'
+    small = _text(thumbnail(entry.preview)) if entry.preview else ""
+    picture = f'<img alt="{html_text(entry.title)}, opened" src="data:image/jpeg;base64,{small}">' if small else "<i></i>"
+    return f'<a href="#a{number}">{picture}<b>{html_text(entry.title)}</b>{word}</a>'
 
 
 def _section(number: int, entry: ReportEntry, *, alone: bool) -> str:
