@@ -26,10 +26,10 @@ from anymesh.finishing.complete import accept, accepted, complete, complete_shap
 from anymesh.finishing.protocol import Completer, PartMesh, ShapeConfig
 from anymesh.finishing.sheets import covers_itself, open_sheets, without_folds
 from anymesh.finishing.solids import backed, cap, shelled
+from anymesh.formats.polygons_ import triangulate
 from anymesh.geometry.distance_ import distance_to_triangles
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.loading.polygons_ import triangulate
 from anymesh.types import Asset
 
 WALL = ShapeConfig().wall

@@ -18,8 +18,8 @@ from mesh_files import (
 )
 from PIL import Image
 
+from anymesh.formats.polygons_ import fans, recut
 from anymesh.loading import load_mesh
-from anymesh.loading.polygons_ import fans, recut
 
 
 def test_gltf_node_of_two_materials_is_one_node(tmp_path) -> None:

@@ -21,10 +21,10 @@ from anymesh.finishing.sheets import (
     sheet_visibility,
     without_folds,
 )
+from anymesh.formats.polygons_ import triangulate
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.topology import components
 from anymesh.geometry.triangle_set import SurfacePoints, sample_surface
-from anymesh.loading.polygons_ import triangulate
 from anymesh.types import Brief
 from anymesh.types.triangles import unshared
 

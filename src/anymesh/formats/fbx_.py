@@ -16,9 +16,9 @@ from scipy.spatial.transform import Rotation
 from anymesh.errors import InputError, MissingExtraError
 from anymesh.formats.advice import needs_extra
 from anymesh.formats.fbx_materials_ import FbxLook, FbxMaterials, elements
+from anymesh.formats.polygons_ import fans, recut
 from anymesh.loading.files import MAX_FACES, FileMesh, Folder
 from anymesh.loading.join import join, rgba, unique_names, unit
-from anymesh.loading.polygons_ import fans, recut
 from anymesh.stated.animated import Animations, NodeTrack, SceneNode, animated_joints
 from anymesh.types import Brief, Mesh, Node
 

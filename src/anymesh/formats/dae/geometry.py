@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.loading.polygons_ import fans, recut, triangulate
+from anymesh.formats.polygons_ import fans, recut, triangulate
 from anymesh.types import Brief
 
 LEFT_OUT = {

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.loading.polygons_ import fans, recut
+from anymesh.formats.polygons_ import fans, recut
 from anymesh.types import Brief
 
 SEGMENTS = 32  # of a full turn of a primitive
