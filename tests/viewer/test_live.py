@@ -230,10 +230,8 @@ def test_faces_are_chosen_by_outline_and_click_and_made_a_part(live):
     y, x = np.argwhere(of_color(tab.pixels(), 1)).mean(0)
     tab.page.keyboard.press("l")
     tab.page.get_by_text("Draw around").wait_for()
-    low, high = (
-        np.argwhere(of_color(settle(tab), 1)).min(0)[::-1] - 9,
-        np.argwhere(of_color(tab.pixels(), 1)).max(0)[::-1] + 9,
-    )
+    door = np.argwhere(of_color(settle(tab), 1))[:, ::-1]
+    low, high = (door.min(0) - 9).tolist(), (door.max(0) + 9).tolist()
     tab.page.mouse.move(*low)
     tab.page.mouse.down()
     for corner in ((high[0], low[1]), high, (low[0], high[1]), low):
