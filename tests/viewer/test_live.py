@@ -245,6 +245,7 @@ def test_faces_are_chosen_by_outline_and_click_and_made_a_part(live):
     assert np.linalg.norm(client.camera.position - client.camera.look_at) > 0  # a drag draws, it does not turn the view
     tab.page.keyboard.press("Escape")
     eventually(lambda: len(session.chosen) == 0)
+    tab.page.get_by_text("Draw around").wait_for(state="hidden")
     tab.page.mouse.click(x, y)
     eventually(lambda: session.selected == "door")
     tab.page.get_by_role("button", name="Facet").click()
