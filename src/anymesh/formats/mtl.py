@@ -13,8 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from PIL import Image
 
+from anymesh.formats.polygons_ import with_points
 from anymesh.loading.files import Folder, picture_file, quiet_decoder
-from anymesh.loading.join import with_points
 from anymesh.loading.references import readable
 from anymesh.types import Material, Texture
 from anymesh.types.mesh import CLAMP, to_linear

@@ -13,9 +13,9 @@ import numpy as np
 
 from anymesh.errors import InputError
 from anymesh.formats.mtl import SOLE, MtlMaterial, read_mtl
-from anymesh.formats.polygons_ import fans, recut
+from anymesh.formats.polygons_ import fans, recut, usable_polygons, with_points
 from anymesh.loading.files import SHOWN, Folder
-from anymesh.loading.join import check_geometry, rgba, unique_names, unit, usable_polygons, with_points
+from anymesh.loading.join import check_geometry, rgba, unique_names, unit
 from anymesh.loading.references import meanings, readable
 from anymesh.types import Mesh, Node
 

@@ -2,21 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
-from jaxtyping import Bool, Float, Float32, Int, UInt8
+from jaxtyping import Float, Float32, Int, UInt8
 
 from anymesh.errors import InputError
-from anymesh.loading.files import Folder
 from anymesh.types import Material, Mesh, Node, StatedJoint
-
-COMMA = re.compile(r"(?<!\S)([+-]?\d*),(\d+(?:[eE][+-]?\d+)?)(?!\S)")  # a number with a decimal comma
-BETWEEN = re.compile(r"(?<=\d),(?!\S)")  # a comma between numbers that are separated by spaces too
-NO_NUMBER = re.compile(r"(?i)(?<!\S)[+-]?(?:s?nan\S*|1[.,]#\S*)(?!\S)")  # as C libraries write it, such as -nan(ind)
 
 
 def check_geometry(name: str, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"], first: int = 0) -> None:
@@ -31,42 +25,6 @@ def check_geometry(name: str, vertices: Float[np.ndarray, "V 3"], faces: Int[np.
         raise InputError(f"{name}: a face refers to vertex {index + first}; valid are {first} to {len(vertices) - 1 + first}")
     if not np.isfinite(vertices[faces]).all():
         raise InputError(f"{name}: found a vertex that is not finite (NaN or infinite); valid are finite coordinates")
-
-
-def with_points(text: str, folder: Folder) -> str:
-    """Return numbers with points for decimal commas, which give a warning, and with `nan` for all that is no number."""
-    text = NO_NUMBER.sub("nan", BETWEEN.sub("", text))
-    pointed = COMMA.sub(r"\1.\2", text)
-    if pointed != text:
-        folder.warn("found decimal commas, which are taken for points")
-    return pointed
-
-
-def usable_polygons(
-    folder: Folder,
-    vertices: Float[np.ndarray, "V 3"],
-    corners: Int[np.ndarray, " c"],
-    counts: Int[np.ndarray, " n"],
-    *,
-    first: int,
-) -> Bool[np.ndarray, " n"]:
-    """Return which polygons are left after those with a corner without a vertex, or with one that is not finite.
-
-    They give a warning. If they are more than half of all, nothing is left out, so that the file will be refused.
-    """
-    exists = (corners >= 0) & (corners < len(vertices))
-    good = exists.copy()
-    good[exists] = np.isfinite(vertices[corners[exists]]).all(1)
-    usable = np.bincount(np.repeat(np.arange(len(counts)), counts)[~good], minlength=len(counts)) == 0
-    bad = int((~usable).sum())
-    if 2 * bad > len(counts):
-        return np.ones(len(counts), bool)
-    if not exists.all():
-        such = f"vertex {corners[~exists][0] + first}; valid are {first} to {len(vertices) - 1 + first}"
-        folder.warn(f"{bad} of {len(counts)} faces are left out, which refer to vertices that do not exist (such as {such})")
-    elif bad:
-        folder.warn(f"{bad} of {len(counts)} faces are left out, which have vertices that are not finite (NaN or infinite)")
-    return usable
 
 
 def simple_mesh(
