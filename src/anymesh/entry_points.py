@@ -57,6 +57,7 @@ WRITE_ZIP = "formats.packed:write_zip"
 # What is usual for a kind of object: its bodies, with doubts about size and mass, and its size.
 USUAL_BODIES = "kinds.bodies:usual_bodies"
 USUAL_SIZE = "kinds.usual:usual_size"
+DESCRIBED = "kinds.pieces:described"
 
 # Resistance, springs, catches and detents of joints.
 CHOOSE_MECHANISMS = "mechanisms.choosing:choose_mechanisms"

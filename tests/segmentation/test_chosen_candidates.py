@@ -12,12 +12,13 @@ import trimesh
 from assets import box, mesh_of
 from test_panels import FRONT, bar, front_boxes, panels, solid
 
+from anymesh.kinds.pieces import described
 from anymesh.scoring.by_hand import NAME_SCORE
 from anymesh.segmentation import part_candidates as candidates
 from anymesh.segmentation import segment
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.naming import described, named_parts
+from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_candidates import (
     NameClass,
     PartCandidates,

@@ -125,8 +125,7 @@ class ExportOptions:
 
 def _mass(given: Any) -> float | None:
     """Return a mass [kg]; None for 0."""
-    number = isinstance(given, int | float) and not isinstance(given, bool)
-    if not number or (given != 0 and not MASSES[0] <= given <= MASSES[1]):
+    if isinstance(given, bool | str) or (given != 0 and not MASSES[0] <= given <= MASSES[1]):
         raise OptionError(f"--mass: found {given!r}; valid are {MASSES[0]:g} to {MASSES[1]:g} kg, or 0 for none given")
     return float(given) or None
 

@@ -14,13 +14,14 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.sparse import csr_array
 
+from anymesh.entry_points import DESCRIBED, resolve
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.topology import label_connected
 from anymesh.names import NAMED
 from anymesh.runtime import SEGMENT, Deadline, Progress, silent, usable_cores
 from anymesh.scoring import by_hand
 from anymesh.segmentation.contacts import Contacts, find_contacts
-from anymesh.segmentation.naming import described, named_parts
+from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_candidates import Overlap, PartCandidates, distinct, name_class, part_candidates, shared_name
 from anymesh.segmentation.part_classifier import Reasons, score_parts, shipped_classifier
 from anymesh.segmentation.part_features import FeatureInputs, candidate_context, part_features
@@ -218,8 +219,8 @@ def _at_least(
 def _nearly(mesh: Mesh, candidates: PartCandidates, probability: Float[np.ndarray, " n"], words: Sequence[str]) -> str:
     """Return the likeliest candidates in words, with their probabilities; "" without any."""
     likeliest = sorted(_filled(candidates, probability, [], NEARLY), key=lambda k: (-probability[k], k))
-    pieces = (f"{described(candidates.bounds[k], mesh.bounds, words[k])} (probability {probability[k]:.2g})" for k in likeliest)
-    return ", ".join(pieces)
+    boxes, whole, describe = candidates.bounds, mesh.bounds, resolve(DESCRIBED)
+    return ", ".join(f"{describe(boxes[k], whole, words[k])} (probability {probability[k]:.2g})" for k in likeliest)
 
 
 def examine_candidates(
