@@ -46,7 +46,7 @@ const AnymeshView = (() => {
       this.meshes = this.data.links.map(() => []);
       gltf.scene.traverse((object) => {
         const node = gltf.parser.associations.get(object)?.nodes;
-        const link = node === undefined ? undefined : numbers.get(gltf.parser.json.nodes[node].name);
+        const link = numbers.get(node === undefined ? (object.userData.name ?? object.name) : gltf.parser.json.nodes[node].name);
         if (link !== undefined) this.nodes[link] ??= object;
       });
       const missing = this.data.links.filter((_, k) => !this.nodes[k]).map((link) => link.name);
