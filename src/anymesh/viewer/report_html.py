@@ -194,7 +194,7 @@ def _head(title: str, entries: Sequence[ReportEntry]) -> str:
     header = f"<header><h1>{html_text(title)}</h1><p>{count}; {size:.1f} MB of 3D data and pictures in this file</p></header>"
     if len(entries) == 1:
         return header
-    return f'{header}<nav class="cards">{"".join(_card(k, e) for k, e in enumerate(entries))}</nav>'
+    return f'{header}<div class="cards">{"".join(_card(k, e) for k, e in enumerate(entries))}</div>'
 
 
 def _card(number: int, entry: ReportEntry) -> str:
