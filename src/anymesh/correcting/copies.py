@@ -128,7 +128,7 @@ def copies_of(asset: Asset, part: str, *, regions: bool = True) -> tuple[Copy, .
 
     regions: also find connected components of the parent that would be copies, beside the part with respect to its motion; if
     there are none, flat facets of it that lie to each other as those of the part do.
-    Of several poses the one is taken whose surroundings fit best: a door may be the mirror image of the other.
+    Of several poses the one is taken whose context fit best: a door may be the mirror image of the other.
     """
     joint, segmentation = joint_of_part(asset, part), asset.segmentation
     triangles = asset.mesh.triangles
@@ -162,7 +162,7 @@ class _Place:
         self._around = points[around][:: max(1, int(around.sum()) // SAMPLES)]
 
     def best(self, other: _Surface, poses: Sequence[np.ndarray]) -> Float[np.ndarray, "4 4"]:
-        """Return the pose that fits best with its surroundings; of equal ones the first, but leaves that meet are mirrored."""
+        """Return the pose that fits best with its context; of equal ones the first, but leaves that meet are mirrored."""
         steps = np.round([(self._own.misfit(other, T, DETAIL) + self._misfit(T)) / MISFIT_STEP for T in poses])
         best = [T for T, step in zip(poses, steps, strict=True) if step == steps.min()]
         return next((T for T in best if self._leaves(other, T)), best[0])

@@ -130,6 +130,7 @@ class GeometryStages:
             shape = self.shape_for(segmentation)
             self._swept = faces, list(part_motions(shape, segmentation, self.deadline, progress=progress))
             return self._swept[1]
+        progress("joints", segmentation.parts[-1].name, len(segmentation.parts) - 1, len(segmentation.parts))
         return with_labels_of(segmentation, self._swept[1])
 
     def shape_for(self, segmentation: Segmentation) -> ObjectShape:

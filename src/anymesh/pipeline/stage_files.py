@@ -37,7 +37,7 @@ MESH_ARRAYS = tuple(f.name for f in fields(Mesh) if f.name not in ("nodes", "mat
 USUAL = (("wrap", (REPEAT, REPEAT)), ("uv_set", 0), ("strength", 1.0), ("nearest", False), ("unlit", False))  # not stored
 log = logging.getLogger("anymesh")
 FOLDER = "stages"
-UNRECOGNIZED = "object"  # category of an object that nobody named
+UNRECOGNIZED = "object"  # category of an object that no user named
 EPOCH = (1980, 1, 1, 0, 0, 0)  # date inside every archive, so that equal results are equal files
 
 
