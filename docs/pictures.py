@@ -40,7 +40,12 @@ from anymesh.viewer.pictures_ import write_picture
 EXAMPLES = Path(__file__).parents[1] / "examples"
 IMAGES = Path(__file__).parent / "images"
 SHELF = ("cabinet", "fridge", "laptop", "microwave", "storage_box", "stove", "toy_car", "valve")  # on the first page
-PREVIEWS = {"microwave.png": "microwave", "tutorials/cabinet.png": "cabinet", "tutorials/box.png": "storage_box"}
+PREVIEWS = {
+    "microwave.png": "microwave",
+    "tutorials/cabinet.png": "cabinet",
+    "tutorials/box.png": "storage_box",
+    "tutorials/drill.png": "drill",
+}
 MOST = 9  # candidates that are drawn
 MOTIONS = 7  # motions that are drawn
 

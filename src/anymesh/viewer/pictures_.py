@@ -16,6 +16,7 @@ from anymesh.export.glb import tracks
 from anymesh.export.model import ExportConfig
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene
+from anymesh.pipeline.results import verdict
 from anymesh.rendering.drawing import (
     Window,
     draw,
@@ -243,8 +244,9 @@ def _summary(asset: Asset | None) -> str:
     if not moving:
         return "nothing moves"
     warned = f", {len(asset.warnings)} warnings" if len(asset.warnings) > 1 else ", a warning" if asset.warnings else ""
-    lowest = min(j.confidence for j in moving)
-    return f"{len(moving)} joint{'s' if len(moving) > 1 else ''}, min. confidence {lowest:.2f}{warned}"
+    words = [verdict(asset.segmentation, j, asset.warnings).word for j in moving]
+    said = [f"{words.count(w)} {text}" for w, text in (("check", "to check"), ("guess", "guessed")) if w in words]
+    return f"{len(moving)} joint{'s' if len(moving) > 1 else ''}, {', '.join(said) or 'sure'}{warned}"
 
 
 def _words(pen: ImageDraw.ImageDraw, corner: tuple[int, int], width: int, title: str, summary: str) -> None:
