@@ -10,7 +10,7 @@ from made import PLATE, X, Y, Z, candidate, context_of, turn
 from scenes import built, drawer
 
 from anymesh.articulation.candidate_motions import CandidateMotions
-from anymesh.articulation.estimate import PartMotions, part_motions
+from anymesh.articulation.estimate import PartMotions, choose_motion, part_motions
 from anymesh.articulation.vetting import STOPPED, faults, stops, vetted_joints
 from anymesh.geometry.sweep import Obstacles
 from anymesh.names import SURE
@@ -71,14 +71,15 @@ def test_short_motions_are_not_tested() -> None:
     assert not list(stops(obstacles, motion, (0.0, 0.01), 2.0))
 
 
-def motions_of(lead: float) -> tuple[Segmentation, list[PartMotions]]:
-    """Two doors whose slide through the other leads by some log-odds over a hinge at the outer side."""
+def motions_of(lead: float, alike: int = 1) -> tuple[Segmentation, list[PartMotions]]:
+    """Two doors whose slide through the other leads by some log-odds over a hinge at the outer side, proposed some times."""
     ways, numbers = {"left": (X, 0.01), "right": (-X, 0.99)}, {"left": 1, "right": 2}
     made = []
     for name, (axis, x) in ways.items():
         across = candidate("slide", JointType.PRISMATIC, axis, outward=0.0)
         outer = candidate("edge", JointType.REVOLUTE, -Z * axis[0], motion=turn(-Z * axis[0], (x, 0, 0)))
-        made.append(PartMotions(numbers[name], 0, PAIR[name], CandidateMotions(PLATE, (across, outer), np.array([lead, 0.0]))))
+        motions = CandidateMotions(PLATE, (*[across] * alike, outer), np.array([lead] * alike + [0.0]))
+        made.append(PartMotions(numbers[name], 0, PAIR[name], motions))
     return Segmentation(np.arange(3), tuple(Part(name, "part") for name in ("base", *ways))), made
 
 
@@ -96,6 +97,15 @@ def test_a_joint_stays_where_no_other_motion_is_nearly_as_likely() -> None:
     vetted = vetted_joints(*motions_of(9.0))
     assert vetted.doubts == {"left": "it goes through right", "right": "it goes through left"}
     assert all(j.type is JointType.PRISMATIC and abs(j.axis @ X) > 0.99 and j.confidence < SURE for j in vetted.joints)
+
+
+def test_a_sure_joint_stays_and_is_doubted() -> None:
+    segmentation, motions = motions_of(1.4, alike=40)
+    assert choose_motion(motions[0].context, motions[0].motions)[0].confidence >= SURE
+    for j in vetted_joints(segmentation, motions).joints:
+        assert j.type is JointType.PRISMATIC
+        assert j.confidence < SURE
+        assert "it goes through" in j.reason
 
 
 def test_joints_that_pass_are_unchanged() -> None:

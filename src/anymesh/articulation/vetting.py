@@ -170,7 +170,8 @@ def vetted_joints(segmentation: Segmentation, motions: Sequence[PartMotions]) ->
     chosen, why = dict(first), faults(contexts, list(first.values()))
     failing = why
     for _ in range(MAX_ROUNDS):
-        following = {name: joint for name in failing if (joint := next(ways[name], None)) is not None}
+        unsure = [name for name in failing if first[name].confidence < SURE]
+        following = {name: joint for name in unsure if (joint := next(ways[name], None)) is not None}
         if not following:
             break
         chosen |= following
