@@ -251,14 +251,14 @@ def examine_candidates(
 def _scored_together(
     looks: Sequence[tuple[PartCandidates, Float[np.ndarray, "n 12"], list[dict[str, float]]]],
 ) -> tuple[PartCandidates, Float[np.ndarray, " n"], Reasons]:
-    """Return the candidates as modelled, the highest of their scores in all shapes, and the reasons as modelled.
+    """Return the candidates as modelled, the mean of their scores in all shapes, and the reasons as modelled.
 
     looks: as from `examine_candidates`, first the object as modelled; after the deadline, shapes may lack candidates, and only
     this one counts.
     """
     scored = [score_parts(*look) for look in looks]
     (score, reasons), examined = scored[0], looks[0][0]
-    return examined, np.max([s for s, _ in scored if len(s) == len(score)], axis=0), reasons
+    return examined, np.mean([s for s, _ in scored if len(s) == len(score)], axis=0), reasons
 
 
 def _reason(learned: str, name: str, likely: bool) -> str:
