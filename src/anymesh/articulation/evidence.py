@@ -34,9 +34,8 @@ MIN_ARM_RATIO = 0.05  # of the part's diagonal: nearer to its center, a rotation
 GUIDE_STEP_RATIO = 0.02  # of the tolerance length: a slide is guided if a sideways step of this length is blocked
 # of its length along the axis: contact and reach of a part that turns endlessly where it is free all round
 MAX_HELD_RATIO, MIN_REACH_RATIO = 0.5, 0.5
-MAX_BALANCE_RATIO = (
-    0.1  # of its reach: distance of the centroid from the axis of a rotor; 75 % of such free rotations turn fully
-)
+# of its reach: distance of the centroid from the axis of a rotor; of such rotations that are free, 75 % turn fully
+MAX_BALANCE_RATIO = 0.1
 # of its reach: where the end of a crank begins, and how far this end stands off along the axis; an estimate
 END_RATIO, MIN_ARM_END_RATIO, MAX_ARM_END_RATIO = 0.75, 0.45, 0.9
 UNSWEPT = Sweep(0.0, 0.0, clear_forward=False, clear_backward=False)
