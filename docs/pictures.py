@@ -26,9 +26,9 @@ from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline import articulate
 from anymesh.pipeline.solving import Solver
 from anymesh.prompted.motions.offers import MAX_SHOWN_ANGLE_RAD, MAX_SHOWN_TRAVEL_RATIO
+from anymesh.prompted.pictures.plates import mark_color
 from anymesh.prompted.pictures.sheet import question_sheet
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
-from anymesh.rendering.marks import mark_color
 from anymesh.rendering.render import encode, render
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.part_candidates import PartCandidates, part_candidates

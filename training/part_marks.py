@@ -21,8 +21,9 @@ from PIL import Image, ImageDraw
 
 from anymesh.evaluation.ground_truth import EvalSample
 from anymesh.geometry.raycast_ import RayScene
+from anymesh.prompted.pictures.plates import mark_color
 from anymesh.prompted.pictures.sheet import question_sheet
-from anymesh.rendering.marks import font, mark_color
+from anymesh.rendering.marks import font
 from anymesh.rendering.render import View, encode, render
 from anymesh.rendering.viewpoints import orbit_camera
 from anymesh.segmentation.divide import object_shape

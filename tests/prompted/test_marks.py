@@ -19,8 +19,9 @@ from anymesh.prompted.pictures.drawing import (
     labels_apart,
     mark_positions,
 )
+from anymesh.prompted.pictures.plates import beside, contrast, mark_color, plate_size, window_sums
 from anymesh.prompted.pictures.sheet import question_sheet
-from anymesh.rendering.marks import beside, contrast, highlight, mark_color, plate_size, rim, window_sums
+from anymesh.rendering.marks import highlight, rim
 from anymesh.rendering.viewpoints import hidden_points, views
 from anymesh.types import Picture
 from anymesh.types.camera import Camera

@@ -10,7 +10,8 @@ from PIL import Image, ImageDraw
 from scipy import ndimage
 
 from anymesh.config import REFERENCE_PX
-from anymesh.rendering.marks import Plate, beside, blend, draw_arrow, draw_leader, draw_plate, mark_color, plate_size, take
+from anymesh.prompted.pictures.plates import Plate, beside, draw_leader, draw_plate, mark_color, plate_size, take
+from anymesh.rendering.marks import blend, draw_arrow
 from anymesh.rendering.render import View
 from anymesh.rendering.viewpoints import visible_pixels
 from anymesh.types.camera import Camera

@@ -15,21 +15,8 @@ from jaxtyping import Bool, Float, Int, UInt8
 from PIL import Image, ImageDraw
 
 from anymesh.geometry.raycast_ import Hits, RayScene
-from anymesh.rendering.marks import (
-    HIGHLIGHT,
-    PAD,
-    WHITE,
-    Plate,
-    axis_line,
-    blend,
-    draw_arrow,
-    draw_plate,
-    draw_ring,
-    lighten,
-    plate_size,
-    rim,
-    ring,
-)
+from anymesh.prompted.pictures.plates import PAD, Plate, draw_plate, plate_size
+from anymesh.rendering.marks import HIGHLIGHT, WHITE, axis_line, blend, draw_arrow, draw_ring, lighten, rim, ring
 from anymesh.rendering.render import lit, shade, turned
 from anymesh.rendering.viewpoints import SKETCH, box_of, framed, orbit_camera, zoom
 from anymesh.types import Brief, JointType, Mesh, Motion
