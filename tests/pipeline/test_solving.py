@@ -13,8 +13,8 @@ from anymesh.pipeline import solving
 from anymesh.pipeline.results import SegmentationResult
 from anymesh.pipeline.solving import GROUND_WARNING, Solver, solve
 from anymesh.segmentation.divide import divide_surface
-from anymesh.types import Asset, Joint, Mesh, Segmentation
-from anymesh.types.motion import Recognition
+from anymesh.types import Asset, Joint, JointType, Mesh, Segmentation
+from anymesh.types.motion import Recognition, RecognizedLabel
 
 MESH, _ = mesh_of([box((0, 0, 0), (1, 1, 0.5))])
 
@@ -24,11 +24,11 @@ class Sees:
 
     name, exchanges, warnings = "sees", (), ()
 
-    def __init__(self, size: float) -> None:
-        self.size = size
+    def __init__(self, size: float, *labels: RecognizedLabel) -> None:
+        self.size, self.labels = size, labels
 
     def ask(self, question):
-        return Recognition("box", self.size, ())
+        return Recognition("box", self.size, self.labels)
 
 
 def test_only_where_pictures_are_answered_seams_closed_in_places_divide_the_surface(monkeypatch) -> None:
@@ -59,6 +59,28 @@ def test_an_answered_size_sets_the_scale_unless_the_file_has_a_unit(
     assert (
         Solver(MESH, answerer_factory=lambda _: Sees(size)).answers.recognize(metric=metric).scale == 1.0
     )  # the user gave the scale
+
+
+SASH = RecognizedLabel("sash", JointType.PRISMATIC, "base", (-0.1, 0.4))
+KEPT = {"sized": True, "metric": True}  # of a file with a unit
+LEAF = RecognizedLabel("leaf", JointType.REVOLUTE, "base", (0.0, 1.5))
+
+
+@pytest.mark.parametrize(
+    ("size", "asked", "share"),
+    [
+        (0.01, KEPT, 100.0), (0.01, {"metric": True}, 100.0), (50.0, KEPT, 0.02),
+        (0.01, {"sized": True}, 1.0), (0.8, KEPT, 1.0),
+    ],
+)  # fmt: skip
+def test_answered_slides_fit_the_size_that_the_mesh_keeps(size: float, asked: dict[str, bool], share: float) -> None:
+    """Their centimetres are those of an object of the answered length; the mesh is 1 m long."""
+    found = Solver(MESH, answerer_factory=lambda _: Sees(size, SASH, LEAF)).answers.recognize(**asked)
+    assert found.recognition is not None
+    sash, leaf = found.recognition.labels
+    assert sash.limits == pytest.approx((-0.1 * share, 0.4 * share))
+    assert leaf == LEAF
+    assert ("slides fit it" in " ".join(found.warnings)) is (share != 1)
 
 
 def test_files_say_whether_they_have_a_unit(tmp_path) -> None:

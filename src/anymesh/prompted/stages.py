@@ -18,7 +18,7 @@ from anymesh.prompted.grounding.sam_onnx_ import load_sam
 from anymesh.prompted.grounding.views import EXACT, MIN_RECOGNITION_PATCH_RATIO, SampledObject, inner_faces, sample_object
 from anymesh.prompted.motions.joints import Questions, Reground, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
-from anymesh.prompted.questions.recognition import GIVEN, answered_scale, ask_recognition
+from anymesh.prompted.questions.recognition import GIVEN, answered_scale, ask_recognition, in_size_of
 from anymesh.runtime import Progress, silent
 from anymesh.types import Picture, Segmentation
 from anymesh.types.motion import Recognition
@@ -72,6 +72,7 @@ class PromptedStages:
         kept = GIVEN if not sized else "the file's unit" if metric else ""
         size, measured = float(self.mesh.extents.max()), answerer.name == FILES
         scale, note, doubt = answered_scale(recognition, size, kept=kept, measured=measured)
+        recognition = in_size_of(recognition, scale * size)
         return RecognitionResult(recognition, answerer.name, scale, note, (*answerer.warnings, *doubt), answerer.exchanges)
 
     def _view_pictures(self) -> tuple[Picture, ...]:

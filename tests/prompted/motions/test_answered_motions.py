@@ -95,7 +95,7 @@ def test_the_normal_of_the_contact_is_taken_outwards(sign: float) -> None:
 def test_the_type_of_a_joint_follows_from_the_motion_and_the_answer(best, endless, moves, verify, kind) -> None:
     case = replace(case_of("left"), answer=KindAnswer(ALONG, endless))
     found, told = _joint(case, Choice(best, "so", 0.7, moves=moves), verify)
-    assert told == ""
+    assert bool(told) is (endless and verify == "motion" and kind is JointType.REVOLUTE)
     assert (found.type, found.confidence, found.reason, found.child) == (kind, 0.7, "so", case.name)
 
 
@@ -125,6 +125,42 @@ def test_an_answered_range_of_what_turns_endlessly_is_told() -> None:
     joint, warning = _joint(case, Choice(EDGE, "so", 0.8), "off")
     assert joint.type is JointType.CONTINUOUS
     assert "the answer 0 to 57.3 degrees is not used, it turns endlessly" in warning
+
+
+STOPPED = replace(EDGE, opening=0.21, closing=0.28)  # blades that reach into the body behind them
+SPINS = RecognizedLabel("part", JointType.CONTINUOUS, None, None)
+
+
+@pytest.mark.parametrize(
+    ("recognized", "endless", "best", "kind", "words"),
+    [
+        (
+            SPINS,
+            True,
+            STOPPED,
+            JointType.CONTINUOUS,
+            "answered twice and is kept, though geometry stops it after 16",
+        ),
+        (SPINS, True, replace(EDGE, closing=np.pi), JointType.CONTINUOUS, ""),
+        (SPINS, False, STOPPED, JointType.REVOLUTE, "geometry stops it after 16 degrees back and 12 ahead"),
+        (SPINS, False, replace(EDGE, closing=np.pi), JointType.REVOLUTE, "a joint with limits was answered"),
+        (None, True, STOPPED, JointType.REVOLUTE, "endless was answered, but geometry stops it"),
+        (
+            replace(SPINS, moves=JointType.REVOLUTE, limits=(0.0, 0.2)),
+            True,
+            STOPPED,
+            JointType.REVOLUTE,
+            "but geometry stops it",
+        ),
+    ],
+)
+def test_endless_is_kept_if_it_was_answered_twice_and_never_lost_in_silence(recognized, endless, best, kind, words) -> None:
+    case = replace(case_of("left"), answer=KindAnswer(ALONG, endless), recognized=recognized)
+    joint, told = _joint(case, Choice(best, "so", 0.9), "motion")
+    assert joint.type is kind
+    assert (joint.limits is None) is (kind is JointType.CONTINUOUS)
+    assert words in told
+    assert bool(told) is bool(words)
 
 
 STACK = {"base": [box((0, 0, 0), (2, 2, 0.2))], "low": [box((0.5, 0.5, 0.2), (1.5, 1.5, 1))]}

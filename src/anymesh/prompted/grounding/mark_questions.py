@@ -32,8 +32,11 @@ MARK_OPACITY = 0.1  # of the mask colours over the picture
 MAX_VIEWS_SHOWN_TWICE = 5  # number of views up to which marks are shown a second time
 TILE_AIR = 0.15  # margin around the marks of a close-up, as a share of their box on each side
 TILES = 4  # maximum number of times that a crowded view is halved: 16 close-ups
-INSIDE = "inside"  # prefix of the names of pictures of the inside
+INSIDE = "inside"  # in the names of pictures of the inside, and of no others
 MAX_MARK_PICTURES = 16  # pictures per call
+
+
+Render = Callable[[View, Camera], View]  # renders a close-up of a view
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,11 +62,11 @@ class MarkPicture(Brief):
 
 
 def choose_pictures(
-    marks: Marks, wanted: Collection[int], views: Sequence[View], names: Sequence[str], render: Callable[[Camera], View]
+    marks: Marks, wanted: Collection[int], views: Sequence[View], names: Sequence[str], render: Render
 ) -> list[MarkPicture]:
     """Return pictures in which each wanted mark is drawn where it is well visible.
 
-    render: renders the close-ups of crowded views.
+    render: renders a close-up of a crowded view.
     """
     numbers = np.array(sorted(wanted), np.int64)
     if len(numbers) == 0:
@@ -105,7 +108,12 @@ def _cover(well: Bool[np.ndarray, "V n"], size: np.ndarray) -> list[tuple[int, n
 
 
 def _drawn(
-    whole: MarkPicture, numbers: np.ndarray, size: np.ndarray, new: np.ndarray, render: Callable[[Camera], View], marks: Marks
+    whole: MarkPicture,
+    numbers: np.ndarray,
+    size: np.ndarray,
+    new: np.ndarray,
+    render: Render,
+    marks: Marks,
 ) -> list[MarkPicture]:
     """Return one picture with all visible marks, or with the new ones only, or else close-ups of the new ones.
 
@@ -120,7 +128,7 @@ def _drawn(
     return _tiles(whole, numbers[new], render, marks)
 
 
-def _tiles(whole: MarkPicture, own: np.ndarray, render: Callable[[Camera], View], marks: Marks) -> list[MarkPicture]:
+def _tiles(whole: MarkPicture, own: np.ndarray, render: Render, marks: Marks) -> list[MarkPicture]:
     """Return close-ups of a crowded view, each with a limited number of marks."""
     label, camera = whole.marks, whole.view.camera
     row, column = np.nonzero(np.isin(label, own))
@@ -136,7 +144,7 @@ def _tiles(whole: MarkPicture, own: np.ndarray, render: Callable[[Camera], View]
     for group in groups:
         at = np.isin(where, group)
         box = np.array([column[at].min(), row[at].min(), column[at].max() + 1, row[at].max() + 1], float)
-        near = render(zoom(camera, box, TILE_AIR, camera.height))
+        near = render(whole.view, zoom(camera, box, TILE_AIR, camera.height))
         tiles.append(MarkPicture(near, marks.in_view(near), f"a close-up of the view {whole.name}").only(own[group]))
     return tiles
 
@@ -199,7 +207,7 @@ def ask_exact(
     numbers = np.unique(marks.face_mark[marks.face_mark > 0]).tolist()
     some = numbers if wanted is None else sorted(wanted)
     first = _in_calls(
-        questioner, choose_pictures(marks, some, seen, names, questioner.visual_prompts.view), marks, (), True, again
+        questioner, choose_pictures(marks, some, seen, names, questioner.visual_prompts.near), marks, (), True, again
     )
     unsure = set(first.unsure)
     parts = first.parts
@@ -207,7 +215,7 @@ def ask_exact(
         marks = split(marks, first.split)
         finer = sorted(set(np.unique(marks.face_mark[marks.face_mark > 0]).tolist()) - set(numbers))
         second = _in_calls(
-            questioner, choose_pictures(marks, finer, seen, names, questioner.visual_prompts.view), marks, parts, False, again
+            questioner, choose_pictures(marks, finer, seen, names, questioner.visual_prompts.near), marks, parts, False, again
         )
         parts, unsure = _together(parts, second.parts), unsure | set(second.unsure)
     return MarkAnswers(marks, parts, frozenset(unsure))
@@ -237,7 +245,7 @@ def _in_calls(
                 questioner.category,
                 parts,
                 splittable,
-                any(p.name.startswith(INSIDE) for p in some),
+                any(INSIDE in p.name for p in some),
                 again,
                 marks.face_mark,
             )

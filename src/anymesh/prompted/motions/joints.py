@@ -27,6 +27,7 @@ from anymesh.config import FACING_COSINE, Config
 from anymesh.geometry.surface import ObjectShape
 from anymesh.pipeline.results import PLEASE_CHECK
 from anymesh.prompted.motions.cases import (
+    TURNING,
     PartCase,
     ask_each,
     contradictions,
@@ -302,17 +303,34 @@ def _surface_directions(questions: Questions, cases: list[PartCase], segmentatio
 
 def _joint(case: PartCase, choice: Choice, verify: str) -> tuple[Joint, str]:
     """Return the joint of a part, and a warning if its limits are not as answered, else ""."""
-    kind = JointType.FIXED
+    kind, twice = JointType.FIXED, False
     if choice.moves:
         turns = choice.best.motion.kind is JointType.REVOLUTE
-        endless = case.answer.endless and (verify != "motion" or choice.best.is_endless)
+        twice = case.answer.endless and case.recognized is not None and case.recognized.moves is JointType.CONTINUOUS
+        endless = case.answer.endless and (twice or verify != "motion" or choice.best.is_endless)
         kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if endless else JointType.REVOLUTE
     answered = answered_range(case.recognized, kind)
     best = away_from_closed(case.context, choice.best) if answered is None else opening_as_answered(choice.best, answered)
     joint = joint_of(case.context, case.name, case.parent, best, kind, choice.confidence, choice.reason, answered)
-    if answered is None:
-        return joint, _unused(joint, case.recognized)
-    return (joint, "") if pressed(best, answered) else _as_answered(case, best, joint, answered)
+    told = _endless_words(case, best, kind, twice=twice)
+    told = told and f"joint {joint.name}: {told}{PLEASE_CHECK}"
+    if answered is None or pressed(best, answered):
+        return joint, told or (_unused(joint, case.recognized) if answered is None else "")
+    joint, shortened = _as_answered(case, best, joint, answered)
+    return joint, shortened or told
+
+
+def _endless_words(case: PartCase, best: Candidate, kind: JointType, *, twice: bool) -> str:
+    """Return in words what became of the answer that a part turns endlessly, if another or geometry is against it, else ""."""
+    recognized = case.recognized is not None and case.recognized.moves is JointType.CONTINUOUS
+    if best.is_endless or kind not in TURNING:
+        return (
+            "endless was recognized, but a joint with limits was answered" if recognized and kind is JointType.REVOLUTE else ""
+        )
+    stop = f"geometry stops it after {np.degrees(best.closing):.0f} degrees back and {np.degrees(best.opening):.0f} ahead"
+    if kind is JointType.CONTINUOUS:
+        return f"endless was answered twice and is kept, though {stop}" if twice else ""
+    return f"endless was answered, but {stop}" if recognized or case.answer.endless else ""
 
 
 def _unused(joint: Joint, recognized: RecognizedLabel | None) -> str:

@@ -194,6 +194,12 @@ class VisualPrompts:
         """Render the view of another camera."""
         return shown(self._mesh, camera, self.scene)
 
+    def near(self, view: View, camera: Camera) -> View:
+        """Render a close-up of a view: what it shows of the inside alone, if it is one of `insides`."""
+        if self._inside is not None and any(view is other for other in self._inside[1]):
+            return inside_views(self._mesh, np.frombuffer(self._inside[0], bool), [camera], self.scene)[0]
+        return self.view(camera)
+
     def insides(self, inside: Bool[np.ndarray, " F"]) -> list[View]:
         """Render some faces alone, with the rest as a ghost, from INSIDE_DIRECTIONS."""
         key = inside.tobytes()

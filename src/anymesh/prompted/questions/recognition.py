@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from anymesh.errors import OptionError
@@ -147,6 +147,21 @@ def ask_recognition(
     return answerer.ask(Recognize(DrawnPictures(pictures), category, tuple(azimuths)))
 
 
+def in_size_of(recognition: Recognition, size: float) -> Recognition:
+    """Return the recognition with its slides as far as the mesh is larger or smaller than the object that was answered.
+
+    Answered centimetres are those of an object of the answered length. size: longest side that the mesh has [m].
+    """
+    factor = size / (recognition.size or size)
+    if 1 / ROUGH <= factor <= ROUGH:
+        return recognition
+    labels = (
+        replace(r, limits=(r.limits[0] * factor, r.limits[1] * factor)) if r.moves is JointType.PRISMATIC and r.limits else r
+        for r in recognition.labels
+    )
+    return replace(recognition, labels=tuple(labels))
+
+
 def answered_scale(
     recognition: Recognition, size: float, *, kept: str = "", measured: bool = False
 ) -> tuple[float, str, tuple[str, ...]]:
@@ -165,6 +180,7 @@ def answered_scale(
     if 1 / near <= factor <= near:
         return 1.0, f"size kept ({basis}); {to_use}", ()
     if kept:
-        return 1.0, "", (f"{kept} was kept ({basis}); {to_use}",)
+        slides = any(label.moves is JointType.PRISMATIC for label in recognition.labels)
+        return 1.0, "", (f"{kept} was kept ({basis}){', and slides fit it' if slides else ''}; {to_use}",)
     note = f"scale {factor:g} ({basis})"
     return factor, note, () if 1 / FAR <= factor <= FAR else (f"{note}; if that is wrong, give --scale",)
