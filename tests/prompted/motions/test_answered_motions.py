@@ -145,13 +145,6 @@ SPINS = RecognizedLabel("part", JointType.CONTINUOUS, None, None)
         (SPINS, False, STOPPED, JointType.REVOLUTE, "geometry stops it after 16 degrees back and 12 ahead"),
         (SPINS, False, replace(EDGE, closing=np.pi), JointType.REVOLUTE, "a joint with limits was answered"),
         (None, True, STOPPED, JointType.REVOLUTE, "endless was answered, but geometry stops it"),
-        (
-            replace(SPINS, moves=JointType.REVOLUTE, limits=(0.0, 0.2)),
-            True,
-            STOPPED,
-            JointType.REVOLUTE,
-            "but geometry stops it",
-        ),
     ],
 )
 def test_endless_is_kept_if_it_was_answered_twice_and_never_lost_in_silence(recognized, endless, best, kind, words) -> None:
