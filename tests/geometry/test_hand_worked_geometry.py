@@ -11,8 +11,9 @@ import trimesh
 from assets import box, mesh_of
 from rigid import apply, move, shape_of
 
-from anymesh.geometry.boxes import OrientedBox, box_in_frame, box_pairs, dominant_normals, fit_box, same_box, within
+from anymesh.geometry.boxes import OrientedBox, box_in_frame, box_pairs, dominant_normals, fit_box, within
 from anymesh.geometry.circles import fit_circle, outline_about, roundest
+from anymesh.geometry.copies import same_box
 from anymesh.geometry.distance_ import TriangleTree, distance_to_mesh
 from anymesh.geometry.raycast_ import RayScene, SurfaceHits
 from anymesh.geometry.simplify_ import FEWEST, simplify

@@ -10,7 +10,7 @@ from jaxtyping import Bool, Float, Int
 from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
 
 from anymesh.config import SAME_AXIS_COSINE
-from anymesh.geometry.boxes import same_box
+from anymesh.geometry.copies import beside, same_box
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet, body_obb
 from anymesh.motion.part_context import MAX_PART_DIAGONALS, MIN_SCALE_RATIO, PartContext, best_direction
@@ -170,8 +170,6 @@ def part_context(
     )
 
 
-# maximum component of the offset along the opening direction, over its length, between parts in a row
-MAX_ROW_OFFSET_RATIO = 0.25
 SAME_BALANCE = 0.2  # maximum difference of the feature "balance" of axes in a similar position: through the center, or at a rim
 MAX_HANDLE_DIFFERENCE = 0.1  # of their lengths and of the fronts' sides: difference of fronts with the same handle; an estimate
 MIN_HANDLE_OFFSET = 0.3  # of half the front's side: a handle nearer to the middle is at no side
@@ -225,24 +223,21 @@ def share_opening_directions(contexts: Sequence[PartContext]) -> list[PartContex
 
 def in_a_row(a: PartContext, b: PartContext) -> bool:
     """Return whether b lies beside a with respect to the opening direction of one of them."""
-    return _beside(a, b, a.opening_direction) or _beside(a, b, b.opening_direction)
-
-
-def _beside(a: PartContext, b: PartContext, way: Float[np.ndarray, " 3"]) -> bool:
     offset = b.body_obb.center - a.body_obb.center
-    return bool(abs(float(offset @ way)) < MAX_ROW_OFFSET_RATIO * np.linalg.norm(offset))
+    return beside(offset, a.opening_direction) or beside(offset, b.opening_direction)
 
 
 def _with_row_direction(context: PartContext, row: list[PartContext]) -> PartContext:
     ways, total = context.opening_directions
-    beside = np.array([all(_beside(context, other, way) for other in row[1:]) for way in ways])
-    if len(row) == 1 or not beside.any():
+    offsets = [other.body_obb.center - context.body_obb.center for other in row[1:]]
+    across = np.array([all(beside(offset, way) for offset in offsets) for way in ways])
+    if len(row) == 1 or not across.any():
         return context
     for other in row[1:]:
         theirs, weights = other.opening_directions
         total = total + weights[(ways @ theirs.T).argmax(1)]
     off = np.mean([a.off_the_middle for a in row], axis=0)
-    best = best_direction(np.where(beside, total / len(row), -np.inf), ways @ off)
+    best = best_direction(np.where(across, total / len(row), -np.inf), ways @ off)
     return context if (ways[best] == context.opening_direction).all() else replace(context, shared_opening_direction=ways[best])
 
 

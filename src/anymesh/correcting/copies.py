@@ -17,21 +17,21 @@ from scipy.spatial import KDTree
 
 from anymesh.correcting.corrections import ChooseMotion, Correction, CorrectionError, FaceSet, Relabel, SplitPart, vector
 from anymesh.correcting.edits import apply, components_of, joint_of_part, part_number
-from anymesh.geometry.boxes import OrientedBox, same_box
+from anymesh.geometry.boxes import OrientedBox
+from anymesh.geometry.copies import beside, same_box, same_spread
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.topology import edge_pairs, label_connected, triangle_set_of
 from anymesh.geometry.triangle_set import body_obb, principal_spread, sample_surface, surface_moments
 from anymesh.types import Asset, Brief, Joint, JointType
 
-# Estimates; articulation/part_contexts.py calls boxes equal up to 3 % of the diagonal.
-MAX_SIZE_DIFFERENCE = 0.03  # of area and spread, relative
+# Estimates
+MAX_SIZE_DIFFERENCE = 0.03  # relative, of the areas of components and facets, and of covariances under a pose
 MAX_MISFIT = 0.01  # mean distance of the surfaces of copies, over the diagonal
 PLACE_REACH = 0.25  # of the diagonal: how far around a part its place is compared
 DETAIL = 0.1  # share of the surface that tells poses apart, such as a handle
 MISFIT_STEP = 0.004  # of the diagonal: poses that differ by less fit alike
 MAX_BOX_RATIO = 0.5  # axis-aligned boxes of copies differ by less; a protrusion such as a handle is not of the box
 NEIGHBOURS = 0.1  # of the diagonal: maximum gap between leaves whose free edges meet
-MAX_ROW_OFFSET = 0.25  # of the offset: share along the opening direction, as for rows in articulation/part_contexts.py
 SAMPLES = 300
 MIN_FLAT_COSINE = float(np.cos(np.deg2rad(5)))  # between faces of one facet, and facets of copies, as in correcting/picking.py
 MAX_REGIONS = 400  # regions of one size that are compared
@@ -84,8 +84,7 @@ class _Surface:
 
     def like(self, other: _Surface) -> bool:
         """Return whether the sizes agree, in any rotation."""
-        near = abs(self.area - other.area) <= MAX_SIZE_DIFFERENCE * self.area
-        return near and bool((np.abs(self.spread - other.spread) <= MAX_SIZE_DIFFERENCE * self.spread.max()).all())
+        return bool(same_spread(np.array([self.area, other.area]), np.array([self.spread, other.spread]))[0, 1])
 
     def misfit(self, other: _Surface, T: Float[np.ndarray, "4 4"], share: float = 1.0) -> float:
         """Return the mean distance of the surfaces under a pose, over the diagonal. share: of the points, the farthest ones."""
@@ -188,11 +187,11 @@ class _Place:
 
 def _beside(joint: Joint, own: _Surface, other: _Surface) -> bool:
     """Return whether a region lies beside a part and not before or behind it, where the part opens to."""
-    offset = other.center - own.center
     way = joint.axis if joint.type is JointType.PRISMATIC else np.cross(joint.axis, own.center - joint.origin)
-    if joint.type in (JointType.CONTINUOUS, JointType.FIXED) or np.linalg.norm(way) < 1e-9:
+    length = float(np.linalg.norm(way))
+    if joint.type in (JointType.CONTINUOUS, JointType.FIXED) or length < 1e-9:
         return True
-    return abs(float(offset @ way)) < MAX_ROW_OFFSET * float(np.linalg.norm(offset) * np.linalg.norm(way))
+    return beside(other.center - own.center, way / length)
 
 
 def _regions_like(asset: Asset, part: str, parent: str) -> Iterator[Int[np.ndarray, " n"]]:

@@ -10,8 +10,6 @@ from jaxtyping import Bool, Float, Int
 from anymesh.types import Brief, Joint, Mesh
 from anymesh.types.triangles import about_z, bounds_of, boxes_meet, cross
 
-MAX_SIDE_DIFFERENCE_RATIO = 0.03  # maximum difference of the sides of copies, over the diagonal
-MIN_COPY_COSINE = 0.99  # minimum cosine between the axes of copies
 BLOCK = 100_000  # points times frames that are transformed at once
 ALIGNED_POWER = 100  # a face lies along an axis by this power of the cosine to its normal: .87 at 3 degrees, .22 at 10
 MIN_BOXY_SHARE = 0.6  # share of the surface along the axes of a frame above which the box is aligned with the surface
@@ -39,14 +37,6 @@ class OrientedBox(Brief):
     def world(self, local: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
         """Transform points from the box frame [m]."""
         return local @ self.axes + self.center
-
-
-def same_box(a: OrientedBox, b: OrientedBox) -> bool:
-    """Return whether two boxes have equal sides along equal directions, as those of (mirrored) copies."""
-    cosines = np.abs(a.axes @ b.axes.T)
-    if cosines.max(1).min() < MIN_COPY_COSINE:
-        return False
-    return bool(np.abs(b.half[cosines.argmax(1)] - a.half).max() < MAX_SIDE_DIFFERENCE_RATIO * a.diagonal / 2)
 
 
 def _frame(first: np.ndarray, second: np.ndarray) -> np.ndarray | None:

@@ -17,7 +17,7 @@ from functools import cached_property
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.config import SAME_SIZE
+from anymesh.geometry.copies import same_spread
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.triangle_set import principal_spread, surface_moments
 from anymesh.segmentation.contacts import Contacts, dominated_by
@@ -149,9 +149,7 @@ class Overlap(Brief):
     @cached_property
     def copies(self) -> Bool[np.ndarray, "n n"]:
         """Return which pairs of candidates do not overlap and have the same area and spread, in any rotation or mirrored."""
-        area, spread = np.maximum(self.area, 1e-300), self.spread
-        same = ~self.meet & ~np.eye(len(area), dtype=bool) & (np.abs(np.log(area[:, None] / area[None])) < 2 * SAME_SIZE)
-        return same & (np.abs(spread[:, None] - spread[None]).max(2) < SAME_SIZE * spread[:, None, 2])
+        return ~self.meet & ~np.eye(len(self.area), dtype=bool) & same_spread(self.area, self.spread)
 
 
 @dataclass(frozen=True, eq=False)

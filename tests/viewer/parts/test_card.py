@@ -9,11 +9,11 @@ from assets import cabinet
 from chest import TOP, chest
 
 from anymesh.correcting import ChooseMotion, Confirm, apply
+from anymesh.correcting.regions import Level
 from anymesh.types import JointType
 from anymesh.viewer.parts.card import Choosing, ShownMotions, choosing_card, nothing_selected, part_card, same_motion
 from anymesh.viewer.parts.channel_ import MAX_MESSAGE, parse
 from anymesh.viewer.parts.pictures import MotionPictures
-from anymesh.viewer.parts.regions import Level
 
 SIDEWAYS = chest(TOP, sideways=True)
 

@@ -9,11 +9,11 @@ import numpy as np
 
 from anymesh.correcting import ChooseMotion, Correction
 from anymesh.correcting.motions import motion_words
+from anymesh.correcting.regions import Level
 from anymesh.pipeline.results import verdict
 from anymesh.rendering.preview import extent
 from anymesh.types import Asset, Joint, JointType
 from anymesh.viewer.panels import badge
-from anymesh.viewer.parts.regions import Level
 from anymesh.viewer.scene import color_of
 
 BY_PERSON = ("corrected by hand", "confirmed by hand")  # begins of the reasons of joints that a person set

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 
 from anymesh.correcting import Correction, CorrectionError, FaceSet, MoveFaces, SplitPart, apply
+from anymesh.correcting.regions import Level, Regions, faces_inside
 from anymesh.types import Mesh
 from anymesh.viewer.panels import Page
 from anymesh.viewer.parts.card import Choosing, choosing_card
 from anymesh.viewer.parts.channel_ import Outline
-from anymesh.viewer.parts.regions import Level, Regions, faces_inside
 from anymesh.viewer.scene_ import camera_of
 from anymesh.viewer.session import Hit, Session
 

@@ -22,6 +22,7 @@ from anymesh.correcting import (
     same_for_copies,
 )
 from anymesh.correcting.motions import told_apart
+from anymesh.correcting.regions import Level
 from anymesh.errors import AnymeshError
 from anymesh.types import Asset
 from anymesh.viewer.panels import Page
@@ -29,7 +30,6 @@ from anymesh.viewer.parts.card import BY_PERSON, ShownMotions, nothing_selected,
 from anymesh.viewer.parts.channel_ import PageMessages
 from anymesh.viewer.parts.maker_ import PartMaker
 from anymesh.viewer.parts.pictures import MotionPictures
-from anymesh.viewer.parts.regions import Level
 from anymesh.viewer.session import Hit, Session
 
 log = logging.getLogger("anymesh")

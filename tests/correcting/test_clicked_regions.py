@@ -5,8 +5,8 @@ import pytest
 from assets import box, mesh_of
 from chest import PIECES, chest
 
+from anymesh.correcting.regions import Level, Regions, faces_inside
 from anymesh.types.camera import Camera
-from anymesh.viewer.parts.regions import Level, Regions, faces_inside
 
 FRONT = Camera.looking_at(np.array([0.0, -3.0, 0.45]), np.array([0.0, 0.0, 0.45]), 0.6, 100, 100)
 
