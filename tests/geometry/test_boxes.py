@@ -320,6 +320,45 @@ def test_the_box_of_a_sheet_leaves_out_its_knob_as_that_of_a_board_does(thicknes
     assert found.half == pytest.approx([0.5, 0.3, thickness / 2], abs=1e-6)
 
 
+def window_frame(width: float, height: float, thickness: float, strip: float, side: float, top: float) -> list:
+    """Return the bars of a frame around a window; `strip` is the height of the lowest, `side` and `top` of the others."""
+    bars = [
+        box((0, 0, strip), (side, thickness, height - top)),
+        box((width - side, 0, strip), (width, thickness, height - top)),
+    ]
+    return [*bars, box((0, 0, height - top), (width, thickness, height)), box((0, 0, 0), (width, thickness, strip))]
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("thickness", [0.005, 0.01, 0.03])
+def test_the_strip_below_the_window_of_a_thin_door_is_of_the_body_though_the_handle_is_not(thickness: float, seed: int) -> None:
+    """The lower edge of the door is a ridge, so that the highest face across its height is the sill of the window."""
+    door = window_frame(0.6, 0.5, thickness, 0.05, 0.05, 0.12)
+    corners, faces = door[3]
+    corners[corners[:, 2] == 0] = [[x, thickness / 2, 0.0] for x in corners[corners[:, 2] == 0][:, 0]]
+    handle = [box((0.05, -0.05, 0.42), (0.55, -0.03, 0.44)), box((0.3, -0.03, 0.42), (0.32, 0, 0.44))]
+    found = body_obb(shape_of(*door[:3], (corners, faces), *handle, T=move(seed)))
+    assert 2 * found.half == pytest.approx([0.6, 0.5, thickness], abs=1e-6)
+
+
+def test_a_bar_in_front_of_a_door_that_ends_above_it_is_not_of_the_body() -> None:
+    bar = [box((0, -0.032, 0.95), (0.6, -0.03, 1.05)), box((0.3, -0.03, 0.95), (0.32, 0, 0.97))]
+    found = body_obb(shape_of(box((0, 0, 0), (0.6, 0.03, 1)), *bar))
+    assert 2 * found.half == pytest.approx([1, 0.6, 0.03], abs=1e-6)
+
+
+@pytest.mark.parametrize("degrees", [20, 39, 51, 70])
+@pytest.mark.parametrize("seed", [0, 1])
+def test_the_box_of_a_sash_lies_along_its_frame_and_not_along_its_slats(degrees: float, seed: int) -> None:
+    """Slats of 4 cm; their box is 10 to 16 times as large as the sash."""
+    sash = window_frame(0.6, 1.2, 0.04, 0.05, 0.05, 0.05)
+    turn = Rotation.from_rotvec([np.deg2rad(degrees), 0, 0]).as_matrix()
+    corners, faces = box((0.05, -0.02, -0.001), (0.55, 0.02, 0.001))
+    slats = [(corners @ turn.T + [0, 0.02, z], faces) for z in np.linspace(0.08, 1.12, 20)]
+    found = shape_of(*sash, *slats, T=move(seed)).box
+    assert 2 * found.half == pytest.approx([1.2, 0.6, 0.04], abs=1e-3)
+
+
 UP = np.array([0.0, 0, 1])
 CABINET = mesh_of([box((0, 0, 0), (0.6, 0.4, 0.8)), box((0, -0.02, 0), (0.3, 0, 0.8))])[0]
 

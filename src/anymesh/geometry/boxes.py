@@ -14,6 +14,8 @@ BLOCK = 100_000  # points times frames that are transformed at once
 ALIGNED_POWER = 100  # a face lies along an axis by this power of the cosine to its normal: .87 at 3 degrees, .22 at 10
 MIN_BOXY_SHARE = 0.6  # share of the surface along the axes of a frame above which the box is aligned with the surface
 MAX_ALIGNED_LOSS = 0.1  # by how much less of the surface may lie along the axes of the frame that is taken
+# maximum volume of an aligned box over the smallest; 1.9 in a cross of plates, 3.8 and more along the slats of a blind
+MAX_ALIGNED_VOLUME_RATIO = 2.5
 MIN_ALIGNED_SHARE = 0.3  # minimum length of the mean direction of upright faces, modulo a quarter turn; 1 if all agree
 MIN_YAW_RAD = float(np.deg2rad(0.5))  # [rad] smaller angles are left, so that files that are nearly straight stay as they are
 
@@ -77,7 +79,8 @@ def fit_box(
     """Fit the smallest box along the asset axes, the dominant normals, or the principal directions.
 
     A box must be 3 % smaller to be preferred to the axis-aligned one. The box of a surface that mostly lies along three axes is
-    aligned with it, since a smaller one may be tilted by a protrusion or by missing surface.
+    aligned with it, since a smaller one may be tilted by a protrusion or by missing surface; unless the aligned one is far
+    larger, as along the slats of a blind and not along its frame.
     """
     frames = [np.eye(3)]
     directions = dominant_normals(normals, weights)
@@ -93,13 +96,16 @@ def fit_box(
     tried = np.array([f for f in frames if f is not None])
     cosines = (np.maximum.reduce(np.abs(f @ normals.T)) for f in tried)  # of each normal to the nearest axis
     aligned = np.array([weights @ cosine**ALIGNED_POWER for cosine in cosines]) / max(weights.sum(), 1e-300)
-    if aligned.max() > MIN_BOXY_SHARE:
-        tried = tried[aligned > aligned.max() - MAX_ALIGNED_LOSS]
     step = max(1, BLOCK // max(len(points), 1))
     sides = np.concatenate([_sides(points, tried[k : k + step]) for k in range(0, len(tried), step)])
     tolerance = 1e-3 * float(np.linalg.norm(np.ptp(points, axis=0)))
+    volumes = (sides + tolerance).prod(1)
+    volumes = np.where(volumes > MAX_ALIGNED_VOLUME_RATIO * volumes.min(), np.inf, volumes)
+    aligned[np.isinf(volumes)] = 0
+    if aligned.max() > MIN_BOXY_SHARE:
+        volumes[aligned <= aligned.max() - MAX_ALIGNED_LOSS] = np.inf
     best, best_volume = 0, np.inf
-    for k, volume in enumerate((sides + tolerance).prod(1)):
+    for k, volume in enumerate(volumes):
         if volume < best_volume * 0.97:
             best, best_volume = k, volume
     return box_in_frame(points, tried[best])

@@ -271,15 +271,15 @@ def body_obb(shape: TriangleSet) -> OrientedBox:
     corners = shape.corners @ frame.T
     low, high = corners.min(0), corners.max(0)
     tolerance = 0.01 * shape.box.diagonal
-    for axis in range(3):
+    for axis in (2, 1, 0):  # thickness first: beyond another side, what is as thick as the rest is not narrow
         for sign, edge in ((1.0, high), (-1.0, low)):
             heights = sign * local[:, :, axis]
             level = _side_level(heights[facing[:, axis]], shape.areas[facing[:, axis]], 0.02 * area)
             if level >= sign * edge[axis] - tolerance:
                 continue
             share = float(shape.areas @ shares_above(heights, level + tolerance / 2)) / area
-            beyond = points_above(local, heights, level + tolerance / 2)
-            if 0 < share < MAX_PROTRUSION_RATIO and _is_narrow(beyond, corners, axis):
+            beyond = np.clip(points_above(local, heights, level + tolerance / 2), low, high)
+            if 0 < share < MAX_PROTRUSION_RATIO and _is_narrow(beyond, high - low, axis):
                 edge[axis] = sign * level
     return box_in_frame(box_corners(np.stack([low, high])) @ frame, frame)
 
@@ -294,8 +294,6 @@ def _side_level(heights: Float[np.ndarray, "F 3"], areas: Float[np.ndarray, " F"
     return float(middle[order[np.searchsorted(outer, SIDE_LEVEL_RATIO * outer[-1], side="right")]])
 
 
-def _is_narrow(beyond: Float[np.ndarray, "n 3"], corners: Float[np.ndarray, "m 3"], axis: int) -> bool:
-    """Return whether what is beyond a level is narrower than the part in one direction."""
-    others = [k for k in range(3) if k != axis]
-    span = np.ptp(beyond[:, others], axis=0) / np.maximum(np.ptp(corners[:, others], axis=0), 1e-12)
-    return bool(span.min() < 0.6)
+def _is_narrow(beyond: Float[np.ndarray, "n 3"], sides: Float[np.ndarray, " 3"], axis: int) -> bool:
+    """Return whether what is beyond a level is narrower than the body in one direction."""
+    return bool(np.delete(np.ptp(beyond, axis=0) / np.maximum(sides, 1e-12), axis).min() < 0.6)
