@@ -109,10 +109,10 @@ def _singular(word: str) -> str:
     return next((w for w in singulars if w in _BY_NAME or w in FIXED), likely)
 
 
-def names_several(name: str) -> bool:
-    """Return whether a name contains the plural of a kind of part, as that of a group of objects does ("LeftDoors")."""
+def named_plurals(name: str) -> set[str]:
+    """Return the names of parts whose plural is in a name, as in that of a group of objects ("3Drawers" gives drawer)."""
     words = [w.lower() for w in _SPLIT.split(name) if w]
-    return any(w not in _BY_NAME and _singular(w) in _BY_NAME for w in words)
+    return {_singular(w) for w in words if w not in _BY_NAME} & _BY_NAME.keys()
 
 
 def recognize(name: str) -> Word | None:

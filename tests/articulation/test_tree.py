@@ -1,7 +1,6 @@
 """Test the parents of parts."""
 
 import numpy as np
-import pytest
 from assets import box
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -50,33 +49,6 @@ def test_descendants_are_those_whose_way_up_leads_through(draws) -> None:
         assert descendants(parent, i) == [j for j in range(len(parent)) if i in way_up(j)]
 
 
-BESIDE = {
-    "base": [box((0, 0, 0), (9, 9, 1))],
-    "a": [box((1, 1, 1), (3, 3, 4))],
-    "b": [box((3, 1, 1), (4, 3, 3))],
-    "far": [box((7, 7, 1.5), (8, 8, 9))],
-}
-
-
-@pytest.mark.parametrize(
-    ("told", "parent"),
-    [
-        ([set(), set(), {1}, set()], 1),  # it touches the base as well
-        ([set(), set(), {0}, set()], 0),
-        ([set(), set(), {1, 3}, set()], 1),  # the nearest of the named ones
-        ([set(), set(), {2}, set()], 0),  # not on itself
-        ([set(), set(), {3}, set()], 0),  # out of reach: geometry decides
-        (None, 0),
-    ],
-)
-def test_what_somebody_said_is_taken_where_it_touches(told, parent: int) -> None:
-    assert parents_of(BESIDE, told)[2] == parent
-
-
-def test_what_somebody_said_in_a_circle_is_left_to_the_geometry() -> None:
-    assert parents_of(BESIDE, [set(), {2}, {1}, set()]) == parents_of(BESIDE, None)
-
-
 LAMP = {
     "base": [box((0, 0, 0), (2, 2, 0.2))],
     "upper": [box((0.9, 0.9, 3.2), (1.1, 1.1, 6))],
@@ -85,41 +57,32 @@ LAMP = {
 }
 
 
-def test_parts_of_one_label_hang_on_each_other_in_a_chain() -> None:
-    assert parents_of(LAMP, None) == [-1, 2, 0, 1]
-    others = {0, 1, 2, 3}
-    assert parents_of(LAMP, [set(), others - {1}, others - {2}, {1, 2}]) == [-1, 2, 0, 1]
+def test_parts_that_touch_form_a_chain() -> None:
+    assert parents_of(LAMP) == [-1, 2, 0, 1]
 
 
 def test_a_chain_of_links_hangs_on_the_base_one_by_one() -> None:
     links = {f"link_{k}": [box((0, 0, k), (0.2, 0.2, k + 0.99))] for k in range(1, 6)}
-    assert parents_of({"base": [box((-1, -1, 0), (1, 1, 1))], **links}, None) == [-1, 0, 1, 2, 3, 4]
+    assert parents_of({"base": [box((-1, -1, 0), (1, 1, 1))], **links}) == [-1, 0, 1, 2, 3, 4]
 
 
 def test_a_wheel_hangs_on_a_smaller_fork_that_is_nearer_to_the_base() -> None:
     fork, wheel = box((0.9, 0.9, 1.1), (1.1, 1.1, 1.5)), box((0.5, 0.9, 0.3), (1.5, 1.1, 1.1))
-    assert parents_of({"base": [box((0, 0, 1.53), (9, 9, 2))], "wheel": [wheel], "fork": [fork]}, None) == [-1, 2, 0]
+    assert parents_of({"base": [box((0, 0, 1.53), (9, 9, 2))], "wheel": [wheel], "fork": [fork]}) == [-1, 2, 0]
 
 
 def test_a_root_alone_has_no_parent() -> None:
-    assert parents_of({"base": LAMP["base"]}, None) == [-1]
+    assert parents_of({"base": LAMP["base"]}) == [-1]
 
 
 def test_a_part_without_extent_has_a_parent() -> None:
     point = (np.full((3, 3), 5.0), np.array([[0, 1, 2]]))
-    assert parents_of({**LAMP, "point": [point]}, None)[:4] == [-1, 2, 0, 1]
-    assert parents_of({**LAMP, "point": [point]}, None)[4] in (0, 1, 2, 3)
+    assert parents_of({**LAMP, "point": [point]})[:4] == [-1, 2, 0, 1]
+    assert parents_of({**LAMP, "point": [point]})[4] in (0, 1, 2, 3)
 
 
-def test_an_answered_parent_is_kept_where_geometry_says_the_opposite() -> None:
-    """By geometry the upper arm hangs on the lower one."""
-    arms = {"base": LAMP["base"], "lower": LAMP["lower"], "upper": LAMP["upper"]}
-    assert parents_of(arms, None) == [-1, 0, 1]
-    assert parents_of(arms, [set(), {2}, set()]) == [-1, 2, 0]
-
-
-def parents_of(scene: Scene, told) -> list[int]:
+def parents_of(scene: Scene) -> list[int]:
     mesh, segmentation = built(scene)
     whole = object_shape(mesh, 0, labels=segmentation.face_part)
     shapes = [whole.of(np.flatnonzero(segmentation.face_part[whole.source] == k)) for k in range(len(scene))]
-    return parents(shapes, whole.diagonal, told)
+    return parents(shapes, whole.diagonal)

@@ -20,12 +20,12 @@ from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.divide import object_shape
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_candidates import (
-    NameClass,
     PartCandidates,
     merged_groups,
     name_class,
     part_candidates,
     shared_name,
+    usual_label,
 )
 from anymesh.segmentation.part_classifier import Reasons
 from anymesh.segmentation.segment import MIN_PART_PROBABILITY
@@ -109,15 +109,15 @@ def test_the_largest_candidates_are_kept(most: int, smallest: float, pieces: lis
 
 @pytest.mark.parametrize(
     ("name", "kind"),
-    [("door_left", NameClass.MOVABLE), ("handle", NameClass.NONE), ("body", NameClass.FIXED), ("Cube.017", NameClass.NONE)],
+    [("door_left", "movable"), ("handle", ""), ("body", "fixed"), ("Cube.017", "")],
 )
-def test_names_say_whether_a_candidate_moves(name: str, kind: NameClass) -> None:
-    assert name_class(name) is kind
+def test_names_say_whether_a_candidate_moves(name: str, kind: str) -> None:
+    assert name_class(name) == kind
 
 
 def test_the_names_of_movable_parts_raise_scores_and_those_of_fixed_ones_lower_them() -> None:
-    assert NameClass.NONE not in NAME_SCORE
-    named = np.array([-3 + NAME_SCORE[NameClass.MOVABLE], 3 + NAME_SCORE[NameClass.FIXED]])
+    assert "" not in NAME_SCORE
+    named = np.array([-3 + NAME_SCORE["movable"], 3 + NAME_SCORE["fixed"]])
     probability = segment.shipped_classifier().probability(named)
     assert probability[0] > MIN_PART_PROBABILITY > probability[1]
 
@@ -197,7 +197,41 @@ def test_names_change_what_is_a_part_and_are_given_as_reason(monkeypatch: pytest
     assert found[1].reason.startswith('named "door"; ')
     assert found[1].label == "door"
     unlikely = -1.1  # below the minimum probability
-    assert segmented(monkeypatch, [unlikely - NAME_SCORE[NameClass.MOVABLE], unlikely], ("case", "door", "b")) == {}
+    assert segmented(monkeypatch, [unlikely - NAME_SCORE["movable"], unlikely], ("case", "door", "b")) == {}
+
+
+@pytest.mark.parametrize(
+    ("names", "label"),
+    [
+        (("Kitchen_3Drawers",), "drawer"), (("wardrobe doors",), "door"), (("Drawer_3",), "part"), (("Cube",), "part"),
+        (("2Doors3Drawers",), "part"), (("drying_racks",), "part"), (("Kitchen_3Drawers", "top"), "part"),
+    ],
+)  # fmt: skip
+def test_the_plural_of_a_part_in_the_name_of_the_only_node_tells_what_large_parts_are(
+    names: tuple[str, ...], label: str
+) -> None:
+    mesh, piece = mesh_of(LOOSE)
+    assert usual_label(replace(mesh, face_node=piece % len(names), nodes=tuple(map(Node, names)))) == label
+
+
+def test_parts_that_may_be_of_the_kind_that_the_object_is_named_after_are_tested_as_such(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The smaller cube is too small for a drawer."""
+    asked: list[list[str]] = []
+    mesh, _ = mesh_of([box((0, 0, 0), (1, 1, 1)), box((2, 0, 0), (2.6, 0.6, 0.6)), box((2, 2, 0), (2.2, 2.2, 0.2))])
+    mesh = replace(mesh, nodes=(Node("3Drawers"),))
+
+    def label_parts(found: Segmentation) -> list[str]:
+        asked.append([part.label for part in found.parts[1:]])
+        return ["part"] * len(asked[-1])
+
+    monkeypatch.setattr(
+        segment, "score_parts", lambda tree, *_: (2.0 - 9 * (tree.area > 5), lambda chosen: ["why"] * len(chosen))
+    )
+    parts = segment.segment_parts(mesh, [object_shape(mesh)], label_parts).parts
+    assert asked == [["drawer", "part"]]
+    assert [part.label for part in parts[1:]] == ["part", "part"]  # if they do not move so
 
 
 def test_the_largest_part_is_the_base_if_nothing_else_is_left() -> None:

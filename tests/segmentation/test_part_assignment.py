@@ -24,6 +24,7 @@ from anymesh.segmentation.segment import (
     conflicts,
     join_floating,
     likely_parts,
+    prefer_copies,
     with_copies,
 )
 from anymesh.types import Segmentation
@@ -70,6 +71,27 @@ def test_copies_share_their_fate_where_most_are_parts() -> None:
     members[4, 3] = True  # the fifth crosses the last wheel
     crossed = overlap(members, np.array([1.0, 1, 1, 1, 1, 5]))
     assert with_copies(crossed, [0, 1, 2, 4], np.array([0.9, 0.9, 0.9, 0.1, 0.9, 0.1])) == [0, 1, 2, 4]
+
+
+@pytest.mark.parametrize(
+    ("second", "probability", "chosen"),
+    [
+        (1.0, (0.59, 0.40, 0.35), [1, 2]),  # 0.75 drawers are to be expected, and 0.59 of both as one part
+        (1.0, (0.80, 0.40, 0.35), [0]),
+        (1.0, (0.50, 0.36, 0.20), [0]),  # no parts by their mean
+        (1.3, (0.59, 0.40, 0.35), [0]),  # no copies
+    ],
+)
+def test_copies_are_parts_and_not_their_union_if_more_of_them_are_to_be_expected(
+    second: float, probability: tuple[float, ...], chosen: list[int]
+) -> None:
+    """Two drawers that touch, and both together. Their knobs are patches, and candidates of their own."""
+    members = np.array([[1, 1, 1, 1], [1, 0, 1, 0], [0, 1, 0, 1], [0, 0, 1, 0], [0, 0, 0, 1]], bool)
+    drawers = overlap(members, np.array([1.0, second, 0.03, 0.03]))
+    found = prefer_copies(drawers, np.array([*probability, 0.1, 0.1]))
+    assert assign_parts(drawers, found) == chosen
+    expected = (0.0, 0.40, 0.375) if len(chosen) == 2 else probability
+    assert found.tolist() == pytest.approx([*expected, 0.1, 0.1])
 
 
 def test_few_candidates_are_tried_and_ties_or_many_are_programmed(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -26,18 +26,20 @@ MAX_BARREL_LENGTH_RATIO, MAX_BARREL_RADIUS_RATIO = 1.1, 0.05  # of the part's di
 MIN_BARREL_SQUARENESS, MIN_BARREL_ASPECT = 0.7, 1.5  # smaller over larger side across; length over the larger side across
 
 
-def parents(shapes: list[TriangleSet], diagonal: float, answered: Sequence[set[int]] | None = None) -> list[int]:
+def touching_distance(shapes: Sequence[TriangleSet], diagonal: float) -> Float[np.ndarray, " p"]:
+    """Return the distance within which each part touches another [m]. diagonal: of the object [m]."""
+    size = np.array([np.linalg.norm(np.ptp(s.bounds, axis=0)) for s in shapes])
+    return TOUCHING_RATIO * np.maximum(np.minimum(diagonal, MAX_PART_DIAGONALS * size), MIN_SCALE_RATIO * diagonal)
+
+
+def parents(shapes: Sequence[TriangleSet], diagonal: float) -> list[int]:
     """Return the parent's index of every part (-1 for the root, 0).
 
     The parts form a tree with large contacts and small gaps: the minimum spanning tree of `_separations`.
-    answered: the indices of possible parents of each part, which may be empty; the nearest touching one is used.
     """
-    size = np.array([np.linalg.norm(np.ptp(s.bounds, axis=0)) for s in shapes])
-    reach = TOUCHING_RATIO * np.maximum(np.minimum(diagonal, MAX_PART_DIAGONALS * size), MIN_SCALE_RATIO * diagonal)
-    named = _answered_parents(shapes, answered, reach) if answered else {}
-    _, over = breadth_first_order(minimum_spanning_tree(_separations(shapes, reach)), 0, directed=False)
-    parent = [-1, *(named.get(i, int(over[i])) for i in range(1, len(shapes)))]
-    return _without_cycles(parent, named)
+    separations = _separations(shapes, touching_distance(shapes, diagonal))
+    _, over = breadth_first_order(minimum_spanning_tree(separations), 0, directed=False)
+    return [-1, *(int(k) for k in over[1 : len(shapes)])]
 
 
 def _separations(shapes: Sequence[TriangleSet], reach: Float[np.ndarray, " p"]) -> Float[np.ndarray, "p p"]:
@@ -61,49 +63,6 @@ def _separations(shapes: Sequence[TriangleSet], reach: Float[np.ndarray, " p"]) 
     separation[0] -= np.log(ROOT_GAIN)
     separation[:, 0] -= np.log(ROOT_GAIN)
     return separation * ~np.eye(len(shapes), dtype=bool)
-
-
-def _answered_parents(
-    shapes: list[TriangleSet], answered: Sequence[set[int]], reach: Float[np.ndarray, " p"]
-) -> dict[int, int]:
-    """Return the answered parents that touch their part, by part.
-
-    Parts that name each other, such as the arms of a lamp, form a chain. Those that touch a part outside of it come first, then
-    those that touch them. All other parts take the nearest part that they name.
-    """
-    parent: dict[int, int] = {}
-    placed = {j for j in range(len(shapes)) if j == 0 or not answered[j]}
-    while True:
-        ready = {}
-        for i in sorted(set(range(len(shapes))) - placed):
-            chain = {j for j in answered[i] if i in answered[j]}
-            if chain or answered[i] <= placed:
-                nearest = _nearest(shapes[i].samples.points[::6], shapes, (answered[i] - {i}) & placed, reach[i])
-                if nearest is not None or not chain:
-                    ready[i] = nearest
-        if not ready:
-            return parent
-        parent |= {i: j for i, j in ready.items() if j is not None}
-        placed |= ready.keys()
-
-
-def _nearest(points: np.ndarray, shapes: list[TriangleSet], among: set[int], reach: float) -> int | None:
-    """Return the part nearest to these points, None if none is within reach [m]."""
-    off = {j: float(shapes[j].tree.distance(points).min()) for j in sorted(among)}
-    best = min(off, key=lambda j: off[j], default=None)
-    return best if best is not None and off[best] < reach else None
-
-
-def _without_cycles(parent: list[int], answered: Collection[int]) -> list[int]:
-    """Return the parents with the root as parent of one part of each circle, which is not an answered one."""
-    for i in sorted(range(1, len(parent)), key=lambda i: i in answered):
-        seen, at = set(), parent[i]
-        while at > 0 and at != i and at not in seen:
-            seen.add(at)
-            at = parent[at]
-        if at == i:
-            parent[i] = 0
-    return parent
 
 
 def descendants(parent: list[int], i: int) -> list[int]:
@@ -141,11 +100,7 @@ def find_barrel_candidates(whole: ObjectShape, part: TriangleSet, parent: Triang
 
 
 def part_context(
-    whole: ObjectShape,
-    label: Int[np.ndarray, " F"],
-    shapes: list[TriangleSet],
-    parent: list[int],
-    i: int,
+    whole: ObjectShape, label: Int[np.ndarray, " F"], shapes: list[TriangleSet], parent: list[int], i: int
 ) -> PartContext:
     """Build the context of part i with its descendants; the root and its ancestors are static."""
     carried = [i, *descendants(parent, i)]

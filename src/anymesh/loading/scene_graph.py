@@ -17,7 +17,7 @@ from anymesh.loading.files import Folder
 from anymesh.loading.join import unique_names
 from anymesh.names import listed
 from anymesh.types import Mesh, Node
-from anymesh.vocabulary import is_fixed_name, names_several, recognize, words_of
+from anymesh.vocabulary import is_fixed_name, named_plurals, recognize, words_of
 
 SKETCHFAB = "Sketchfab_model"  # root of its files, in which a number is added to each name
 SHOWN = 5  # names in a warning
@@ -147,7 +147,7 @@ def _named(mesh: Mesh) -> Mesh:
         by_material = all(objects[k][1] for k in members)
         if 1 < len(members) == len(nodes) and not by_material:
             continue  # the name of the whole says nothing of its parts
-        joins = len(members) > 1 and (by_material or not (names_several(chain[-1]) or SEVERAL & set(words_of(chain[-1]))))
+        joins = len(members) > 1 and (by_material or not (named_plurals(chain[-1]) or SEVERAL & set(words_of(chain[-1]))))
         first[members] = members[0] if joins else members
         for k in members:
             if chain != _chain(nodes[k]):

@@ -10,7 +10,7 @@ from typing import Protocol
 import numpy as np
 from jaxtyping import Bool
 
-from anymesh.articulation.estimate import PartMotions, choose_motion, part_motions, with_labels_of
+from anymesh.articulation.estimate import PartMotions, choose_motion, is_named, part_motions, with_labels_of
 from anymesh.articulation.rank_motions import MIN_LABEL_CONFIDENCE, label_of
 from anymesh.articulation.vetting import vetted_joints
 from anymesh.config import Config
@@ -118,9 +118,10 @@ class GeometryStages:
         labels = {}
         for i, _, context, motions in self.motions(segmentation):
             choice, best = choose_motion(context, motions)
-            still = choice.type is JointType.FIXED and typical_motion(segmentation.parts[i].label) is None
+            own = segmentation.parts[i]
+            still = choice.type is JointType.FIXED and (typical_motion(own.label) is None or not is_named(own))
             label = "" if still else label_of(context, best)
-            labels[i] = label if choice.confidence >= MIN_LABEL_CONFIDENCE.get(label, 0.0) else "part"
+            labels[i] = label if label == own.label or choice.confidence >= MIN_LABEL_CONFIDENCE.get(label, 0.0) else "part"
         return [labels[i] for i in sorted(labels)]
 
     def motions(self, segmentation: Segmentation, progress: Progress = silent) -> list[PartMotions]:

@@ -11,7 +11,6 @@ import heapq
 import itertools
 from collections.abc import Iterable
 from dataclasses import dataclass
-from enum import StrEnum
 from functools import cached_property
 
 import numpy as np
@@ -22,7 +21,7 @@ from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.triangle_set import principal_spread, surface_moments
 from anymesh.segmentation.contacts import Contacts, dominated_by
 from anymesh.types import Brief, Mesh
-from anymesh.vocabulary import is_fixed_name, recognize, words_of
+from anymesh.vocabulary import is_fixed_name, named_plurals, recognize, words_of
 
 MIN_PART_RATIO = 0.004  # of the object's diagonal: patches with a smaller one never move on their own
 MAX_CANDIDATES = 600  # largest groups of patches that are examined as parts
@@ -218,20 +217,20 @@ def _bounds(patches: Float[np.ndarray, "P 2 3"], members: Bool[np.ndarray, " P"]
     return np.array([mine[:, 0].min(0), mine[:, 1].max(0)])
 
 
-class NameClass(StrEnum):
-    """Classes of the names of candidates."""
-
-    NONE = ""  # no name, or one that says neither
-    MOVABLE = "movable"
-    FIXED = "fixed"
-
-
-def name_class(name: str) -> NameClass:
-    """Return the class of a name; a handle moves on its own or with the part that it is attached to."""
-    if is_fixed_name(name):
-        return NameClass.FIXED
+def name_class(name: str) -> str:
+    """Return what a name says: "movable", "fixed", or "" for a handle, which may move with the part that it is attached to."""
     word = recognize(name)
-    return NameClass.NONE if word is None or word.label == "handle" else NameClass.MOVABLE
+    return "fixed" if is_fixed_name(name) else "movable" if word is not None and word.label != "handle" else ""
+
+
+def usual_label(mesh: Mesh) -> str:
+    """Return door or drawer if the name of the only node has this plural ("Kitchen_3Drawers"), else "part".
+
+    Of the joints of large parts in objects that are named so, 52 of 55 are of the kind (Articraft-10K).
+    """
+    node = int(mesh.face_node[0])
+    found = named_plurals(mesh.nodes[node].name) & {"door", "drawer"} if (mesh.face_node == node).all() else set()
+    return found.pop() if len(found) == 1 else "part"
 
 
 def shared_name(candidates: PartCandidates, candidate: int) -> str:

@@ -313,10 +313,7 @@ def _copies(inputs: FeatureInputs, candidate: int, context: PartContext) -> dict
     outline = context.outline
     arm = middles - outline.center
     across = np.linalg.norm(arm - (arm @ outline.axis)[:, None] * outline.axis, axis=1)
-    return {
-        "log copies": float(np.log1p(copies.sum())),
-        "copy on the axis": float((across < 0.3 * outline.radius).any()),
-    }
+    return {"log copies": float(np.log1p(copies.sum())), "copy on the axis": float((across < 0.3 * outline.radius).any())}
 
 
 def _material(inputs: FeatureInputs, candidate: int, context: PartContext) -> dict[str, float]:
@@ -324,7 +321,4 @@ def _material(inputs: FeatureInputs, candidate: int, context: PartContext) -> di
     total = inputs.material.sum(0)
     mine = inputs.candidates.members[candidate] @ inputs.material
     k = int(mine.argmax())
-    return {
-        "materials": float(np.log1p((total > 0).sum())),
-        "material of its own": float(mine[k] / max(total[k], 1e-300)),
-    }
+    return {"materials": float(np.log1p((total > 0).sum())), "material of its own": float(mine[k] / max(total[k], 1e-300))}

@@ -22,7 +22,16 @@ from anymesh.runtime import SEGMENT, Deadline, Progress, silent, usable_cores
 from anymesh.scoring import by_hand
 from anymesh.segmentation.contacts import Contacts, find_contacts
 from anymesh.segmentation.naming import named_parts
-from anymesh.segmentation.part_candidates import Overlap, PartCandidates, distinct, name_class, part_candidates, shared_name
+from anymesh.segmentation.part_candidates import (
+    MIN_NESTED_SHARE,
+    Overlap,
+    PartCandidates,
+    distinct,
+    name_class,
+    part_candidates,
+    shared_name,
+    usual_label,
+)  # fmt: skip
 from anymesh.segmentation.part_classifier import Reasons, score_parts, shipped_classifier
 from anymesh.segmentation.part_features import FeatureInputs, candidate_context, part_features
 from anymesh.types import Mesh, Segmentation
@@ -34,6 +43,7 @@ NEARLY = 2  # candidates that are named where there is no part
 MIN_COPIES = 2  # number of copies of a candidate that are parts from which it is one too, if they are most of its copies
 MAX_TRIED = 10  # candidates in conflict, directly or through others, up to which all sets are tried
 TIE = 1e-6  # difference of sums of probabilities below which two sets are equally good
+MIN_USUAL_RATIO = 0.2  # of the diagonal: a smaller candidate is not of the kind that the object's name has in the plural
 MIN_DUPLICATE_IOU = 0.3  # minimum IoU at which a candidate within another one is the same part
 
 
@@ -59,6 +69,23 @@ def assign_parts(overlap: Overlap, probability: Float[np.ndarray, " n"]) -> list
     likely = probability[likely_parts(clash, probability)]
     f1 = 2 * likely.cumsum() / (np.arange(1, len(likely) + 1) + likely.sum())
     return _best_set(probability - max(f1.max(initial=0.0) / 2, MIN_PART_PROBABILITY), clash)
+
+
+def prefer_copies(overlap: Overlap, probability: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
+    """Return the probabilities, 0 for the union of copies of which more are parts to be expected, and their mean for these.
+
+    Two drawers that touch may look like one part, but one part does not look like two copies.
+    """
+    chance, likely, area = probability.copy(), np.flatnonzero(probability > UNLIKELY), overlap.area
+    for k in likely:
+        inside = likely[overlap.nested[k, likely] & (area[likely] < area[k])]
+        for first in inside:
+            twins = inside[overlap.copies[first, inside]]
+            alike = [first, *twins[likely_parts(overlap.meet[np.ix_(twins, twins)], probability[twins])]]
+            mean, whole = probability[alike].mean(), area[alike].sum() > MIN_NESTED_SHARE * area[k]
+            if whole and mean > MIN_PART_PROBABILITY and mean * len(alike) > probability[k]:
+                chance[k], chance[alike] = 0, np.maximum(chance[alike], mean)
+    return chance
 
 
 def with_copies(overlap: Overlap, chosen: list[int], probability: Float[np.ndarray, " n"]) -> list[int]:
@@ -176,6 +203,8 @@ def segment_parts(
     score = score + np.array([by_hand.NAME_SCORE.get(name_class(word), 0.0) for word in words])
     classifier = shipped_classifier()
     known = [word.label if (word := recognize(w)) else "" for w in words]
+    sizes, plural = np.linalg.norm(np.ptp(examined.bounds, axis=1), axis=1) / examined.whole.diagonal, usual_label(mesh)
+    usual = ["part" if size < MIN_USUAL_RATIO else plural for size in sizes]
 
     def segmentation(face_part: Int[np.ndarray, " F"], order: list[int], labels: list[str], likely: list[int]) -> Segmentation:
         confidence = [classifier.confidence(float(score[k])) for k in order]
@@ -186,9 +215,10 @@ def segment_parts(
     probability, likely = classifier.probability(score), list[int]()
     free = probability.copy()  # 0 for candidates that turned out to be fixed
     for _ in range(MAX_ASSIGNMENTS):
-        likely = with_copies(examined.overlap, assign_parts(examined.overlap, free), free)
-        face_part, order = _face_part(mesh, examined, _filled(examined, free, likely, at_least))
-        labels = list(label_parts(segmentation(face_part, order, ["part"] * len(order), likely)))
+        chance = prefer_copies(examined.overlap, free)
+        likely = with_copies(examined.overlap, assign_parts(examined.overlap, chance), chance)
+        face_part, order = _face_part(mesh, examined, _filled(examined, chance, likely, at_least))
+        labels = list(label_parts(segmentation(face_part, order, [usual[k] for k in order], likely)))
         fixed = [k for k, label in zip(order, labels, strict=True) if not label]
         if not fixed or deadline.late(SEGMENT):
             break

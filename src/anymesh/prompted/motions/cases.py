@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from jaxtyping import Float
 
-from anymesh.articulation.part_contexts import descendants, parents, part_context, same_size, share_opening_directions
+from anymesh.articulation.part_contexts import (
+    descendants,
+    parents,
+    part_context,
+    same_size,
+    share_opening_directions,
+    touching_distance,
+)  # fmt: skip
 from anymesh.config import Config
 from anymesh.geometry.surface import ObjectShape
+from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.lines import plane_normal, round_patches
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, PartShown
@@ -59,7 +68,7 @@ def make_cases(
     label = segmentation.face_part[whole.source]
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(segmentation.parts))]
     recognized = {r.label: r for r in recognition.labels} if recognition else {}
-    parent = parents(shapes, whole.diagonal, _answered_parents(segmentation, recognized))
+    parent = parents_as_answered(shapes, whole.diagonal, _possible_parents(segmentation, recognized))
     contexts = {}
     for numbers in same_size(shapes, parent):
         some = [part_context(whole, label, shapes, parent, i) for i in numbers]
@@ -87,7 +96,7 @@ def make_cases(
     return cases
 
 
-def _answered_parents(segmentation: Segmentation, recognized: Mapping[str, RecognizedLabel]) -> list[set[int]]:
+def _possible_parents(segmentation: Segmentation, recognized: Mapping[str, RecognizedLabel]) -> list[set[int]]:
     """Return the indices of possible parents of each part according to the answers; empty without an answer.
 
     A label that names itself as parent marks a chain: such parts depend on each other, and the first of them on any other part.
@@ -103,6 +112,58 @@ def _answered_parents(segmentation: Segmentation, recognized: Mapping[str, Recog
         else:
             possible_parents.append({j for j in numbers if j > 0 and segmentation.parts[j].label == over})
     return possible_parents
+
+
+def parents_as_answered(shapes: Sequence[TriangleSet], diagonal: float, answered: Sequence[set[int]]) -> list[int]:
+    """Return `parents`, with the nearest touching one of the possible parents of each part that were answered.
+
+    answered: the indices of possible parents of each part, which may be empty.
+    """
+    named = _answered_parents(shapes, answered, touching_distance(shapes, diagonal))
+    return _without_cycles([named.get(i, over) for i, over in enumerate(parents(shapes, diagonal))], named)
+
+
+def _answered_parents(
+    shapes: Sequence[TriangleSet], answered: Sequence[set[int]], reach: Float[np.ndarray, " p"]
+) -> dict[int, int]:
+    """Return the answered parents that touch their part, by part.
+
+    Parts that name each other, such as the arms of a lamp, form a chain. Those that touch a part outside of it come first, then
+    those that touch them. All other parts take the nearest part that they name.
+    """
+    parent: dict[int, int] = {}
+    placed = {j for j in range(len(shapes)) if j == 0 or not answered[j]}
+    while True:
+        ready = {}
+        for i in sorted(set(range(len(shapes))) - placed):
+            chain = {j for j in answered[i] if i in answered[j]}
+            if chain or answered[i] <= placed:
+                nearest = _nearest(shapes[i].samples.points[::6], shapes, (answered[i] - {i}) & placed, reach[i])
+                if nearest is not None or not chain:
+                    ready[i] = nearest
+        if not ready:
+            return parent
+        parent |= {i: j for i, j in ready.items() if j is not None}
+        placed |= ready.keys()
+
+
+def _nearest(points: np.ndarray, shapes: Sequence[TriangleSet], among: set[int], reach: float) -> int | None:
+    """Return the part nearest to these points, None if none is within reach [m]."""
+    off = {j: float(shapes[j].tree.distance(points).min()) for j in sorted(among)}
+    best = min(off, key=lambda j: off[j], default=None)
+    return best if best is not None and off[best] < reach else None
+
+
+def _without_cycles(parent: list[int], answered: Collection[int]) -> list[int]:
+    """Return the parents with the root as parent of one part of each circle, which is not an answered one."""
+    for i in sorted(range(1, len(parent)), key=lambda i: i in answered):
+        seen, at = set(), parent[i]
+        while at > 0 and at != i and at not in seen:
+            seen.add(at)
+            at = parent[at]
+        if at == i:
+            parent[i] = 0
+    return parent
 
 
 def ask_each(
