@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from assets import box
 from known import KNOWN, QUICK, ready, the_case
-from made import EDGE, PULL, X, Y, Z, slide, turn
+from made import EDGE, PULL, X, Y, Z, context_of, slide, turn
 from scenes import door, prism
+from scipy.spatial.transform import Rotation
 
 from anymesh.articulation.estimate import MAX_LATE_SWEPT, MAX_SWEPT, part_motions
 from anymesh.articulation.evidence import sweep_candidates
@@ -23,6 +24,7 @@ from anymesh.prompted.motions.lines import (
     cluster_points,
     followed,
     hinge,
+    pivots,
     plane_normal,
     round_patches,
     with_more,
@@ -197,11 +199,11 @@ def test_answered_labels_replace_unrecognized_ones_only() -> None:
     assert not unlabelled(given, ("door", "part"))
 
 
-def axes(part: list, parent: list) -> list[tuple[int, list[float]]]:
-    """Return the axes of round patches, as the direction and where it crosses the plane across it."""
+def axes(part: list, parent: list, held: int = 0) -> list[tuple[int, list[float]]]:
+    """Return the axes of round patches, or of those in contact, as the direction and where it crosses the plane across it."""
     _, whole, segmentation = ready({"base": parent, "part": part})
     own, other = (whole.of(np.flatnonzero(segmentation.face_part[whole.source] == k)) for k in (1, 0))
-    found = round_patches(whole, own, other)
+    found = round_patches(whole, own, other)[held]
     kinds = [int(np.abs(m.axis).argmax()) for m in found]
     return [(k, np.round(np.delete(m.origin, k), 2).tolist()) for k, m in zip(kinds, found, strict=True)]
 
@@ -215,6 +217,38 @@ def test_round_patches_of_a_part_and_pins_of_its_parent_give_axes_the_largest_fi
     assert axes([discs[0]], block) == []  # a part of one patch has its outline
     six = [prism(0.03 + 0.002 * k, (-0.1, -0.02), 0.1 + 0.15 * k, 0.25) for k in range(6)]
     assert [x for _, (x, _) in axes([plate, *six], block)] == pytest.approx([0.85, 0.7, 0.55, 0.4])
+
+
+def test_a_small_pin_in_contact_gives_an_axis_beside_larger_round_patches() -> None:
+    plate, block = box((0, -0.02, 0), (1, 0, 0.5)), [box((-0.5, 0.1, -0.5), (1.5, 0.5, 1))]
+    discs = [prism(0.03 + 0.002 * k, (-0.1, -0.02), 0.1 + 0.15 * k, 0.25) for k in range(6)]
+    pin = prism(0.01, (0, 0.0999), 0.3, 0.1)
+    assert (1, [0.3, 0.1]) not in axes([plate, *discs, pin], block)
+    assert axes([plate, *discs, pin], block, held=1) == [(1, [0.3, 0.1])]
+    assert axes([plate, *discs], block, held=1) == []
+    assert axes([plate, *discs], [*block, prism(0.01, (-0.05, 0.1), 0.4, 0.4)], held=1) == [(1, [0.4, 0.4])]
+
+
+@pytest.mark.parametrize(("degrees", "more"), [(0, 0), (2, 0), (8, 2), (40, 2)])
+def test_a_turned_part_may_move_about_the_axes_of_the_object_through_its_contact(degrees: float, more: int) -> None:
+    """A step below a floor, turned about the vertical, and the same with the whole object."""
+    turn_of = Rotation.from_rotvec([0, 0, np.deg2rad(degrees)]).as_matrix()
+    corners, faces = box((-0.2, -0.05, -0.02), (0.2, 0.05, -0.001))
+    context = context_of([(corners @ turn_of.T, faces)], [box((-1, -1, 0), (1, 1, 0.3))])
+    found = pivots(context, Z, np.eye(3))[len(pivots(context, Z)) :]
+    assert len(found) == more
+    for _, motion in found:
+        assert np.abs(motion.axis).max() == pytest.approx(1)
+        assert motion.distance(np.zeros((1, 3)))[0] < 0.01
+    assert len(pivots(context, Z, turn_of.T)) == len(pivots(context, Z))
+
+
+def test_both_ends_of_a_round_axis_are_points_in_any_direction() -> None:
+    context = case_of("wheel").context
+    hub, along = turn(Y, (0, 0, 0.2)), turn(X, (0, 0, 0.2))
+    points, directions = axis_points(context, [along], across(4000), 6, [(hub, 1), (along, 2)])
+    assert np.abs(directions).tolist() == [[0, 1, 0], [1, 0, 0], [1, 0, 0]]
+    assert sorted(points[1:, 0]) == pytest.approx(context.part.bounds[:, 0])
 
 
 def across(scale: float):

@@ -92,7 +92,7 @@ def test_the_first_picture_has_the_answer_three_central_axes_and_the_likeliest_o
     motions, likely = [EDGE, PULL, middle, middle, middle, middle, FAR_EDGE], [True, True, False, False, False, False, True]
     assert _pages(motions, ALONG, likely, 6, 7) == ([6, 2, 3, 4, 0, 1], [5])
     assert _pages(motions, ALONG, likely, 3, 7)[0] == [3, 2, 4, 0, 1, 6]
-    assert _pages(motions, ALONG, likely, None, 2) == ([2, 3], [0, 1])
+    assert _pages(motions, ALONG, likely, None, 2) == ([2, 3], [4, 5])  # own axes are never left out for others
     assert _pages(motions, OUT, likely, None, 7) == ([0, 1, 6], [2, 3, 4, 5])
 
 

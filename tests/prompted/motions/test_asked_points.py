@@ -9,7 +9,7 @@ from unittest.mock import patch
 import numpy as np
 import pytest
 from assets import box
-from known import KNOWN, QUICK, Watched, ready, true_answers
+from known import KNOWN, QUICK, Known, Watched, known, ready, true_answers
 from made import Y, context_of
 from scenes import prism
 from trimesh.creation import annulus
@@ -90,6 +90,18 @@ def test_questions_name_the_category_and_the_labels() -> None:
     told = Recognition("stove", None, (RecognizedLabel("door", None, None, None), RecognizedLabel("knob", None, None, None)))
     recognized = replace(made, recognition=told, config=replace(QUICK, category="oven"))
     assert (recognized.category, recognized.labels) == ("stove", ("door", "knob"))
+
+
+@pytest.mark.parametrize("kind", [INTO, HIDDEN, ALONG])
+def test_the_ends_of_the_axis_of_a_tap_are_points_of_its_lever(kind: JointAppearance, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A lever on a round stem, which is round neither as a whole nor along its opening direction."""
+    lever = [*upright(prism(0.02, (0.1, 0.15), 0.15, -0.15, 32)), box((0.14, -0.05, 0.15), (0.16, 0.17, 0.16))]
+    scene = {"base": [box((0, 0, 0), (0.3, 0.3, 0.1))], "lever": lever}
+    monkeypatch.setitem(KNOWN, "tap", Known(scene, known("revolute", np.eye(3)[2], (0.15, 0.15, 0))))
+    points = asked.__wrapped__("tap", kind)[0].points
+    heights = points[np.linalg.norm(points[:, :2] - 0.15, axis=1) < 0.002][:, 2]
+    assert heights.max() == pytest.approx(0.16)
+    assert kind is INTO or heights.min() == pytest.approx(0.1)
 
 
 NONE = np.zeros((0, 3))  # points in contact

@@ -106,6 +106,23 @@ def test_only_an_answered_or_central_line_is_shown_if_it_is_blocked(monkeypatch:
     assert found.table(found.first).blocked == (True, True)
 
 
+def test_a_blocked_axis_of_the_surfaces_in_contact_is_in_the_first_picture(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As of a hook that is tight on its pin, among many free motions."""
+    free = [at(x) for x in np.linspace(0, 0.6, 8)]
+    held = replace(EDGE, motion=turn(X, (0, -0.012, 0.4)), opening=0.0, role="surface")
+    found = offered(monkeypatch, [*free, held], [*np.linspace(9, 2, 8), -20.0], most=5)
+    (place,) = (k for k in found.first if found.motions[k] is held)
+    assert found.table(found.first).blocked[found.first.index(place)]
+
+
+def test_blocked_axes_of_the_part_come_before_others_in_the_second_picture(monkeypatch: pytest.MonkeyPatch) -> None:
+    free = [at(x) for x in np.linspace(0, 0.6, 7)]
+    own = [at(x, opening=0.0, role="center") for x in (0.05, 0.15, 0.25, 0.35, 0.45)]
+    found = offered(monkeypatch, [*free, *own], [*np.linspace(9, 3, 7), *np.linspace(-10, -14, 5)], most=4)
+    shown = [found.motions[k] for k in (*found.first, *found.second)]
+    assert all(any(c is one for one in shown) for c in own)
+
+
 @pytest.mark.parametrize(("off", "count"), [(0.003, 1), (0.03, 2)])
 def test_of_lines_that_look_alike_the_likeliest_is_shown(monkeypatch: pytest.MonkeyPatch, off: float, count: int) -> None:
     motions = [at(0.0, role="asked"), at(off)]

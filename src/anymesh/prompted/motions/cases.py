@@ -17,6 +17,7 @@ from anymesh.articulation.part_contexts import (
     touching_distance,
 )  # fmt: skip
 from anymesh.config import Config
+from anymesh.geometry.boxes import straightening
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.part_context import PartContext
@@ -37,8 +38,9 @@ TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 class PartCase:
     """A part whose joint is being estimated.
 
-    number: index in the segmentation; carried: parts that depend on it; circles: axes of round patches; recognized:
-    recognition of its label; asked: the answered motion.
+    number: index in the segmentation; carried: parts that depend on it; circles: axes of its largest round patches; recognized:
+    recognition of its label; asked: the answered motion; pins: axes of round patches in contact; frame: rows are the object's
+    axes.
     """
 
     number: int
@@ -51,6 +53,8 @@ class PartCase:
     recognized: RecognizedLabel | None = None
     answer: KindAnswer = KindAnswer(JointAppearance.FIXED)  # noqa: RUF009 - frozen
     asked: Motion | None = None
+    pins: tuple[Motion, ...] = ()
+    frame: np.ndarray | None = None
 
     @property
     def kind(self) -> JointAppearance:
@@ -73,6 +77,7 @@ def make_cases(
     for numbers in same_size(shapes, parent):
         some = [part_context(whole, label, shapes, parent, i) for i in numbers]
         contexts |= zip(numbers, share_opening_directions(some), strict=True)
+    frame = straightening(whole.shape.normals, whole.shape.areas)[:3, :3]
     cases = []
     for i, part in enumerate(segmentation.parts[1:], start=1):
         context = contexts[i]
@@ -87,12 +92,9 @@ def make_cases(
             diagonal=whole.diagonal,
         )
         carried = tuple(descendants(parent, i))
-        circles = round_patches(whole, shapes[i], shapes[parent[i]])
-        cases.append(
-            PartCase(
-                i, part.name, segmentation.parts[parent[i]].name, carried, context, shown, circles, recognized.get(part.label)
-            )
-        )
+        circles, pins = round_patches(whole, shapes[i], shapes[parent[i]])
+        over, told = segmentation.parts[parent[i]].name, recognized.get(part.label)
+        cases.append(PartCase(i, part.name, over, carried, context, shown, circles, told, pins=pins, frame=frame))
     return cases
 
 

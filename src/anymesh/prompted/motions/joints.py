@@ -23,7 +23,7 @@ from anymesh.articulation.limits import (
 )
 from anymesh.articulation.rank_motions import PartMotionScores
 from anymesh.articulation.vetting import faults
-from anymesh.config import FACING_COSINE, Config
+from anymesh.config import ALONG_COSINE, FACING_COSINE, Config
 from anymesh.geometry.surface import ObjectShape
 from anymesh.pipeline.results import PLEASE_CHECK
 from anymesh.prompted.motions.cases import (
@@ -269,19 +269,23 @@ def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape
     shaped = case.kind is JointAppearance.HINGE_INTO and config.verify != "off"
     project, most = shot.project, INTO_POINTS if shaped else MAX_POINTS
     points = shot.inside(cluster_points(case.shown.contact, project, most))
-    axes = np.zeros((0, 3))
+    axes, entering, outline = np.zeros((0, 3)), [], case.context.outline
+    middle = Motion(JointType.REVOLUTE, outline.axis, outline.center, "axis of its round outline")
+    own = [middle] if case.context.is_round else []
     if shaped:
-        motions = [m for _, m in pivots(case.context, case.shown.normal)]
-        if case.context.is_round:
-            outline = case.context.outline
-            motions.insert(0, Motion(JointType.REVOLUTE, outline.axis, outline.center, "axis of its round outline"))
-        first, axes = axis_points(case.context, [*case.circles, *motions], project, most)
-        axes = axes[shot.is_inside(first)]
-        points = followed(first[shot.is_inside(first)], points, project, most)
+        motions = [m for _, m in pivots(case.context, case.shown.normal, case.frame)]
+        entering = [*case.circles, *own, *motions]
+    inwards = [shaped and abs(float(m.axis @ case.context.opening_direction)) >= ALONG_COSINE for m in (*own, *case.pins)]
+    ends = [(m, 1 if one else 2) for m, one in zip((*own, *case.pins), inwards, strict=True)]
     if case.kind is JointAppearance.HINGE_HIDDEN:
         samples = case.context.part.samples
         colors = pictures.face_colors[whole.source[samples.faces]]
         points = with_more(points, shot.inside(superpoint_centres(samples, colors)), project, most)
+    if config.verify != "off" and (entering or ends):
+        first, axes = axis_points(case.context, entering, project, most, ends)
+        inside = shot.is_inside(first)
+        axes = axes[inside] if shaped else axes[:0]
+        points = followed(first[inside], points, project, most) if inside.any() else points
     if len(axes):
         axes = np.concatenate([axes, np.full((len(points) - len(axes), 3), np.nan)])
     return PointTable(case.shown, points, case.kind, axes if len(axes) else None, pictures.hidden(shot, points))

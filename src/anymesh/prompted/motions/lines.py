@@ -12,7 +12,7 @@ import numpy as np
 from jaxtyping import Float
 from scipy.spatial import KDTree
 
-from anymesh.articulation.candidate_motions import ProposedMotion, Role, hinge_about
+from anymesh.articulation.candidate_motions import CONTACT_RATIO, ProposedMotion, Role, distinct, hinge_about
 from anymesh.config import ALONG_COSINE
 from anymesh.geometry.circles import MIN_CIRCLE_ROUNDNESS, outline_about
 from anymesh.geometry.superpoints import superpoints
@@ -28,11 +28,12 @@ MAX_POINTS = 20  # maximum number of candidate points, and of k-means clusters
 MIN_LABEL_DISTANCE = 35.0  # [px] minimum distance between the numbers of candidate points
 MAX_CONTACT_POINTS = 4000  # maximum number of points of a connecting area for clustering
 TRIALS = 200  # planes tried by RANSAC
-MAX_CIRCLES = 4  # round patches per part, the largest first
+MAX_CIRCLES = 4  # round patches per part, the largest first; and as many in contact, as a pin is small
 MAX_PATCHES = 40  # patches examined, the largest first
 # roles of axes that the shape of a part gives
 CENTRAL: tuple[Role, ...] = ("round", "center", "hub", "circle", "pivot", "pin", "two_pivot", "barrel")
 MAX_DISTINCT_COSINE = 0.98  # maximum cosine between two axes through the contact
+MAX_OBJECT_COSINE = float(np.cos(np.deg2rad(3)))  # an axis of the object nearer to one of them is not tried; an estimate
 MIN_POINTS = 24  # minimum number of points of a contact ring
 
 
@@ -51,21 +52,28 @@ def cluster_points(contact: Float[np.ndarray, "n 3"], project: Project, most: in
 
 
 def axis_points(
-    context: PartContext, axes: Sequence[Motion], project: Project, most: int = MAX_POINTS
+    context: PartContext,
+    axes: Sequence[Motion],
+    project: Project,
+    most: int = MAX_POINTS,
+    ends: Sequence[tuple[Motion, int]] = (),
 ) -> tuple[Float[np.ndarray, "k 3"], Float[np.ndarray, "k 3"]]:
     """Return the points where axes leave the part on its outer side, and the directions of these axes.
 
-    Only axes that enter the surface are used. If the numbers of two would overlap, the first is kept.
+    Only axes that enter the surface are used, up to half of the points. If the numbers of two would overlap, the first is kept.
+
+    ends: axes in any direction, of which the outer end (1) or both ends (2) are added.
     """
     points, directions = np.zeros((0, 3)), np.zeros((0, 3))
-    for motion in axes:
-        sign = 1.0 if motion.axis @ context.opening_direction >= 0 else -1.0
-        if abs(float(motion.axis @ context.opening_direction)) < ALONG_COSINE or len(points) >= most // 2:
+    for motion, count in [*((m, 0) for m in axes), *ends]:
+        outward = float(motion.axis @ context.opening_direction)
+        if not count and (abs(outward) < ALONG_COSINE or len(points) >= most // 2):
             continue
-        reach = float(((context.part.corners - motion.origin) @ (sign * motion.axis)).max())
-        more = np.concatenate([points, (motion.origin + reach * sign * motion.axis)[None]])
-        if labels_apart(project(more), MIN_LABEL_DISTANCE / 2):
-            points, directions = more, np.concatenate([directions, motion.axis[None]])
+        along = (context.part.corners - motion.origin) @ motion.axis
+        for reach in (along.max(), along.min())[:: 1 if outward >= 0 else -1][: max(count, 1)]:
+            more = np.concatenate([points, (motion.origin + reach * motion.axis)[None]])
+            if labels_apart(project(more), MIN_LABEL_DISTANCE / 2):
+                points, directions = more, np.concatenate([directions, motion.axis[None]])
     return points, directions
 
 
@@ -167,9 +175,13 @@ def prismatic(direction: Float[np.ndarray, " 3"], context: PartContext, source: 
     return Motion(JointType.PRISMATIC, direction / np.linalg.norm(direction), context.part.box.center, source)
 
 
-def round_patches(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) -> tuple[Motion, ...]:
-    """Return the axes of round patches of a part, and of round patches of its parent that it encloses or sits on (pins)."""
-    circles: list[tuple[float, Motion]] = []
+def round_patches(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) -> tuple[tuple[Motion, ...], tuple[Motion, ...]]:
+    """Return the axes of round patches of a part, and of round patches of its parent that it encloses or sits on (pins).
+
+    The first ones are those of the largest; the second ones those of the largest in contact with the other, of any size.
+    """
+    circles: list[tuple[float, bool, Motion]] = []
+    reach = CONTACT_RATIO * part.box.diagonal
     low, high = part.bounds
     for own, shape in ((True, part), (False, parent)):
         numbers, count = np.unique(whole.patch[shape.faces], return_counts=True)
@@ -186,15 +198,19 @@ def round_patches(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) ->
                 outlines = [outline_about(points, axis) for axis in patch.box.axes]
                 best = max(outlines, key=lambda o: o.roundness)
                 if best.roundness > MIN_CIRCLE_ROUNDNESS:
-                    circles.append((best.radius, hinge_about(best.axis, best.center, "axis of a round patch")))
+                    held = bool((parent if own else part).nearest(points[::4])[0].min() <= reach)
+                    circles.append((best.radius, held, hinge_about(best.axis, best.center, "axis of a round patch")))
     circles.sort(key=lambda item: -item[0])
-    return tuple(motion for _, motion in circles[:MAX_CIRCLES])
+    pins = distinct([("circle", motion) for _, held, motion in circles if held], part.box.diagonal)
+    return tuple(motion for *_, motion in circles[:MAX_CIRCLES]), tuple(motion for _, motion in pins[:MAX_CIRCLES])
 
 
-def pivots(context: PartContext, normal: Float[np.ndarray, " 3"]) -> list[ProposedMotion]:
+def pivots(
+    context: PartContext, normal: Float[np.ndarray, " 3"], frame: Float[np.ndarray, "3 3"] | None = None
+) -> list[ProposedMotion]:
     """Return lines through the center of the contact, and the axis of its ring.
 
-    normal: unit normal of the contact's plane.
+    normal: unit normal of the contact's plane; frame: rows are the object's axes, which a turned part does not have.
     """
     contact = context.contact
     middle = (contact.min(0) + contact.max(0)) / 2
@@ -202,6 +218,7 @@ def pivots(context: PartContext, normal: Float[np.ndarray, " 3"]) -> list[Propos
     for d in (normal, context.opening_direction, *context.body_obb.axes):
         if all(abs(float(d @ other)) < MAX_DISTINCT_COSINE for other in directions):
             directions.append(d)
+    others = [d for d in (() if frame is None else frame) if np.abs(np.array(directions) @ d).max() < MAX_OBJECT_COSINE]
     lines: list[ProposedMotion] = []
     if len(contact) >= MIN_POINTS:
         rings = [outline_about(contact, d) for d in directions]
@@ -210,4 +227,4 @@ def pivots(context: PartContext, normal: Float[np.ndarray, " 3"]) -> list[Propos
             lines.append(("hub", hinge_about(best.axis, best.center, "axis of the ring where it is held")))
     lines += [("pivot", hinge_about(d, middle, "line through the middle of the contact")) for d in directions]
     lines.append(("pivot", hinge_about(normal, context.body_obb.center, "middle line along the contact's normal")))
-    return lines
+    return lines + [("pivot", hinge_about(d, middle, "axis of the object through the contact")) for d in others]

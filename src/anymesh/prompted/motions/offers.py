@@ -45,7 +45,8 @@ MAX_SIMILAR, MAX_SIMILAR_LOSS = 2, 1.0  # number of similar motions; their loss 
 OFF_PART = 0.02  # of the tolerance length: hinge lines farther from the part's surface are not
 MAX_LOSS = 8.0  # [log-odds] motions that are worse than the best one by more are not, unless few are left
 MIN_FREE_MOTIONS = 3  # minimum number of free motions, even if implausible
-SHAPE_AXES = 3  # number of axes of the part's own shape that always are
+SHAPE_AXES = 3  # number of axes of the part's own shape that always are; with the best blocked one of the surfaces in contact
+OWN = (*CENTRAL, "surface")  # roles of axes of the part's own shape, which come first in the second picture
 # Which motion stands for its near-duplicates, and comes first:
 PICKED_POINT_PENALTY = 2.0  # [log-odds] of a line through picked points, less exact than a similar one of the part's own
 ANSWERED_BONUS = 2.0  # [log-odds] of a motion of the answered kind
@@ -115,7 +116,9 @@ def scored_motions(case: PartCase) -> CandidateMotions:
     context = case.context
     proposed = propose(context)
     circles: list[ProposedMotion] = [("circle", motion) for motion in case.circles]
-    proposed = distinct([*proposed, *circles, *pivots(context, case.shown.normal)], context.tolerance_length)
+    pins: list[ProposedMotion] = [("circle", motion) for motion in case.pins]
+    lines = pivots(context, case.shown.normal, case.frame)
+    proposed = distinct([*proposed, *circles, *lines, *pins], context.tolerance_length)
     first: list[ProposedMotion] = [("asked", case.asked)] if case.asked is not None else []
     scored = PartMotionScores(context, case.label, sweep_candidates(context, first + proposed)).averaged()
     scores, chosen = motion_scores(scored), []
@@ -162,7 +165,7 @@ def _agrees(c: Candidate, case: PartCase) -> float:
 
 def _shown(c: Candidate) -> bool:
     """Return whether a motion may be shown; a blocked one only if it was answered or is an axis of the part's own shape."""
-    return c.is_free or c.role == "asked" or c.role in CENTRAL
+    return c.is_free or c.role in ("asked", *OWN)
 
 
 def _unlike(
@@ -226,10 +229,12 @@ def _pages(
 ) -> tuple[list[int], list[int]]:
     """Return the indices of the motions in the first picture and in the second."""
     own = [k for k, c in enumerate(motions) if c.role in CENTRAL and fits(c, kind)][:SHAPE_AXES]
+    own += [k for k, c in enumerate(motions) if c.role == "surface" and not c.is_free and fits(c, kind)][:1]
     must = ([] if answered is None else [answered]) + [k for k in own if k != answered]
     first = must[:max_motions]
     first += [k for k, good in enumerate(likely) if good and k not in first][: max_motions - len(first)]
-    return first, [k for k in range(len(motions)) if k not in first][:max_motions]
+    rest = [k for k in range(len(motions)) if k not in first]
+    return first, sorted(sorted(rest, key=lambda k: motions[k].role not in OWN)[:max_motions])
 
 
 class MovedPoints:
