@@ -227,7 +227,7 @@ def test_parts_that_may_be_of_the_kind_that_the_object_is_named_after_are_tested
         return ["part"] * len(asked[-1])
 
     monkeypatch.setattr(
-        segment, "score_parts", lambda tree, *_: (2.0 - 9 * (tree.area > 5), lambda chosen: ["why"] * len(chosen))
+        segment, "score_parts", lambda tree, *_: (2.0 - 9 * (tree.overlap.area > 5), lambda chosen: ["why"] * len(chosen))
     )
     parts = segment.segment_parts(mesh, [object_shape(mesh)], label_parts).parts
     assert asked == [["drawer", "part"]]

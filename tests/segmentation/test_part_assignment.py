@@ -149,6 +149,18 @@ def test_what_only_a_part_holds_goes_with_it() -> None:
     assert joined(-1, 7, 8, -1, -1) == [-1, 7, 8, -1, -1]  # a separate part stays
 
 
+@pytest.mark.parametrize(("right", "strips"), [(8, [7, 8]), (7, [9, 9]), (-1, [9, 9])])
+def test_a_part_in_pieces_on_several_parts_is_divided_among_these(right: int, strips: list[int]) -> None:
+    """Two doors, of which the right one may be of the other part or of the base, and a strip on each as one part."""
+    leaves = [box((x, 0.05, 0), (x + 0.4, 0.1, 1)) for x in (0.1, 0.55)]
+    pieces = [box((0, 0.1, 0), (1, 1, 1)), *leaves, *(box((x, 0.02, 0.5), (x + 0.2, 0.05, 0.6)) for x in (0.2, 0.6))]
+    mesh, part = mesh_of(pieces)
+    whole = object_shape(mesh)
+    owner = np.array([-1, 7, right, 9, 9])[[part[whole.mesh_patch == k][0] for k in range(5)]]
+    found = join_floating(owner, find_contacts(whole))
+    assert [found[whole.mesh_patch[part == k][0]] for k in (3, 4)] == strips
+
+
 BODY = box((0, 0.02, 0), (1, 0.5, 1))
 
 

@@ -75,9 +75,9 @@ def test_the_order_of_solids_does_not_matter() -> None:
 def test_areas_and_overlaps_are_those_of_the_patches() -> None:
     tree = candidates([BODY, *LEAF, HANDLE])
     handle = next(k for k, m in enumerate(tree.members) if np.flatnonzero(m).tolist() == [4])
-    assert np.isclose(tree.area[handle], 2 * (0.03 * 0.05 + 0.05 * 0.1 + 0.03 * 0.1))
+    assert np.isclose(tree.overlap.area[handle], 2 * (0.03 * 0.05 + 0.05 * 0.1 + 0.03 * 0.1))
     door = next(k for k, m in enumerate(tree.members) if np.flatnonzero(m).tolist() == [1, 2, 3, 4])
-    assert np.isclose(tree.overlap.shared[door, handle], tree.area[handle])
+    assert np.isclose(tree.overlap.shared[door, handle], tree.overlap.area[handle])
     assert tree.members[handle][tree.whole.patch].sum() == 12
 
 

@@ -67,14 +67,10 @@ def _separations(shapes: Sequence[TriangleSet], reach: Float[np.ndarray, " p"]) 
 
 def descendants(parent: list[int], i: int) -> list[int]:
     """Return all descendants of part i."""
-    parts: list[int] = []
-    for j in range(len(parent)):
-        at = parent[j]
-        while at > 0 and at != i:
-            at = parent[at]
-        if at == i and j != i:
-            parts.append(j)
-    return parts
+    found = [j for j, over in enumerate(parent) if over == i]
+    for above in found:  # grows
+        found += [j for j, over in enumerate(parent) if over == above]
+    return sorted(found)
 
 
 def find_barrel_candidates(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) -> tuple[TriangleSet, ...]:
@@ -136,11 +132,11 @@ def same_size(shapes: Sequence[TriangleSet], parent: Sequence[int]) -> list[list
     groups: list[list[int]] = []
     boxes = [body_obb(shape) for shape in shapes]
     for i in range(1, len(shapes)):
-        group = next((g for g in groups if parent[g[0]] == parent[i] and same_box(boxes[g[0]], boxes[i])), None)
-        if group is None:
-            groups.append([i])
+        alike = [g for g in groups if parent[g[0]] == parent[i] and same_box(boxes[g[0]], boxes[i])]
+        if alike:
+            alike[0].append(i)
         else:
-            group.append(i)
+            groups.append([i])
     return groups
 
 
@@ -171,8 +167,6 @@ def _handle_place(context: PartContext) -> Float[np.ndarray, " 3"]:
 
 def share_opening_directions(contexts: Sequence[PartContext]) -> list[PartContext]:
     """Give repeated parts in a row a common opening direction: the one with the highest total visibility."""
-    if len(contexts) == 1:
-        return list(contexts)
     return [_with_row_direction(a, [a, *(b for b in contexts if b is not a and in_a_row(a, b))]) for a in contexts]
 
 

@@ -163,11 +163,6 @@ class PartCandidates(Brief):
     members: Bool[np.ndarray, "n P"]
     names: tuple[str, ...]
 
-    @property
-    def area(self) -> Float[np.ndarray, " n"]:
-        """Return the area of each group [m^2]."""
-        return self.overlap.area
-
     @cached_property
     def bounds(self) -> Float[np.ndarray, "n 2 3"]:
         """Return the axis-aligned bounds of each group [m]."""

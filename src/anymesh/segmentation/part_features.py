@@ -226,9 +226,9 @@ def _extent(inputs: FeatureInputs, candidate: int, context: PartContext) -> dict
     extents = np.sort(np.ptp(candidates.whole.shape.bounds, axis=0))
     patches = candidates.members[candidate]
     return {
-        "area share": float(candidates.area[candidate] / candidates.contacts.patch_area.sum()),
+        "area share": float(candidates.overlap.area[candidate] / candidates.contacts.patch_area.sum()),
         "face share": float(min(4 * core.half[0] * core.half[1] / max(extents[1] * extents[2], 1e-12), MAX_LENGTH_RATIO)),
-        "largest patch": float(candidates.contacts.patch_area[patches].max() / max(candidates.area[candidate], 1e-300)),
+        "largest patch": float(candidates.contacts.patch_area[patches].max() / max(candidates.overlap.area[candidate], 1e-300)),
         "log patches of the object": float(np.log1p(len(patches))),
     }
 
@@ -295,7 +295,7 @@ def _neighbours(inputs: FeatureInputs, candidate: int) -> dict[str, float]:
     beside = np.bincount(pairs[out, 1], amount[out], len(inside))
     shared = candidates.whole.shared
     creased = inside[shared[:, 0]] != inside[shared[:, 1]] if len(shared) else np.zeros(0, bool)
-    outside, total = float(beside.sum()), max(float(candidates.area[candidate]), 1e-300)
+    outside, total = float(beside.sum()), max(float(candidates.overlap.area[candidate]), 1e-300)
     return {
         "contact with the first": float(beside.max(initial=0) / max(outside, 1e-300)) if outside > 0 else 0.0,
         "contact area": min(outside / total, 1.0),

@@ -158,9 +158,9 @@ def join_floating(owner: Int[np.ndarray, " P"], contacts: Contacts) -> Int[np.nd
     owner: (P,) the part of each patch, -1 for the base.
 
     Patches of the base that touch each other form a group. A group joins a part if it touches nothing else and is smaller than
-    the part. The largest group stays the base.
+    the part. The largest group stays the base. A part is given up first if its pieces hang on several other parts, each on one.
     """
-    first, second = contacts.touch.T
+    owner, (first, second) = _in_one_place(owner, contacts), contacts.touch.T
     inside = (owner[first] < 0) & (owner[second] < 0)
     group = label_connected(len(owner), contacts.touch[inside])
     area = np.bincount(group[owner < 0], contacts.patch_area[owner < 0], int(group.max()) + 1)
@@ -174,6 +174,18 @@ def join_floating(owner: Int[np.ndarray, " P"], contacts: Contacts) -> Int[np.nd
         if len(by) == 1 and g != area.argmax() and area[g] < contacts.patch_area[owner == part].sum():
             new_owner[(group == g) & (owner < 0)] = part
     return new_owner
+
+
+def _in_one_place(owner: Int[np.ndarray, " P"], contacts: Contacts) -> Int[np.ndarray, " P"]:
+    """Return the owners with -1 for parts of which each piece touches one other part only, but not all the same one."""
+    pairs = np.concatenate([contacts.touch, contacts.touch[:, ::-1]])
+    piece = label_connected(len(owner), pairs[owner[pairs[:, 0]] == owner[pairs[:, 1]]])
+    kept = owner.copy()
+    for part in np.unique(owner[owner >= 0]):
+        held = [set(owner[pairs[piece[pairs[:, 0]] == g, 1]]) - {part} for g in np.unique(piece[owner == part])]
+        if all(len(one) == 1 and -1 not in one for one in held) and len(set().union(*held)) > 1:
+            kept[owner == part] = -1
+    return kept
 
 
 LabelParts = Callable[[Segmentation], Sequence[str]]  # label per part except the base from its motion, "" if it cannot move
@@ -315,7 +327,7 @@ def _face_part(mesh: Mesh, candidates: PartCandidates, chosen: list[int]) -> tup
     the largest becomes the base if nothing else is left for it.
     """
     owner = np.full(len(candidates.contacts.shapes), -1)
-    for k in sorted(chosen, key=lambda k: (-candidates.area[k], k)):
+    for k in sorted(chosen, key=lambda k: (-candidates.overlap.area[k], k)):
         owner[candidates.members[k]] = k
     of_face = join_floating(owner, candidates.contacts)[candidates.whole.mesh_patch]
     area = np.bincount(of_face + 1, mesh.face_areas, len(candidates.members) + 1)[1:]
