@@ -14,7 +14,7 @@ from geometry.rigid import shape_of
 from anymesh.articulation.candidate_motions import Candidate, PartFacts, Role
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.grounding import views
-from anymesh.rendering import viewpoints
+from anymesh.prompted.pictures import views as pictures
 from anymesh.types import JointType, Motion, Sweep
 
 X, Y, Z = np.eye(3)
@@ -62,5 +62,5 @@ ROUND = candidate("round", JointType.REVOLUTE, Y, closing=np.pi)
 def smaller(px: int, points: int, mask_points: int | None = None) -> Iterator[None]:
     """Draw pictures of `px` pixels, and sample fewer points of surfaces: faster, and as good in these tests."""
     count = {"EXACT_POINTS": points, "MASK_POINTS": mask_points or points}
-    with patch.object(viewpoints, "PICTURE_PX", px), patch.multiple(views, **count):
+    with patch.object(pictures, "PICTURE_PX", px), patch.multiple(views, **count):
         yield

@@ -18,7 +18,7 @@ from models import CONFIG, desk, model_of, with_meshes
 
 from anymesh.errors import InputError, OutputError
 from anymesh.export import write_asset
-from anymesh.export.asset_json import schema
+from anymesh.export.asset_json import asset_record, schema
 from anymesh.export.formats import write_formats
 from anymesh.export.links import split_links, unique_rows
 from anymesh.export.options import DEFAULT, Base, ExportOptions
@@ -93,6 +93,14 @@ def test_asset_json_follows_its_schema(make, tmp_path):
     assert record["parts"][0]["parent"] is None
     record["joints"][0]["limits"] = None if record["joints"][0]["limits"] else [0, 1]
     assert not jsonschema.Draft202012Validator(schema()).is_valid(record)
+
+
+@pytest.mark.parametrize(("front", "stated"), [(0.0, [0, -1, 0]), (90.0, [1, 0, 0]), (-45.0, [-0.707107, -0.707107, 0])])
+def test_an_answered_front_is_the_direction_from_which_it_is_seen(front: float, stated: list[float]) -> None:
+    record = asset_record(model_of(replace(cabinet(), front=front)))
+    assert record["front"] == pytest.approx(stated, abs=1e-6)
+    jsonschema.validate(record, schema())
+    assert "front" not in asset_record(model_of(cabinet()))
 
 
 def test_the_same_asset_gives_the_same_bytes(tmp_path):

@@ -106,6 +106,11 @@ ASKED = {
         marks(("door", 1, 0, [4, 1]), split=[1]),
         MarksAnswer((MarkedPart("door", 1, None, (4,)),), split=(1,)),  # marks to split belong to no part yet
     ),
+    "marks of kinds that only close-ups show": Asked(
+        WhichMarks((PICTURE,) * 2, ("door", "knob"), True, REGIONS, FACES, extensible=True),
+        marks(("Door", 1, 0, [4, 1]), ("Hose reel", 1, 0, [2])),
+        MarksAnswer((MarkedPart("door", 1, None, (1, 4)), MarkedPart("hose reel", 1, None, (2,)))),
+    ),
     "marks of each view": Asked(
         WhichMarks((PICTURE,) * 2, ("door", "knob"), False, REGIONS, FACES),
         marks(("door", 1, 1, [2]), ("knob", 1, 2, [2])),

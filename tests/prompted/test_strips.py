@@ -7,10 +7,10 @@ from assets import box, mesh_of
 from anymesh.config import Config
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures.strips import COLUMNS, PANEL, Posed, grid, motion_strip, moved, silhouette, strip_camera
+from anymesh.prompted.pictures.views import views
 from anymesh.prompted.pictures.visual_prompts import BAR, card_view, part_card, titled
 from anymesh.rendering.marks import HIGHLIGHT
 from anymesh.rendering.render import render
-from anymesh.rendering.viewpoints import views
 from anymesh.types import JointType, Motion
 
 X, Y, Z = np.eye(3)
@@ -106,16 +106,13 @@ def test_the_arrow_points_the_way_that_the_part_goes():
     assert (there != other).any()
 
 
-def test_strips_are_the_same_every_time_and_bear_any_numbers():
+def test_strips_are_the_same_every_time():
     mesh, moving, *motions = door()
     camera = strip_camera(mesh, moving, motions, 120)
     again = strip_camera(mesh, moving, motions, 120)
     np.testing.assert_array_equal(camera.T_world_camera, again.T_world_camera)
-    first, second, other = (motion_strip(mesh, moving, motions, numbers=n, camera=camera) for n in (None, None, [4, 7]))
+    first, second = (motion_strip(mesh, moving, motions, camera=camera) for _ in range(2))
     assert first.tobytes() == second.tobytes()
-    changed = np.argwhere((other != first).any(-1))
-    assert len(changed)
-    assert changed[:, 0].max() < 40  # the titles only
     with pytest.raises(ValueError, match="faces that move"):
         motion_strip(mesh, np.zeros_like(moving), motions)
 

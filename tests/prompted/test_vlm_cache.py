@@ -4,16 +4,19 @@ import hashlib
 import json
 import multiprocessing
 import sys
+from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
 import pytest
+from asked import ASKED
 from model_wire import ANSWER, SCHEMA, a_request, exchange, png
 from scripted import ScriptedModel
 
 from anymesh.errors import ModelError, OptionError
 from anymesh.prompted.answerers.recordings import Cached, Replay, remove_transcript, write_transcript
+from anymesh.prompted.answerers.vlm_answerer import exchange_of, request_of
 from anymesh.prompted.models.budget import Budgeted
 from anymesh.prompted.models.vision import Reply, Request, request_key
 from anymesh.runtime import cache_folder
@@ -304,3 +307,16 @@ def test_removing_a_transcript_leaves_files_of_others(tmp_path: Path) -> None:
     write_transcript(asked(a_request(), answers=[ANSWER]), folder)
     remove_transcript(folder)
     assert not folder.exists()
+
+
+def test_a_recorded_answer_to_a_narrower_form_of_a_question_is_found(tmp_path: Path) -> None:
+    """What was recorded before answers could name kinds of part that the list lacks stays valid."""
+    wide = replace(ASKED["marks of kinds that only close-ups show"].question, category="cabinet")
+    before = request_of(replace(wide, extensible=False))
+    assert before.earlier is None
+    write_transcript([exchange_of("m", before, Reply(ANSWER, "m", 1, 1), "accepted")], tmp_path)
+    assert request_of(wide).schema != before.schema
+    assert Replay(tmp_path).ask(request_of(wide)).text == ANSWER
+    other = replace(wide, extensible=False, category="car")
+    with pytest.raises(ModelError):
+        Replay(tmp_path).ask(request_of(other))

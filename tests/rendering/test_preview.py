@@ -8,7 +8,7 @@ from PIL import Image
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering import preview
-from anymesh.rendering.marks import AXIS_COLOR
+from anymesh.rendering.marks import AXIS_COLOR, axis_shapes
 from anymesh.types import Asset, Part, Segmentation
 
 SIZE = 150
@@ -143,3 +143,59 @@ def test_everything_that_moves_lies_in_the_window():
     opened = panels(cabinet())[2]
     border = np.concatenate([opened[0], opened[-1], opened[:, 0], opened[:, -1]])
     assert np.ptp(border, axis=1).max() == 0, "only the grey ground"
+
+
+def keyboard(front: float | None = None):
+    """Return a cabinet side with a door, sixteen small buttons, a large slider, a knob on its back, and the pieces of each."""
+    keys = [
+        box((0.1 + 0.05 * i, -0.01, 0.5 + 0.05 * k), (0.12 + 0.05 * i, 0, 0.52 + 0.05 * k)) for i in range(4) for k in range(4)
+    ]
+    others = [
+        box((0.5, -0.02, 0.1), (0.95, 0, 0.9)),
+        box((0.1, -0.02, 0.1), (0.4, 0, 0.4)),
+        box((0.5, 1, 0.5), (0.52, 1.02, 0.52)),
+    ]
+    mesh, number = mesh_of([box((0, 0, 0), (1, 1, 1)), *keys, *others])
+    names = ["base", *(f"part_{k}" for k in range(1, 20))]
+    outwards = [(0, 1 if k == 19 else -1, 0) for k in range(1, 20)]
+    joints = tuple(
+        joint(f"j{k}", "prismatic", "base", names[k], mesh.triangles[number == k].mean((0, 1)), y, (0.0, 0.01))
+        for k, y in enumerate(outwards, 1)
+    )
+    parts = tuple(Part(name, "part") for name in names)
+    return Asset("panel", source(), mesh, Segmentation(number, parts), joints, "test", front=front)
+
+
+def test_nineteen_parts_have_colours_of_their_own_and_small_ones_close_ups(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(preview, "SIZE", 400)
+    asset = keyboard()
+    table = np.unique(preview.part_colors(asset), axis=0).astype(int)
+    assert len(table) == 20
+    gaps = np.abs(table[:, None] - table).sum(-1) + 999 * np.eye(20, dtype=int)
+    assert gaps.min() > 40
+    found = []
+    insets = preview._insets
+    monkeypatch.setattr(preview, "_insets", lambda *given: found.append(insets(*given)) or found[-1])
+    picture = preview.render_preview(asset)
+    ((row,), alone) = found[0]
+    assert alone == {*range(1, 17), 19}  # the last one is at the back
+    assert row.shape == (picture.shape[1] // preview.MAX_INSETS, picture.shape[1], 3)
+    preview.render_preview(cabinet())
+    assert found[1] == ([], set())
+
+
+def test_arrows_of_small_parts_are_small() -> None:
+    asset = keyboard()
+    lengths = [float(np.linalg.norm(np.diff(s.arrow, axis=0))) for s in axis_shapes(asset, {})]
+    assert max(lengths[:16]) < 0.5 * lengths[16]
+    near = [float(np.linalg.norm(np.diff(s.arrow, axis=0))) for s in axis_shapes(asset, {}, 0.0)]
+    assert near[0] == pytest.approx(1.3 * 0.06 * 10 * 0.03)  # of a key of 2 x 2 x 1 cm
+
+
+@pytest.mark.parametrize("front", [None, 0.0, 90.0, 180.0])
+def test_the_answered_front_is_shown_whatever_moves_elsewhere(front: float | None) -> None:
+    asset = keyboard(front)
+    camera = preview.opened_view(asset)[1]
+    sight = camera.T_world_camera[:2, 2]
+    toward = np.deg2rad(front or 0.0)
+    assert sight @ [-np.sin(toward), np.cos(toward)] > 0.3

@@ -16,6 +16,7 @@ from anymesh.export.model import ExportLink, Model, SubstanceShare
 from anymesh.export.options import Format
 from anymesh.physics.mechanism import Mechanism
 from anymesh.physics.resistance import Resistance
+from anymesh.rendering.viewpoints import away
 from anymesh.types import Exchange, Joint, Mesh, Source
 
 SCHEMA_VERSION = "1.3"
@@ -31,6 +32,7 @@ def asset_record(model: Model) -> dict[str, Any]:
         "generator": {"name": "articulate-anymesh", "version": anymesh.__version__},
         "name": asset.name,
         **({"category": asset.category} if asset.category else {}),
+        **({} if asset.front is None else {"front": away(np.deg2rad(asset.front), 0.0).round(6).tolist()}),
         "source": source_record(asset.source),
         **model.how.record(),
         "files": {str(kind): main_file(kind, asset.name) for kind in model.how.formats},

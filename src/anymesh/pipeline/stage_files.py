@@ -338,6 +338,7 @@ def assemble(
         timing=timing,
         exchanges=(*recognition.exchanges, *segmentation.exchanges, *joints.exchanges),
         category=loaded.category or answered,
+        front=None if recognized is None else recognized.front,
     )
     asset = asset if correction is None else _corrected(asset, correction)
     if completion is not None:

@@ -91,7 +91,8 @@ class PromptedStages:
             return self._geometry.find_parts(recognition, progress)
         answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._reference_parts))
         labels = tuple(r.label for r in recognition.labels)
-        questioner = MarkQuestioner(answerer, self.visual_prompts, labels, recognition.category, self.config)
+        asked_for = recognition.size is not None  # the user did not give the labels
+        questioner = MarkQuestioner(answerer, self.visual_prompts, labels, recognition.category, self.config, asked_for)
         segmentation, warnings = ground_parts(
             self._sampled,
             questioner,

@@ -22,6 +22,8 @@ from anymesh.types.triangles import transformed
 AXIS_COLOR = (190, 20, 40)
 WHITE = (255, 255, 255)
 RING_RADIUS = 0.04  # radius of the ring, as a share of the object's diagonal
+# diagonals of a part, and the least share of the object's, that arrow and ring of a small part are sized by; estimates
+SMALL_AXIS, MIN_AXIS = 10.0, 0.25
 HEAD = 12  # [px] margin at scale 1 by which arrow heads and lines extend beyond their points
 FINE = 3  # supersampling factor per side with which axes are drawn
 HIGHLIGHT = (30, 110, 245)  # colour of the part in question; furniture is seldom blue
@@ -94,18 +96,19 @@ class AxisShape(Brief):
         return self.arrow if self.ring is None else np.concatenate([self.arrow, self.ring])
 
 
-def axis_shapes(asset: Asset, positions: Mapping[str, float]) -> list[AxisShape]:
-    """Return arrow and ring of every movable joint, placed in this pose."""
+def axis_shapes(asset: Asset, positions: Mapping[str, float], least: float = MIN_AXIS) -> list[AxisShape]:
+    """Return arrow and ring of every movable joint, placed in this pose, smaller for small parts. least: as MIN_AXIS."""
     transforms = link_transforms(asset, positions)
-    number = {part.name: k for k, part in enumerate(asset.segmentation.parts)}
+    number, whole = asset.segmentation.numbers, asset.mesh.diagonal
     shapes = []
     for joint in asset.joints:
         if joint.type is JointType.FIXED:
             continue
         corners = asset.mesh.triangles[asset.segmentation.face_part == number[joint.child]].reshape(-1, 3)
         slides, T = joint.type is JointType.PRISMATIC, transforms[joint.parent]
-        ends, center = axis_line(corners, joint.origin, joint.axis, slides, asset.mesh.diagonal)
-        circle = None if slides else transformed(ring(center, joint.axis, RING_RADIUS * asset.mesh.diagonal), T)
+        size = min(max(SMALL_AXIS * float(np.linalg.norm(np.ptp(corners, axis=0))), least * whole), whole)
+        ends, center = axis_line(corners, joint.origin, joint.axis, slides, size)
+        circle = None if slides else transformed(ring(center, joint.axis, RING_RADIUS * size), T)
         shapes.append(AxisShape(transformed(ends, T), circle))
     return shapes
 

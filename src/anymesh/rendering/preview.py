@@ -1,4 +1,4 @@
-"""Preview picture of a result: the object at rest and opened, with parts in colours, joint axes and a legend."""
+"""Preview picture of a result: the object at rest and opened, small parts in close-up, joint axes and a legend."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 
 import numpy as np
-from jaxtyping import UInt8
+from jaxtyping import Bool, Int, UInt8
 from PIL import Image, ImageDraw
 
 from anymesh.geometry.kinematics import posed
@@ -25,7 +25,7 @@ from anymesh.rendering.drawing import (
     smoothed,
 )
 from anymesh.rendering.marks import AxisShape, axis_shapes, draw_axes, font
-from anymesh.rendering.viewpoints import SKETCH, orbit_camera
+from anymesh.rendering.viewpoints import SKETCH, framed, orbit_camera
 from anymesh.types import Asset, Joint, JointType, Mesh
 from anymesh.types.camera import Camera
 from anymesh.types.motion import extent
@@ -33,15 +33,20 @@ from anymesh.types.motion import extent
 PALETTE = np.array(  # distinguishable with colour vision deficiencies (after Okabe and Ito, and lighter mixes)
     [[230, 159, 0], [86, 180, 233], [0, 158, 115], [240, 228, 66], [0, 114, 178], [213, 94, 0], [204, 121, 167],
      [130, 200, 120], [150, 120, 220], [120, 90, 60]], np.uint8)  # fmt: skip
+PALETTE = np.concatenate([PALETTE, PALETTE * 0.55, PALETTE * 0.45 + 140]).astype(np.uint8)  # dark and light ones follow
 BASE = np.array([200, 200, 200], np.uint8)
 SIZE = 620  # [px] size of the camera's picture, from which the panels are cut
 MARGIN, MIN_WIDTH, MIN_HEIGHT = 18, 500, 240  # [px] margin around the drawing; minimum size of a panel, so that the legend fits
 OPEN = 0.75  # share of the range by which joints are opened
 LETTERS = 19  # [px] font size of the legend
-MAX_LEGEND_JOINTS = 18  # maximum number of joints in the legend
+MAX_LEGEND_JOINTS = 30  # maximum number of joints in the legend
 AZIMUTHS = (35, -35, 145, -145, 65, -65)  # [deg] candidate views, in order of preference
 ELEVATION = 24  # [deg] elevation of all candidate views
 PREFERRED = 1.05  # factor by which a later view must show more of the moving parts than an earlier one
+SMALL_SHARE = 0.001  # of SIZE**2: a part of which the opened panel shows less gets a close-up; an estimate
+MAX_INSETS, INSET_AIR = 6, 2.0  # number of close-ups; margin around the part on each side, as a share of its box
+INSET_SHARE = 0.7  # of its pixels: other small parts of which a close-up shows as much need none of their own; an estimate
+EDGE = (120, 120, 120)  # colour of the frame of a close-up
 COMPRESSION = 3  # zlib level, 0..9: higher levels take twice the time for 7 % less
 
 
@@ -75,17 +80,58 @@ def render_preview(asset: Asset) -> UInt8[np.ndarray, "H W 3"]:
     opened = _Pose(posed(asset, at), axis_shapes(asset, at)) if any(at.values()) else rest
     camera = best_camera(asset, opened.mesh, [rest.scene, opened.scene])
     window = _window(camera, [rest, opened])
-    colors, parts = part_colors(asset), asset.segmentation.face_part
-    behind = ground(*window.shape)
-    panels = []
-    for pose in (rest, opened):
-        samples = sample(render_target(pose.mesh, pose.scene, parts), camera, window)
-        light = light_on(samples)
-        if not panels:
-            panels.append(draw(samples, material_colors(pose.mesh, samples), light, behind))
-        picture = draw(samples, face_colors(colors, samples), light, behind)
-        panels.append(draw_axes(picture, pose.axes, camera, corner=(window.left, window.top)))
-    return np.concatenate([np.concatenate(panels, 1), _legend(asset, 3 * panels[0].shape[1])])
+    samples = sample(render_target(asset.mesh, rest.scene, asset.segmentation.face_part), camera, window)
+    panels = [draw(samples, material_colors(asset.mesh, samples), light_on(samples), ground(*window.shape))]
+    drawn = [_colored(asset, pose, camera, window) for pose in (rest, opened)]
+    width = 3 * window.shape[1]
+    insets, alone = _insets(asset, _Pose(opened.mesh, axis_shapes(asset, at, 0.0)), camera, drawn[1][1], width)
+    for pose, (picture, _) in zip((rest, opened), drawn, strict=True):
+        axes = [axis for part, axis in _moving(asset, pose) if part not in alone]
+        panels.append(draw_axes(picture, axes, camera, corner=(window.left, window.top)))
+    return np.concatenate([np.concatenate(panels, 1), *insets, _legend(asset, width)])
+
+
+def _moving(asset: Asset, pose: _Pose) -> list[tuple[int, AxisShape]]:
+    """Return the index of each part that moves, with its axis."""
+    moving = [asset.segmentation.numbers[j.child] for j in asset.joints if j.type is not JointType.FIXED]
+    return list(zip(moving, pose.axes, strict=True))
+
+
+def _colored(
+    asset: Asset, pose: _Pose, camera: Camera, window: Window
+) -> tuple[UInt8[np.ndarray, "h w 3"], Int[np.ndarray, " n"]]:
+    """Draw the parts in colours, and return the face that each pixel shows, -1 for none."""
+    samples = sample(render_target(pose.mesh, pose.scene, asset.segmentation.face_part), camera, window)
+    picture = draw(samples, face_colors(part_colors(asset), samples), light_on(samples), ground(*window.shape))
+    return picture, samples.first.face
+
+
+def _insets(
+    asset: Asset, pose: _Pose, camera: Camera, face: Int[np.ndarray, " n"], width: int
+) -> tuple[list[UInt8[np.ndarray, "h w 3"]], set[int]]:
+    """Return a row of close-ups of moving parts that the panel hardly shows, if there are any, and the parts in them.
+
+    Each is shown from where it is seen best. face: face that each pixel of the panel shows.
+    """
+    parts, cells, size, least = asset.segmentation.face_part, [], width // MAX_INSETS, SMALL_SHARE * SIZE**2
+    axes, window = dict(_moving(asset, pose)), Window(0, 0, size, size)
+    pixels = np.bincount(parts[face[face >= 0]], minlength=len(asset.segmentation.parts))
+    small, done = {k for k in axes if pixels[k] < least}, set[int]()
+    for part in sorted(small, key=lambda k: pixels[k]):
+        if part in done or len(cells) == MAX_INSETS:
+            continue
+        corners = pose.mesh.triangles[parts == part].reshape(-1, 3)
+        around = [orbit_camera(pose.mesh.bounds, np.deg2rad(a), np.deg2rad(ELEVATION), SKETCH) for a in AZIMUTHS]
+        near = _clearest([framed(c, corners, INSET_AIR, SKETCH) for c in (camera, *around)], [pose.scene], parts == part)
+        near = replace(near, width=size, height=size)
+        picture, shown = _colored(asset, pose, near, window)
+        count = np.bincount(parts[shown[shown >= 0]], minlength=len(pixels))
+        here = {k for k in small if k == part or count[k] >= INSET_SHARE * count[part]}
+        done |= here
+        cells.append(draw_axes(picture, [axes[k] for k in here], near))
+        cells[-1][[0, -1]] = cells[-1][:, [0, -1]] = EDGE
+    blank = [np.full((size, width - size * len(cells), 3), 255, np.uint8)]
+    return ([np.concatenate(cells + blank, 1)] if cells else []), done
 
 
 def _window(camera: Camera, poses: Sequence[_Pose]) -> Window:
@@ -118,18 +164,22 @@ def part_colors(asset: Asset) -> UInt8[np.ndarray, "F 3"]:
 
 
 def best_camera(asset: Asset, opened: Mesh, scenes: Sequence[RayScene]) -> Camera:
-    """Choose the view that shows most of the moving parts, at rest and opened together."""
+    """Choose the view that shows most of the moving parts, at rest and opened, from the answered front if there is one."""
     bounds = np.array([np.minimum(asset.mesh.bounds[0], opened.bounds[0]), np.maximum(asset.mesh.bounds[1], opened.bounds[1])])
-    moving = asset.segmentation.face_part > 0
-    best, most = AZIMUTHS[0], -1.0
-    for azimuth in AZIMUTHS:
-        small = orbit_camera(bounds, np.deg2rad(azimuth), np.deg2rad(ELEVATION), SKETCH)
-        origins, directions = small.rays()
-        faces = [scene.first_hit(origins, directions).face for scene in scenes]
-        seen = sum(int(moving[face[face >= 0]].sum()) for face in faces)
+    azimuths = AZIMUTHS if asset.front is None else [asset.front + a for a in AZIMUTHS if abs(a) < 90]
+    around = [orbit_camera(bounds, np.deg2rad(a), np.deg2rad(ELEVATION), SKETCH) for a in azimuths]
+    return replace(_clearest(around, scenes, asset.segmentation.face_part > 0), width=SIZE, height=SIZE)
+
+
+def _clearest(cameras: Sequence[Camera], scenes: Sequence[RayScene], wanted: Bool[np.ndarray, " F"]) -> Camera:
+    """Return the camera that shows most of the wanted faces; a later one only if it shows clearly more."""
+    best, most = cameras[0], -1.0
+    for camera in cameras:
+        faces = [scene.first_hit(*camera.rays()).face for scene in scenes]
+        seen = sum(int(wanted[face[face >= 0]].sum()) for face in faces)
         if seen > PREFERRED * most:
-            best, most = azimuth, float(seen)
-    return orbit_camera(bounds, np.deg2rad(best), np.deg2rad(ELEVATION), SIZE)
+            best, most = camera, float(seen)
+    return best
 
 
 def opened_view(asset: Asset) -> tuple[Mesh, Camera]:
@@ -155,7 +205,7 @@ def _legend(asset: Asset, width: int) -> UInt8[np.ndarray, "h W 3"]:
     draw = ImageDraw.Draw(image)
     if not lines:
         draw.text((20, 10), "nothing moves", fill=(60, 60, 60), font=letters)
-    number = {part.name: k for k, part in enumerate(asset.segmentation.parts)}
+    number = asset.segmentation.numbers
     for k, line in enumerate(lines):
         x, y = 20 + (k % 3) * (width // 3), 10 + 30 * (k // 3)
         if k < len(asset.joints):

@@ -60,6 +60,11 @@ class Segmentation:
     def __repr__(self) -> str:
         return f"Segmentation of {len(self.face_part)} faces into {len(self.parts)} parts, the root {self.parts[0].name!r}"
 
+    @property
+    def numbers(self) -> dict[str, int]:
+        """Return the index of each part by name."""
+        return {part.name: k for k, part in enumerate(self.parts)}
+
     def faces(self, part: int) -> Int[np.ndarray, " n"]:
         """Return the face indices of one part."""
         return np.flatnonzero(self.face_part == part)
@@ -95,6 +100,7 @@ class Asset:
     source_face: Int[np.ndarray, " F"] | None = None  # face index in the source, -1 for faces added by Stage C
     notes: tuple[str, ...] = ()  # changes by Stage C, in words
     category: str = ""  # kind of object as given or answered, "" if only the name tells
+    front: float | None = None  # answered azimuth that shows the front [deg], 0 looks along +y
 
     def __post_init__(self) -> None:
         names = [p.name for p in self.segmentation.parts]

@@ -37,14 +37,14 @@ from anymesh.types.camera import Camera
 CUBE = mesh_of([box((0, 0, 0), (1, 1, 1))])[0]
 
 
-def renders(camera: Camera) -> View:
+def renders(view: View, camera: Camera) -> View:
     raise AssertionError("no close-up is needed")
 
 
-def chosen(*faces: np.ndarray, wanted: list[int] | None = None) -> dict[str, list[int]]:
+def chosen(*faces: np.ndarray, wanted: list[int] | None = None, names: list[str] | None = None) -> dict[str, list[int]]:
     """Return the marks drawn in each chosen view; mark k + 1 is face k."""
     views, count = [drawn_view(f) for f in faces], max(int(f.max()) for f in faces) + 1
-    names = [f"view {k}" for k in range(len(views))]
+    names = names or [f"view {k}" for k in range(len(views))]
     found = choose_pictures(
         Marks(np.arange(1, count + 1)), range(1, count + 1) if wanted is None else wanted, views, names, renders
     )
@@ -213,6 +213,25 @@ def prompts_of(mesh: Mesh) -> VisualPrompts:
     return VisualPrompts(mesh, Config())
 
 
+@pytest.mark.parametrize(("width", "views"), [(5, ["a", "b"]), (20, ["a"])])
+def test_a_large_mark_is_shown_well_by_a_tenth_of_its_largest_view(width: int, views: list[str]) -> None:
+    """The second mark is large in view b only, and 5 or 20 pixels wide in view a: 450 or 1800 of 9000 pixels."""
+    first, second = blocks(100, (30, 0, 70, 90), (0, 0, width, 90)), blocks(100, (95, 0, 5, 10), (0, 0, 90, 100))
+    assert [name for name, marks in chosen(first, second, names=["a", "b"]).items() if 2 in marks][: len(views)] == views
+    alone = chosen(first, second, names=["a", "b"], wanted=[2])
+    assert (list(alone) == ["b"]) or width == 20
+
+
+@pytest.mark.parametrize(("share", "shown"), [(0.2, True), (0.5, False)])
+def test_the_front_is_shown_if_two_views_show_a_large_mark_of_it_askew(share: float, shown: bool) -> None:
+    """The facade, mark 1, has enough pixels for a number from the left and from the right, where the walls are seen best."""
+    front = blocks(640, (0, 0, 400, 400))
+    left = blocks(640, (0, 0, int(400 * share), 400), (300, 0, 300, 400))
+    right = blocks(640, (0, 0, int(400 * share), 400), (0, 0, 0, 0), (300, 0, 300, 400))
+    found = chosen(front, left, right, names=[f"from the {side}, 15 degrees up" for side in ("front", "left", "right")])
+    assert len(found) == (3 if shown else 2)
+
+
 def drawn_in(regions: tuple[np.ndarray, ...]) -> set[int]:
     return set().union(*(np.unique(r[r > 0]).tolist() for r in regions))
 
@@ -227,7 +246,7 @@ def pictures(pieces: list) -> list:
     mesh, piece = mesh_of(pieces)
     prompts = prompts_of(mesh) if len(pieces) < 50 else keyboard()[0]
     seen = prompts.views
-    return choose_pictures(Marks(piece + 1), range(1, len(pieces) + 1), seen, prompts.names(len(seen)), prompts.view)
+    return choose_pictures(Marks(piece + 1), range(1, len(pieces) + 1), seen, prompts.names(len(seen)), prompts.near)
 
 
 def test_a_cube_with_a_knob_behind_and_one_on_top_needs_few_views() -> None:

@@ -23,9 +23,9 @@ from anymesh.prompted import stages as prompted_stages
 from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer
 from anymesh.prompted.grounding import ground as ground_masks
 from anymesh.prompted.grounding.ground import UNSURE
+from anymesh.prompted.pictures.views import part_pixels
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer
 from anymesh.prompted.questions.prompting import PartFit
-from anymesh.rendering.viewpoints import part_pixels
 from anymesh.types import JointType, KnownJoint, Mesh, Segmentation
 from anymesh.types.motion import Recognition, RecognizedLabel
 

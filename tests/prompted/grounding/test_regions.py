@@ -15,7 +15,14 @@ from rows import row_cloud
 from anymesh.prompted.grounding import regions
 from anymesh.prompted.grounding import views as views_module
 from anymesh.prompted.grounding.cloud import sample_cloud
-from anymesh.prompted.grounding.regions import face_regions, min_pixels, number_regions, split_marks
+from anymesh.prompted.grounding.regions import (
+    face_regions,
+    join_doubled,
+    join_wires,
+    min_pixels,
+    number_regions,
+    split_marks,
+)
 from anymesh.prompted.grounding.views import close_ups
 from anymesh.rendering.render import render
 from anymesh.segmentation.divide import object_shape
@@ -49,6 +56,34 @@ def test_a_mark_is_a_patch_and_what_no_view_shows_has_none() -> None:
     assert own[3] == [-1]
     for view in views:
         assert ((marks.in_view(view) > 0) == (view.face >= 0)).all()
+
+
+def test_a_surface_that_is_there_twice_is_one_region_and_its_neighbours_are_not() -> None:
+    """The front is there again in other triangles; a tile lies beside it in its plane, and the body behind it faces it."""
+    again = trimesh.Trimesh(*FRONT, process=False).subdivide()
+    tile, touching_it = box((1, -0.1, 0), (1.3, -0.01, 1)), box((0, -0.01, 0), (1, 1, 1))
+    mesh, piece = mesh_of([touching_it, FRONT, (np.array(again.vertices), np.array(again.faces)), tile])
+    whole = object_shape(mesh)
+    cloud = sample_cloud(mesh, whole, FEW)
+    apart = face_regions(whole, cloud)
+    region = join_doubled(apart, mesh, cloud)
+    own = [set(region[piece == k].tolist()) for k in range(4)]
+    assert own[1] == own[2]
+    assert len(own[0] | own[1] | own[3]) == 3
+    assert len(np.unique(apart)) == 4
+
+
+@pytest.mark.parametrize(("count", "together"), [(6, True), (3, False)])
+def test_wires_that_cross_each_other_are_one_region_if_they_are_many(count: int, together: bool) -> None:
+    along = [box((0.1 + 0.1 * i, 0, 0), (0.105 + 0.1 * i, 1, 0.005)) for i in range(count)]
+    across = [box((0, 0.1 + 0.2 * k, 0.005), (1, 0.105 + 0.2 * k, 0.01)) for k in range(3)]
+    mesh, piece = mesh_of([*along, *across, box((0, 0, -0.5), (1, 1, -0.4))])
+    whole, _, views = shown(mesh)
+    thin = np.arange(len(along) + 4) < len(along) + 3
+    region, racks = join_wires(piece, thin, views, whole.diagonal)
+    assert (len(np.unique(region)) == 2) is together
+    assert racks == ([0] if together else [])
+    assert (region[piece == len(along) + 3] == len(along) + 3).all()
 
 
 def test_what_is_too_small_joins_what_it_touches_and_a_close_up_shows_it(monkeypatch: pytest.MonkeyPatch) -> None:

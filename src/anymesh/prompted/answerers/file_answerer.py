@@ -70,7 +70,7 @@ def answer_text(text: str, schema: Schema) -> str:
 
 def _assignment(name: str, number: str | None, text: str, items: Schema) -> dict[str, Any]:
     properties = dict(items["properties"])
-    named = (item for item in properties.items() if item[1]["type"] == "integer" or "enum" in item[1])
+    named = (item for item in properties.items() if item[1]["type"] == "integer" or "enum" in item[1] or item[0] == "label")
     first, part = next(named, next(iter(properties.items())))  # explanatory text may come before
     entry = {first: _value(name.strip(), part, first)}
     del properties[first]

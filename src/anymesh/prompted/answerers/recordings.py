@@ -11,6 +11,7 @@ import logging
 import re
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import replace
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -123,10 +124,14 @@ class Replay:
         self.name: str = self._names[0]
 
     def ask(self, request: Request) -> Reply:
-        """Return the recorded reply. Raise ModelError if the question was not recorded."""
-        for name in self._names:
-            if (record := self._records.get(request_key(name, request))) is not None:
-                return kept_reply(record)
+        """Return the recorded reply, also to an earlier form of the question. Raise ModelError if it was not recorded."""
+        forms = [request]
+        if request.earlier is not None:
+            forms.append(replace(request, text=request.earlier[0], schema=request.earlier[1]))
+        for form in forms:
+            for name in self._names:
+                if (record := self._records.get(request_key(name, form))) is not None:
+                    return kept_reply(record)
         raise ModelError(
             f"the recording {self._folder} has no answer to this {request.kind!r} question: the input, the options or the "
             "version differ from those of the recording; record again"

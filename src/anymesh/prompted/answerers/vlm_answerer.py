@@ -14,6 +14,7 @@ from threading import Lock
 from anymesh.prompted.answerers.question_files import LEFT, NAME, is_left_to_geometry
 from anymesh.prompted.models.vision import Reply, Request, VisionModel, request_key
 from anymesh.prompted.questions.asking import BadAnswerError, reply_object
+from anymesh.prompted.questions.grounding import WhichMarks
 from anymesh.types import Exchange
 from anymesh.types.exchange import FALLBACK_VERDICT, NOT_ASKED
 from anymesh.types.questions import Answer, Question, VisualAnswerer
@@ -126,7 +127,9 @@ class VlmAnswerer:
 
 def request_of(question: Question[Answer]) -> Request:
     """Return the request that asks a question."""
-    return Request(question.kind, SYSTEM, question.text(), tuple(question.pictures), question.schema())
+    narrow = replace(question, extensible=False) if isinstance(question, WhichMarks) and question.extensible else None
+    earlier = None if narrow is None else (narrow.text(), narrow.schema())
+    return Request(question.kind, SYSTEM, question.text(), tuple(question.pictures), question.schema(), earlier=earlier)
 
 
 def exchange_of(model: str, request: Request, reply: Reply, verdict: str) -> Exchange:

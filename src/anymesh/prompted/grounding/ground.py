@@ -22,11 +22,11 @@ from anymesh.prompted.grounding.fuse import (
     propose_masks,
 )
 from anymesh.prompted.grounding.mark_questions import MarkAnswers, MarkQuestioner, ask_exact, ask_masks
-from anymesh.prompted.grounding.regions import face_regions, number_regions, split_marks
+from anymesh.prompted.grounding.regions import number_regions, split_marks
 from anymesh.prompted.grounding.sam import PromptedSegmenter, automatic_masks
 from anymesh.prompted.grounding.views import EXACT, MIN_INNER_PATCH_RATIO, SampledObject, shown_views, unseen_patches
+from anymesh.prompted.pictures.views import normal_picture
 from anymesh.rendering.render import View
-from anymesh.rendering.viewpoints import normal_picture
 from anymesh.runtime import Progress, silent
 from anymesh.segmentation.handles import patch_sizes
 from anymesh.segmentation.naming import named_parts
@@ -76,10 +76,10 @@ def ground_parts(
     """
     mesh, whole, answerer = sampled.mesh, sampled.whole, questioner.answerer
     labels = questioner.labels
-    moves = {r.label: r.moves for r in recognition.labels}
+    moves = {r.label: r.moves for r in recognition.labels}  # of the kinds that only close-ups show, nothing is known
 
     def free(of: Sequence[str]) -> StaysFree:
-        return lambda without, joined, part: stays_free(without, joined, part, moves[of[part - 1]])
+        return lambda without, joined, part: stays_free(without, joined, part, moves.get(of[part - 1]))
 
     grounded = ground(sampled, questioner, recognition.front, free, progress)
     reason = _pointed(answerer)
@@ -144,9 +144,8 @@ def ground_exactly(
     """
     mesh, whole, cloud = sampled.mesh, sampled.whole, sampled.cloud
     progress("segment", "views", 0, 3)
-    region = face_regions(whole, cloud)
-    shown = shown_views(sampled, questioner, region, front)
-    marks = number_regions(region, shown.views, whole.diagonal)
+    shown = shown_views(sampled, questioner, front)
+    marks = number_regions(shown.region, shown.views, whole.diagonal)
     progress("segment", "marks", 1, 3)
     answer = MarkAnswers(marks, (), frozenset())
     if questioner.labels:
@@ -192,10 +191,9 @@ def ground_by_masks(
     """
     mesh, whole, cloud, config = sampled.mesh, sampled.whole, sampled.cloud, questioner.config
     progress("segment", "views", 0, 4)
-    region = face_regions(whole, cloud)
-    shown = shown_views(sampled, questioner, region, front)
+    shown = shown_views(sampled, questioner, front)
     progress("segment", "masks", 1, 4)
-    proposals = propose_in_views(region, whole.diagonal, shown.views, segmenter, config)
+    proposals = propose_in_views(shown.region, whole.diagonal, shown.views, segmenter, config)
     progress("segment", "marks", 2, 4)
     marked = ask_masks(questioner, proposals, shown.views, shown.names) if questioner.labels else ()
     progress("segment", "fusion", 3, 4)

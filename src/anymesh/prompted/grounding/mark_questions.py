@@ -27,11 +27,15 @@ from anymesh.types.questions import VisualAnswerer
 
 MAX_MARKS_PER_PICTURE = 40  # marks that can be distinguished in one picture
 WELL, HALF = 400.0, 0.5  # a view shows a mark well with this many pixels of a 640 px view, or this share of its maximum
+LEAST_WELL = 0.1  # share of its maximum below which it never does; an estimate that changes few of the recorded questions
+# a mark of this many pixels in the view of the front is shown there if the chosen views show less than this share; estimates
+LARGE, FRONT_SHARE = 4000.0, 0.3
 MIN_MARK_PIXELS = 30.0  # [px of a 640 px view] minimum size of a drawn mark
 MARK_OPACITY = 0.1  # of the mask colours over the picture
 MAX_VIEWS_SHOWN_TWICE = 5  # number of views up to which marks are shown a second time
 TILE_AIR = 0.15  # margin around the marks of a close-up, as a share of their box on each side
 TILES = 4  # maximum number of times that a crowded view is halved: 16 close-ups
+FRONT_VIEW, CLOSE_UP = "from the front,", "close-up"  # how the name of the view of the front begins; in the names of close-ups
 INSIDE = "inside"  # in the names of pictures of the inside, and of no others
 MAX_MARK_PICTURES = 16  # pictures per call
 
@@ -74,9 +78,14 @@ def choose_pictures(
     labels = [marks.in_view(view) for view in views]
     size = np.stack([_count(label, numbers) for label in labels])
     scale = np.array([(view.camera.height / REFERENCE_PX) ** 2 for view in views])[:, None]
-    well = size >= np.minimum(WELL * scale, np.maximum(HALF * size.max(0), 1))
+    well = size >= np.maximum(np.minimum(WELL * scale, np.maximum(HALF * size.max(0), 1)), LEAST_WELL * size.max(0))
+    chosen = dict(_cover(well, size))
+    front = next((v for v, name in enumerate(names) if name.startswith(FRONT_VIEW)), None)
+    if front is not None and front not in chosen and chosen:
+        lacking = (size[front] >= LARGE * scale[front]) & (size[list(chosen)].max(0) < FRONT_SHARE * size[front])
+        chosen |= {front: lacking} if lacking.any() else {}
     pictures: list[MarkPicture] = []
-    for v, new in _cover(well, size):
+    for v, new in sorted(chosen.items()):
         pictures += _drawn(MarkPicture(views[v], labels[v], names[v]), numbers, size[v], new, render, marks)
     return pictures
 
@@ -160,13 +169,17 @@ def _halves(middle: np.ndarray, group: np.ndarray) -> list[np.ndarray]:
 
 @dataclass(frozen=True, eq=False)
 class MarkQuestioner:
-    """Settings of the questions about one object: answerer, picture style, labels and category."""
+    """Settings of the questions about one object: answerer, picture style, labels and category.
+
+    extensible: close-ups may show kinds of part that the labels lack.
+    """
 
     answerer: VisualAnswerer
     visual_prompts: VisualPrompts
     labels: tuple[str, ...]
     category: str | None
     config: Config
+    extensible: bool = False
 
     def pictures(self, shown: Sequence[MarkPicture]) -> DrawnPictures:
         """Return the pictures with their marks."""
@@ -248,6 +261,7 @@ def _in_calls(
                 any(INSIDE in p.name for p in some),
                 again,
                 marks.face_mark,
+                extensible=questioner.extensible and not again and any(CLOSE_UP in p.name for p in some),
             )
         )
         done |= set[int]().union(*(p.drawn for p in some))

@@ -10,6 +10,7 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.config import REFERENCE_PX
 from anymesh.geometry.creases import divide_at_seams
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.topology import components, label_connected, strongest
 from anymesh.prompted.grounding.cloud import Cloud
@@ -25,6 +26,12 @@ COLOR_STEP = 0.12  # distance of mean colours (0..1 per channel) that separates 
 MIN_COLOR_PATCH_SHARE = 0.02  # share of the surface from which a patch is searched for parts that differ in colour only
 MIN_MASK_PIXELS = 200  # [px] of a view of REFERENCE_PX; smaller masks are dropped (1000 in the paper, which loses small parts)
 MIN_MAIN_SHARE = 0.5  # share of a mark from which a superpoint is most of it
+DOUBLED_RATIO = 1e-4  # of the diagonal: surfaces nearer than this to each other are one
+SAME_NORMAL_COSINE, MIN_DOUBLED_SHARE = (
+    0.99,
+    0.5,
+)  # of both; share of the smaller that lies on the other; estimates
+MIN_WIRES = 8  # number of wires that cross each other from which they have one mark; an estimate
 MAX_DEPTH_STEP_RATIO = 0.02  # of the diagonal: maximum depth difference between touching things
 
 
@@ -78,6 +85,51 @@ def _by_majority(label: np.ndarray, faces: np.ndarray, count: int) -> Int[np.nda
     return face_label
 
 
+def join_doubled(region: Int[np.ndarray, " F"], mesh: Mesh, cloud: Cloud) -> Int[np.ndarray, " F"]:
+    """Return the regions with those joined that lie on one another and face the same way: a surface that is there twice.
+
+    Pictures show one or the other at random, so that a number would name half of what is seen. Regions beside each other in one
+    plane do not lie on one another.
+    """
+    lift = DOUBLED_RATIO * cloud.diagonal * cloud.normals
+    hit = RayScene(mesh.vertices, mesh.faces).first_hit(cloud.points + lift, -2 * lift, 1.0).face
+    normal = mesh.face_normals.copy()
+    normal[cloud.faces] = cloud.normals
+    own, other = region[cloud.faces], np.where(hit >= 0, region[hit], -1)
+    on = (other >= 0) & (own >= 0) & (other != own) & (np.einsum("ij,ij->i", cloud.normals, normal[hit]) > SAME_NORMAL_COSINE)
+    if not on.any():
+        return region
+    points = np.bincount(own[own >= 0], minlength=int(region.max()) + 1)
+    low, high = np.minimum(own[on], other[on]), np.maximum(own[on], other[on])
+    key, count = np.unique(low * len(points) + high, return_counts=True)
+    low, high = np.divmod(key, len(points))
+    doubled = count >= MIN_DOUBLED_SHARE * np.minimum(points[low], points[high])
+    pairs = np.stack([low, high], 1)[doubled]
+    return _joined(region, label_connected(len(points), pairs))
+
+
+def _joined(region: Int[np.ndarray, " F"], group: Int[np.ndarray, " R"]) -> Int[np.ndarray, " F"]:
+    """Return the regions with each as the first of its group; -1 stays."""
+    _, first, back = np.unique(group, return_index=True, return_inverse=True)
+    return np.where(region >= 0, first[back.reshape(-1)][region], -1)
+
+
+def join_wires(
+    region: Int[np.ndarray, " F"], thin: Bool[np.ndarray, " R"], views: Sequence[View], diagonal: float
+) -> tuple[Int[np.ndarray, " F"], list[int]]:
+    """Return the regions with wires that cross each other joined, as those of a rack, and the joined regions.
+
+    thin: regions that no view shows wide enough for a number. Fewer than MIN_WIRES are kept apart.
+    """
+    shown = [np.where(v.face >= 0, region[np.maximum(v.face, 0)], -1) for v in views]
+    meets = touching(shown, views, len(thin), diagonal) > 0
+    group = label_connected(len(thin), np.argwhere(np.triu(meets & thin & thin[:, None])))
+    wires = np.bincount(group[thin], minlength=len(thin)) >= MIN_WIRES
+    inside = wires[group] & thin
+    joined = _joined(region, np.where(inside, group, len(thin) + np.arange(len(thin))))
+    return joined, np.unique(joined[np.isin(region, np.flatnonzero(inside))]).tolist()
+
+
 def number_regions(region: Int[np.ndarray, " F"], views: Sequence[View], diagonal: float) -> Marks:
     """Number the regions (-1 for none) that views show, the most visible first.
 
@@ -85,7 +137,7 @@ def number_regions(region: Int[np.ndarray, " F"], views: Sequence[View], diagona
     touches none. The same applies to the smallest regions until MAX_MARKS are left.
     """
     size, shown = _sizes(region, views)
-    target, crowded = _merged(size, _touching(shown, views, size.shape[1], diagonal), MAX_MARKS)
+    target, crowded = _merged(size, touching(shown, views, size.shape[1], diagonal), MAX_MARKS)
     return Marks(_numbered(region, size, target, 1), crowded)
 
 
@@ -108,7 +160,7 @@ def split_marks(
     region = np.full(len(inside), -1)
     region[inside] = own.reshape(-1)
     size, shown = _sizes(region, views)
-    border = _touching(shown, views, len(names), cloud.diagonal)
+    border = touching(shown, views, len(names), cloud.diagonal)
     border[names[:, None, 0] != names[None, :, 0]] = 0  # regions of different marks are not merged
     target, crowded = _merged(size, border, MAX_SPLIT_MARKS * len(chosen))
     finer = _numbered(region, size, target, int(marks.face_mark.max()) + 1)
@@ -152,7 +204,7 @@ def _numbered(region: np.ndarray, size: np.ndarray, target: np.ndarray, first: i
     return number[np.where(region >= 0, target[region], -1)]
 
 
-def _touching(shown: list[np.ndarray], views: Sequence[View], count: int, diagonal: float) -> Float[np.ndarray, "R R"]:
+def touching(shown: list[np.ndarray], views: Sequence[View], count: int, diagonal: float) -> Float[np.ndarray, "R R"]:
     """Return the number of adjacent pixels at similar depth of every two regions, over all views."""
     border = np.zeros((count, count))
     for labels, view in zip(shown, views, strict=True):

@@ -10,7 +10,7 @@ from jaxtyping import Int
 
 from anymesh.geometry.surface import ObjectShape
 from anymesh.prompted.grounding.mark_questions import MarkQuestioner, ask_exact
-from anymesh.prompted.grounding.regions import Marks, face_regions, number_regions, split_marks
+from anymesh.prompted.grounding.regions import Marks, number_regions, split_marks
 from anymesh.prompted.grounding.views import SampledObject, shown_views
 from anymesh.prompted.questions.grounding import MarkedPart
 from anymesh.prompted.questions.prompting import PartFit
@@ -42,9 +42,8 @@ def ground_again(
     parts = {(labels[numbers[name]], instance[numbers[name]]): numbers[name] for name in wrong}
     questioner = replace(questioner, labels=tuple(dict.fromkeys(label for label, _ in parts)))
     mesh, whole, cloud = sampled.mesh, sampled.whole, sampled.cloud
-    region = face_regions(whole, cloud)
-    shown = shown_views(sampled, questioner, region, front)
-    marks = number_regions(region, shown.views, whole.diagonal)
+    shown = shown_views(sampled, questioner, front)
+    marks = number_regions(shown.region, shown.views, whole.diagonal)
     areas = mesh.face_areas
     owner = _owners(marks, segmentation, areas)
     much = [m for m, part in owner.items() if part and wrong.get(segmentation.parts[part].name) is PartFit.TOO_MUCH]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
@@ -13,6 +14,7 @@ from anymesh.geometry.surface import ObjectShape
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud, seen_points
 from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE
 from anymesh.prompted.grounding.mark_questions import MarkQuestioner
+from anymesh.prompted.grounding.regions import face_regions, join_doubled, join_wires
 from anymesh.rendering.render import View
 from anymesh.segmentation.handles import patch_sizes
 from anymesh.types import Brief, Mesh
@@ -134,14 +136,20 @@ class SampledObject:
     whole: ObjectShape
     cloud: Cloud
 
+    @cached_property
+    def regions(self) -> Int[np.ndarray, " F"]:
+        """Region of each face; a surface that is there twice is one region."""
+        return join_doubled(face_regions(self.whole, self.cloud), self.mesh, self.cloud)
+
 
 @dataclass(frozen=True, eq=False)
 class ShownViews(Brief):
-    """The views to choose pictures from, their names, and the patches that no outside view shows."""
+    """The views to choose pictures from, their names, the patches that no outside view shows, and the region of each face."""
 
     views: list[View]
     names: list[str]
     hidden: Bool[np.ndarray, " P"]
+    region: Int[np.ndarray, " F"]
 
 
 def sample_object(mesh: Mesh, whole: ObjectShape, config: Config) -> SampledObject:
@@ -150,19 +158,21 @@ def sample_object(mesh: Mesh, whole: ObjectShape, config: Config) -> SampledObje
     return SampledObject(mesh, whole, sample_cloud(mesh, whole, count, config.seed))
 
 
-def shown_views(
-    sampled: SampledObject, questioner: MarkQuestioner, region: Int[np.ndarray, " F"], front: float | None
-) -> ShownViews:
+def shown_views(sampled: SampledObject, questioner: MarkQuestioner, front: float | None) -> ShownViews:
     """Return the views from all sides, close-ups of small regions, and views of the inside if there is one.
 
     front: azimuth of the front [deg], if known.
     """
     prompts, cloud = questioner.visual_prompts, sampled.cloud
-    small = close_ups(region, cloud, prompts.views) if questioner.labels else ()
+    size, across, _ = _shown(sampled.regions, prompts.views)
+    narrow = across < MIN_WIDTH_PX * prompts.views[0].camera.height / REFERENCE_PX
+    thin: Bool[np.ndarray, " R"] = (size > 0).any(0) & narrow.all(0)
+    region, racks = join_wires(sampled.regions, thin, prompts.views, sampled.whole.diagonal)
+    small = close_ups(np.where(np.isin(region, racks), -1, region), cloud, prompts.views) if questioner.labels else ()
     seen = [*prompts.views, *(prompts.view(camera) for camera in small)]
     names = prompts.names(len(seen), front)
     shown = seen_points(cloud, seen)
     inside = inner_faces(sampled.mesh, sampled.whole, cloud, shown)
     if questioner.labels and inside.any():
         seen, names = [*seen, *prompts.insides(inside)], [*names, *prompts.inside_names(front)]
-    return ShownViews(seen, names, unseen_patches(sampled.whole, cloud, shown))
+    return ShownViews(seen, names, unseen_patches(sampled.whole, cloud, shown), region)

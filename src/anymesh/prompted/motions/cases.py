@@ -10,18 +10,20 @@ from jaxtyping import Float
 
 from anymesh.articulation.part_contexts import (
     descendants,
+    in_a_row,
     parents,
     part_context,
     same_size,
     share_opening_directions,
     touching_distance,
 )  # fmt: skip
-from anymesh.config import Config
+from anymesh.config import SAME_AXIS_COSINE, Config
 from anymesh.geometry.boxes import straightening
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.lines import plane_normal, round_patches
+from anymesh.prompted.pictures.visual_prompts import Facing
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, PartShown
 from anymesh.types import Joint, JointType, Motion, Picture, Segmentation
 from anymesh.types.exchange import DrawnPictures
@@ -40,7 +42,7 @@ class PartCase:
 
     number: index in the segmentation; carried: parts that depend on it; circles: axes of its largest round patches; recognized:
     recognition of its label; asked: the answered motion; pins: axes of round patches in contact; frame: rows are the object's
-    axes.
+    axes; copies: indices of its copies beside it, which open to the same side.
     """
 
     number: int
@@ -55,6 +57,12 @@ class PartCase:
     asked: Motion | None = None
     pins: tuple[Motion, ...] = ()
     frame: np.ndarray | None = None
+    copies: tuple[int, ...] = ()
+
+    @property
+    def drawn_alike(self) -> Facing | None:
+        """Return the parts that are drawn from one side, this one and its copies, and their opening direction."""
+        return ((self.number, *self.copies), self.context.opening_direction) if self.copies else None
 
     @property
     def kind(self) -> JointAppearance:
@@ -73,10 +81,12 @@ def make_cases(
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(segmentation.parts))]
     recognized = {r.label: r for r in recognition.labels} if recognition else {}
     parent = parents_as_answered(shapes, whole.diagonal, _possible_parents(segmentation, recognized))
-    contexts = {}
+    contexts: dict[int, PartContext] = {}
+    copies: dict[int, tuple[int, ...]] = {}
     for numbers in same_size(shapes, parent):
         some = [part_context(whole, label, shapes, parent, i) for i in numbers]
         contexts |= zip(numbers, share_opening_directions(some), strict=True)
+        copies |= {i: tuple(k for k in numbers if k != i and _are_alike(contexts[i], contexts[k])) for i in numbers}
     frame = straightening(whole.shape.normals, whole.shape.areas)[:3, :3]
     cases = []
     for i, part in enumerate(segmentation.parts[1:], start=1):
@@ -94,8 +104,16 @@ def make_cases(
         carried = tuple(descendants(parent, i))
         circles, pins = round_patches(whole, shapes[i], shapes[parent[i]])
         over, told = segmentation.parts[parent[i]].name, recognized.get(part.label)
-        cases.append(PartCase(i, part.name, over, carried, context, shown, circles, told, pins=pins, frame=frame))
+        cases.append(
+            PartCase(
+                i, part.name, over, carried, context, shown, circles, told, pins=pins, frame=frame, copies=copies[i]
+            )
+        )  # fmt: skip
     return cases
+
+
+def _are_alike(a: PartContext, b: PartContext) -> bool:
+    return bool(a.opening_direction @ b.opening_direction > SAME_AXIS_COSINE) and in_a_row(a, b)
 
 
 def _possible_parents(segmentation: Segmentation, recognized: Mapping[str, RecognizedLabel]) -> list[set[int]]:

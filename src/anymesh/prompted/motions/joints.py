@@ -232,7 +232,7 @@ def _with_kinds(
     kinds = ask_each(
         questions.answerer,
         cases,
-        lambda c, title: pictures.card(labels, c.number, title, c.shown.contact),
+        lambda c, title: pictures.card(labels, c.number, title, c.shown.contact, c.drawn_alike),
         lambda p, some: WhichKinds(p, tuple(c.shown for c in some), choices, questions.category),
     )
     answered = {n: a.label for n, a in kinds.items() if a.label is not None}
@@ -247,7 +247,7 @@ def _hinges(questions: Questions, cases: list[PartCase], whole: ObjectShape, seg
     """Return the hinges by part number: points are shown and picked, and give a line."""
     labels, pictures = segmentation.face_part, questions.visual_prompts
     turning = [c for c in cases if c.kind.is_rotation]
-    shots = {c.number: pictures.shot(labels, c.number) for c in turning}
+    shots = {c.number: pictures.shot(labels, c.number, c.drawn_alike) for c in turning}
     tables = {c.number: _points(questions, c, shots[c.number], whole) for c in turning}
     picks = ask_each(
         questions.answerer,
@@ -299,7 +299,9 @@ def _surface_directions(questions: Questions, cases: list[PartCase], segmentatio
     rows = ask_each(
         questions.answerer,
         sliding,
-        lambda c, title: pictures.arrows(labels, c.number, title, c.context.part.box.center, tables[c.number].directions),
+        lambda c, title: pictures.arrows(
+            labels, c.number, title, c.context.part.box.center, tables[c.number].directions, c.drawn_alike
+        ),
         lambda p, some: WhichArrows(p, tuple(tables[c.number] for c in some), questions.category),
     )
     return {c.number: prismatic(tables[c.number].directions[rows[c.number]], c.context, "arrow picked") for c in sliding}
@@ -316,7 +318,7 @@ def _joint(case: PartCase, choice: Choice, verify: str) -> tuple[Joint, str]:
     answered = answered_range(case.recognized, kind)
     best = away_from_closed(case.context, choice.best) if answered is None else opening_as_answered(choice.best, answered)
     joint = joint_of(case.context, case.name, case.parent, best, kind, choice.confidence, choice.reason, answered)
-    told = _endless_words(case, best, kind, twice=twice)
+    told = choice.warning or _endless_words(case, best, kind, twice=twice)
     told = told and f"joint {joint.name}: {told}{PLEASE_CHECK}"
     if answered is None or pressed(best, answered):
         return joint, told or (_unused(joint, case.recognized) if answered is None else "")

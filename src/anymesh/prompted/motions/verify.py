@@ -16,11 +16,12 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.articulation.candidate_motions import Candidate
 from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE, reason, same_joints, same_lines, shipped_classifier
+from anymesh.config import FACING_COSINE
 from anymesh.prompted.motions.cases import PartCase, ask_each
 from anymesh.prompted.motions.offers import MotionOffers, fits, make_offers, moves_as
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.prompting import JointAppearance, MotionPick, MotionTable, PartFit, WhichMotions
-from anymesh.types import Brief, Picture
+from anymesh.types import Brief, JointType, Picture
 from anymesh.types.questions import VisualAnswerer
 
 MOTIONS_IN_PICTURE = 7  # two rows of four with the pose at rest
@@ -135,6 +136,7 @@ class Choice:
     confidence: float
     fit: PartFit = PartFit.RIGHT
     moves: bool = True  # False if no joint is likelier than none
+    warning: str = ""  # warning about it, in words
 
 
 @dataclass(frozen=True, eq=False)
@@ -173,7 +175,8 @@ class MotionQuestioner(Brief):
         """Draw the part with its carried parts, at rest and in each motion."""
         moving = np.zeros(len(self.labels), bool)
         moving[table.moving] = True
-        return self.visual_prompts.strip(moving, title, table.motions, table.amounts, table.blocked)
+        facing = self.visual_prompts.facing(self.labels, case.drawn_alike)
+        return self.visual_prompts.strip(moving, title, table.motions, table.amounts, table.blocked, facing)
 
 
 def choose_motions(cases: list[PartCase], asking: MotionQuestioner, seed: int) -> dict[int, Choice]:
@@ -199,7 +202,36 @@ def choose_motions(cases: list[PartCase], asking: MotionQuestioner, seed: int) -
         for n, o in offers.items()
     }
     probabilities = posteriors(answers)
-    return {n: _chosen(a, probabilities[n], picks[n].part if n in picks else PartFit.RIGHT) for n, a in answers.items()}
+    chosen = {n: _chosen(a, probabilities[n], picks[n].part if n in picks else PartFit.RIGHT) for n, a in answers.items()}
+    return _to_one_side(chosen, answers, probabilities)
+
+
+def _to_one_side(
+    chosen: Mapping[int, Choice], answers: Mapping[int, PartAnswers], probabilities: Mapping[int, Float[np.ndarray, " m"]]
+) -> dict[int, Choice]:
+    """Return the choices with hinged copies opened to the side that is likelier for all of them; those turned get a warning."""
+    sides = {n: _side(choice.best) for n, choice in chosen.items() if choice.moves and _side(choice.best)}
+    result = dict(chosen)
+    for n, side in sides.items():
+        row = [k for k in (n, *answers[n].offers.case.copies) if k in sides]
+        likelier = np.sign(sum(_side_odds(answers[k], probabilities[k]) for k in row)) or 1.0
+        other = chosen[n].best.reversed()
+        if len({sides[k] for k in row}) > 1 and side != likelier and other.is_free:
+            warning = "it was answered to open to the other side than its copy beside it, and opens to the same side"
+            result[n] = replace(chosen[n], best=other, warning=warning)
+    return result
+
+
+def _side(c: Candidate) -> float:
+    """Return 1 for a hinge that opens to the opening direction of its part, -1 to the opposite one, 0 for others."""
+    return float(np.sign(c.outward)) if c.motion.kind is JointType.REVOLUTE and abs(c.outward) > FACING_COSINE else 0.0
+
+
+def _side_odds(answers: PartAnswers, probability: Float[np.ndarray, " m"]) -> float:
+    """Return the log-odds that a hinge opens to the opening direction of its part."""
+    sides = np.array([_side(c) for c in answers.offers.motions])
+    ahead, back = (float(probability[:-2][sides == s].sum()) for s in (1.0, -1.0))
+    return float(np.log(ahead + 1e-6) - np.log(back + 1e-6))
 
 
 def _needs_question(o: MotionOffers) -> bool:

@@ -11,9 +11,9 @@ from scipy import ndimage
 
 from anymesh.config import REFERENCE_PX
 from anymesh.prompted.pictures.plates import Plate, beside, draw_leader, draw_plate, mark_color, plate_size, take
+from anymesh.prompted.pictures.views import visible_pixels
 from anymesh.rendering.marks import blend, draw_arrow
 from anymesh.rendering.render import View
-from anymesh.rendering.viewpoints import visible_pixels
 from anymesh.types.camera import Camera
 
 ARROW_FONT, ARROW_WIDTH = 20, 2.0  # [px] font size in a picture of 640 px; line width of an arrow, in the unit of `draw_arrow`

@@ -16,9 +16,10 @@ from PIL import Image, ImageDraw
 
 from anymesh.geometry.raycast_ import Hits, RayScene
 from anymesh.prompted.pictures.plates import PAD, Plate, draw_plate, plate_size
+from anymesh.prompted.pictures.views import box_of, is_beside
 from anymesh.rendering.marks import HIGHLIGHT, WHITE, axis_line, blend, draw_arrow, draw_ring, lighten, rim, ring
 from anymesh.rendering.render import lit, shade, turned
-from anymesh.rendering.viewpoints import SKETCH, box_of, framed, orbit_camera, zoom
+from anymesh.rendering.viewpoints import SKETCH, away, framed, orbit_camera, zoom
 from anymesh.types import Brief, JointType, Mesh, Motion
 from anymesh.types.camera import Camera
 from anymesh.types.triangles import bounds_of, box_corners, transformed, unshared
@@ -57,20 +58,19 @@ def motion_strip(
     moving: Bool[np.ndarray, " F"],
     motions: Sequence[tuple[Motion, float]],
     *,
-    numbers: Sequence[int] | None = None,
     blocked: Sequence[bool] = (),
     camera: Camera | None = None,
     scene: RayScene | None = None,
+    facing: Float[np.ndarray, " 3"] | None = None,
 ) -> UInt8[np.ndarray, "H W 3"]:
     """Draw panels in rows: the rest pose, then each motion with its axis and the outline of the rest pose.
 
     moving: faces of the part and of everything it carries; motions: each with the amount [rad or m] that is shown;
-    numbers: titles of the panels, 1, 2, ... if None; blocked: motions that are labelled as blocked; camera: `strip_camera` if
-    None;
-    scene: the mesh's ray scene, if it already exists. Raise ValueError if nothing moves.
+    blocked: motions that are labelled as blocked; camera: `strip_camera` if None; scene: the mesh's ray scene, if it already
+    exists; facing: direction to the side that the camera is on, None for any. Raise ValueError if nothing moves.
     """
     posed, poses = strip_poses(mesh, moving, motions, scene)
-    camera = camera or best_camera(posed, poses, motions, PANEL)
+    camera = camera or best_camera(posed, poses, motions, PANEL, facing)
     fine = replace(camera, width=2 * camera.width, height=2 * camera.height)
     rays = fine.rays()
     still = posed.still_picture(rays)
@@ -81,13 +81,12 @@ def motion_strip(
     covered = np.zeros(shape, bool)
     covered.reshape(-1)[rest.pixel] = True
     outline = rim(covered, 2)
-    names = numbers or range(1, len(motions) + 1)
-    for k, (number, (motion, amount)) in enumerate(zip(names, motions, strict=True)):
+    for k, (motion, amount) in enumerate(motions):
         picture = _painted(still, lines, posed.part_pixels(poses[k + 1], fine))
         picture = blend(picture, outline, (90, 90, 90), 0.7)
         drawn = _with_axis(picture, *motion_axis(posed.corners, motion, amount, fine), fine)
         word = "slides" if motion.kind is JointType.PRISMATIC else "turns"
-        panels.append(_titled(_half(drawn), str(number), f"{word}, blocked" if k < len(blocked) and blocked[k] else word))
+        panels.append(_titled(_half(drawn), str(k + 1), f"{word}, blocked" if k < len(blocked) and blocked[k] else word))
     return grid(panels)
 
 
@@ -193,8 +192,14 @@ def strip_poses(
     return posed, [np.eye(4), *(m.transform(amount) for m, amount in motions)]
 
 
-def best_camera(posed: Posed, poses: Sequence[np.ndarray], motions: Sequence[tuple[Motion, float]], size: int) -> Camera:
-    """Choose the camera for a part in the poses of `strip_poses`."""
+def best_camera(
+    posed: Posed,
+    poses: Sequence[np.ndarray],
+    motions: Sequence[tuple[Motion, float]],
+    size: int,
+    facing: Float[np.ndarray, " 3"] | None = None,
+) -> Camera:
+    """Choose the camera for a part in the poses of `strip_poses`. facing: as in `motion_strip`."""
     places = [transformed(posed.corners, T) for T in poses]
     focus = bounds_of(np.concatenate(places))
     total = bounds_of(np.concatenate([posed.mesh.bounds, focus]))
@@ -202,7 +207,9 @@ def best_camera(posed: Posed, poses: Sequence[np.ndarray], motions: Sequence[tup
     focus = np.stack([np.maximum(focus[0] - margin, total[0]), np.minimum(focus[1] + margin, total[1])])
     step = DEPTH * posed.mesh.diagonal
     best, most = None, -1.0
-    for azimuth, elevation in ((a, e) for e in ELEVATION_WEIGHTS for a in AZIMUTH_WEIGHTS):
+    ways = [(a, e) for e in ELEVATION_WEIGHTS for a in AZIMUTH_WEIGHTS]
+    before = [(a, e) for a, e in ways if facing is None or is_beside(away(np.deg2rad(a), np.deg2rad(e)), facing)]
+    for azimuth, elevation in before or ways:
         far = orbit_camera(total, np.deg2rad(azimuth), np.deg2rad(elevation), SKETCH)
         near = framed(far, box_corners(focus), AIR, far.height)
         rays = near.rays()

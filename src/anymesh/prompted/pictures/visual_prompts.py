@@ -14,20 +14,21 @@ from anymesh.config import REFERENCE_PX, Config
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures.drawing import clearest_view, draw_arrows, draw_points
 from anymesh.prompted.pictures.strips import motion_strip, silhouette
-from anymesh.rendering.drawing import smoothed
-from anymesh.rendering.marks import HIGHLIGHT, font, highlight, lighten
-from anymesh.rendering.render import View, encode, face_colors
-from anymesh.rendering.viewpoints import (
+from anymesh.prompted.pictures.views import (
     best_view,
     cameras,
     caption,
     close_up,
     hidden_points,
+    is_beside,
     part_pixels,
     shown,
     views,
     visible_pixels,
 )
+from anymesh.rendering.drawing import smoothed
+from anymesh.rendering.marks import HIGHLIGHT, font, highlight, lighten
+from anymesh.rendering.render import View, encode, face_colors
 from anymesh.types import Brief, Mesh, Motion, Picture
 from anymesh.types.camera import Camera
 
@@ -40,6 +41,7 @@ GHOST = 0.75  # share by which the colours of the rest are moved towards white
 # azimuth and elevation [deg] of cameras that are shown surface that no view shows, with the rest as a ghost
 INSIDE_DIRECTIONS = ((45.0, 25.0), (225.0, 25.0), (30.0, 60.0))
 ARROW = 0.35  # length of an arrow, as a share of the part's size
+Facing = tuple[tuple[int, ...], np.ndarray]  # parts that are drawn from one side, and the direction in which they open
 UNDER = 0.003  # share of the diagonal: points deeper than this below a surface count as hidden
 
 
@@ -173,6 +175,7 @@ class VisualPrompts:
 
     def __init__(self, mesh: Mesh, config: Config) -> None:
         self._mesh, self._config = smoothed(mesh), config
+        self._pixels: tuple[bytes, np.ndarray] | None = None  # the last parts, and the pixels of each in each view
         self._inside: tuple[bytes, list[View]] | None = None  # the last faces that were shown alone, and their views
 
     @cached_property
@@ -229,16 +232,49 @@ class VisualPrompts:
         captions = [caption(*way, front) for way in self._config.directions]
         return (captions + ["a close-up"] * (count - len(captions)))[:count]
 
+    def facing(self, face_part: Int[np.ndarray, " F"], alike: Facing | None) -> Float[np.ndarray, " 3"] | None:
+        """Return the direction to the side from which more of some parts is seen, None for no parts: any side."""
+        if alike is None:
+            return None
+        key = face_part.tobytes()
+        if self._pixels is None or self._pixels[0] != key:
+            count = int(face_part.max()) + 1
+            seen = np.stack([np.bincount(face_part[v.face[v.face >= 0]], minlength=count) for v in self.views])
+            self._pixels = key, seen
+        parts, way = alike
+        pixels = self._pixels[1][:, list(parts)].sum(1)
+        ahead, back = (pixels[self._seen_from(s * way)].sum() for s in (1.0, -1.0))
+        return way if ahead >= back else -way
+
+    def _seen_from(self, facing: Float[np.ndarray, " 3"]) -> list[int]:
+        """Return the indices of the views from a side, of all views if there are none."""
+        eyes = [v.camera.T_world_camera[:3, 3] - self._mesh.bounds.mean(0) for v in self.views]
+        return [k for k, eye in enumerate(eyes) if is_beside(eye, facing)] or list(range(len(eyes)))
+
+    def _from(self, face_part: Int[np.ndarray, " F"], alike: Facing | None) -> list[View]:
+        """Return the views that these parts are drawn in."""
+        facing = self.facing(face_part, alike)
+        return self.views if facing is None else [self.views[k] for k in self._seen_from(facing)]
+
     def card(
-        self, face_part: Int[np.ndarray, " F"], part: int, title: str, contact: Float[np.ndarray, "c 3"] | None = None
+        self,
+        face_part: Int[np.ndarray, " F"],
+        part: int,
+        title: str,
+        contact: Float[np.ndarray, "c 3"] | None = None,
+        alike: Facing | None = None,
     ) -> Picture:
-        """Draw the highlighted part, and a close-up if it is small; contact: points [m] that should be visible."""
-        view = card_view(self.views, face_part, part, self.scene, contact)
+        """Draw the highlighted part, and a close-up if it is small.
+
+        contact: points [m] that should be visible; alike: parts that are drawn from the same side.
+        """
+        view = card_view(self._from(face_part, alike), face_part, part, self.scene, contact)
         return encode(part_card(self._mesh, view, face_part, part, title, self.scene))
 
-    def shot(self, face_part: Int[np.ndarray, " F"], part: int) -> Shot:
-        """Return the part in its best view."""
-        view = self._near(self.views[best_view(self.views, face_part, part)], face_part, part)
+    def shot(self, face_part: Int[np.ndarray, " F"], part: int, alike: Facing | None = None) -> Shot:
+        """Return the part in its best view. alike: as in `card`."""
+        views = self._from(face_part, alike)
+        view = self._near(views[best_view(views, face_part, part)], face_part, part)
         return Shot(view, self._mask(view, face_part, part))
 
     def hidden(self, shot: Shot, points: Float[np.ndarray, "k 3"]) -> Bool[np.ndarray, " k"]:
@@ -252,10 +288,11 @@ class VisualPrompts:
         title: str,
         center: Float[np.ndarray, " 3"],
         directions: Float[np.ndarray, "k 3"],
+        alike: Facing | None = None,
     ) -> Picture:
-        """Draw the part with numbered arrows, in the view where they are most distinct."""
-        view = self.views[clearest_view(self.views, center, directions, face_part, part)]
-        view = self._near(view, face_part, part)
+        """Draw the part with numbered arrows, in the view where they are most distinct. alike: as in `card`."""
+        views = self._from(face_part, alike)
+        view = self._near(views[clearest_view(views, center, directions, face_part, part)], face_part, part)
         length = ARROW * float(np.linalg.norm(np.ptp(self._mesh.triangles[face_part == part].reshape(-1, 3), axis=0)))
         image = highlight(view.color, self._mask(view, face_part, part))
         drawn = draw_arrows(image, view.camera, center, directions, range(1, len(directions) + 1), length)
@@ -268,10 +305,15 @@ class VisualPrompts:
         motions: Sequence[Motion],
         amounts: Sequence[float],
         blocked: Sequence[bool] = (),
+        facing: Float[np.ndarray, " 3"] | None = None,
     ) -> Picture:
-        """Draw a part and what it carries, at rest and moved by each amount [rad or m]. blocked: motions labelled so."""
+        """Draw a part and what it carries, at rest and moved by each amount [rad or m].
+
+        blocked: motions labelled so; facing: direction to the side that the camera is on, None for any.
+        """
         shown = list(zip(motions, amounts, strict=True))
-        return encode(titled(motion_strip(self._mesh, moving, shown, blocked=blocked, scene=self.scene), title))
+        strip = motion_strip(self._mesh, moving, shown, blocked=blocked, scene=self.scene, facing=facing)
+        return encode(titled(strip, title))
 
     def _near(self, view: View, face_part: np.ndarray, part: int) -> View:
         """Return a close-up if the part is small in the view, else the view."""

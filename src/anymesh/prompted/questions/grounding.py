@@ -9,7 +9,17 @@ from typing import Any
 import numpy as np
 from jaxtyping import Int
 
-from anymesh.prompted.questions.asking import INTEGER, BadAnswerError, a_list, an_answer, an_object, one_of, with_category
+from anymesh.prompted.questions.asking import (
+    INTEGER,
+    STRING,
+    BadAnswerError,
+    a_list,
+    an_answer,
+    an_object,
+    one_of,
+    with_category,
+)
+from anymesh.prompted.questions.recognition import check_labels, folded
 from anymesh.types import Brief
 from anymesh.types.exchange import Pictures
 
@@ -82,7 +92,7 @@ class WhichMarks(Brief):
     surface has the same number in all pictures; found: parts of earlier pictures; splittable: the answer may ask for marks to
     be split; inside: some pictures show the inside; again: descriptions of parts of an earlier answer that proved wrong;
     face_mark: (F,) the mark of each face of the mesh, -1 for none, if marks are the same in all views, for answerers that
-    select marks on the surface itself.
+    select marks on the surface itself; extensible: the answer may name kinds of part that the list lacks.
     """
 
     pictures: Pictures
@@ -97,6 +107,7 @@ class WhichMarks(Brief):
     again: tuple[str, ...] = ()
     face_mark: Int[np.ndarray, " F"] | None = None
     kind: str = "marks"
+    extensible: bool = False
 
     def text(self) -> str:
         views = f"pictures (1..{len(self.regions)} in this order)"
@@ -120,6 +131,11 @@ class WhichMarks(Brief):
                 "split: marks that lie on more than one part, or on a part and on what stays still; they are divided into "
                 "smaller regions and asked about again (an empty list if there are none)."
             )
+        if self.extensible:
+            sentences.append(
+                "If you see a kind of part that moves by itself and is not listed, name it as well: label is then a short "
+                "English noun in lower case."
+            )
         if self.found:
             parts = "; ".join(f"{p.label} {p.instance}: marks {', '.join(map(str, p.marks))}" for p in self.found)
             sentences.append(
@@ -142,7 +158,8 @@ class WhichMarks(Brief):
 
     def schema(self) -> dict[str, Any]:
         view = {} if self.consistent else {"view": INTEGER}
-        part = an_object(label=one_of(self.labels), instance=INTEGER, **view, marks=a_list(INTEGER))
+        label = STRING if self.extensible else one_of(self.labels)
+        part = an_object(label=label, instance=INTEGER, **view, marks=a_list(INTEGER))
         split = {"split": a_list(INTEGER)} if self.splittable else {}
         return an_answer(parts=a_list(part), unsure=a_list(INTEGER), **split)
 
@@ -154,7 +171,9 @@ class WhichMarks(Brief):
         split = frozenset(answer.get("split", ()))
         taken: dict[tuple[int | None, int], tuple[str, int]] = {}
         parts: dict[tuple[str, int, int | None], set[int]] = {}  # a part that is given twice is one part
-        for p in answer["parts"]:
+        named: list[dict[str, Any]] = [{**p, "label": folded(p["label"])} for p in answer["parts"]]
+        check_labels([*dict.fromkeys(p["label"] for p in named if p["label"] not in self.labels)])
+        for p in named:
             where, view = f"{p['label']} {p['instance']}", None
             if not self.consistent:
                 _in_range([p["view"]], range(1, len(self.regions) + 1), "view")

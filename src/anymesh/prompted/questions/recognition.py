@@ -75,7 +75,7 @@ class Recognize:
                 f"front must be the number of a picture, 1..{len(self.azimuths)}, or 0; found {answer['front']}"
             )
         front = self.azimuths[answer["front"] - 1] if answer["front"] else None
-        named = [{**p, "label": _folded(p["label"]), "parent": _folded(p["parent"])} for p in answer["parts"]]
+        named = [{**p, "label": folded(p["label"]), "parent": folded(p["parent"])} for p in answer["parts"]]
         labels = check_labels([p["label"] for p in named])
         parts = tuple(self._label(p, labels) for p in named)
         _check_tree({p["label"]: p["parent"] for p in named})
@@ -107,7 +107,7 @@ def check_labels(labels: Sequence[str]) -> tuple[str, ...]:
     return tuple(labels)
 
 
-def _folded(label: str) -> str:
+def folded(label: str) -> str:
     """Return a label in lower case, with single spaces."""
     return " ".join(label.lower().split())
 
@@ -126,7 +126,7 @@ def _check_tree(parent: Mapping[str, str]) -> None:
 def parse_labels(labels: Sequence[str]) -> tuple[str, ...]:
     """Return the labels given by a user. Raise OptionError if they are not valid."""
     try:
-        return check_labels([_folded(label) for label in labels])
+        return check_labels([folded(label) for label in labels])
     except BadAnswerError as error:
         raise OptionError(f"--parts-list: {error}") from None
 

@@ -10,10 +10,8 @@ from scipy import ndimage
 from anymesh.config import PAPER_VIEWS, Config
 from anymesh.errors import OptionError
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.prompted.pictures.visual_prompts import inside_views
-from anymesh.rendering import viewpoints
-from anymesh.rendering.render import render
-from anymesh.rendering.viewpoints import (
+from anymesh.prompted.pictures import views as pictures
+from anymesh.prompted.pictures.views import (
     best_view,
     box_of,
     cameras,
@@ -24,8 +22,10 @@ from anymesh.rendering.viewpoints import (
     shown,
     views,
     visible_pixels,
-    zoom,
 )
+from anymesh.prompted.pictures.visual_prompts import inside_views
+from anymesh.rendering.render import render
+from anymesh.rendering.viewpoints import zoom
 
 CONFIG = Config()
 
@@ -213,10 +213,10 @@ def test_small_parts_get_a_close_up_and_others_do_not(monkeypatch):
     scene = RayScene(bare.vertices, bare.faces)
     view = views(bare, CONFIG.directions, size=160, scene=scene)[0]
     covered = visible_pixels(view, part, 1)
-    monkeypatch.setattr(viewpoints, "MIN_PART_PIXELS", 16 * covered)
+    monkeypatch.setattr(pictures, "MIN_PART_PIXELS", 16 * covered)
     assert close_up(bare, view, part, 1, scene) is None
     assert close_up(bare, view, part, 5, scene) is None
-    monkeypatch.setattr(viewpoints, "MIN_PART_PIXELS", 16 * (covered + 1))
+    monkeypatch.setattr(pictures, "MIN_PART_PIXELS", 16 * (covered + 1))
     near = close_up(bare, view, part, 1, scene)
     assert near is not None
     assert near.face.shape == view.face.shape
@@ -226,7 +226,7 @@ def test_small_parts_get_a_close_up_and_others_do_not(monkeypatch):
     assert not (mask[:, [0, -1]].any())
     # the limit counts pixels of a full-size picture
     small = views(bare, CONFIG.directions, size=80, scene=scene)[0]
-    monkeypatch.setattr(viewpoints, "MIN_PART_PIXELS", 8 * covered)
+    monkeypatch.setattr(pictures, "MIN_PART_PIXELS", 8 * covered)
     assert close_up(bare, small, part, 1, scene) is None
 
 
