@@ -166,7 +166,7 @@ def shown_views(sampled: SampledObject, questioner: MarkQuestioner, front: float
     prompts, cloud = questioner.visual_prompts, sampled.cloud
     size, across, _ = _shown(sampled.regions, prompts.views)
     narrow = across < MIN_WIDTH_PX * prompts.views[0].camera.height / REFERENCE_PX
-    thin: Bool[np.ndarray, " R"] = (size > 0).any(0) & narrow.all(0)
+    thin = np.logical_and((size > 0).any(0), narrow.all(0))
     region, racks = join_wires(sampled.regions, thin, prompts.views, sampled.whole.diagonal)
     small = close_ups(np.where(np.isin(region, racks), -1, region), cloud, prompts.views) if questioner.labels else ()
     seen = [*prompts.views, *(prompts.view(camera) for camera in small)]
