@@ -217,7 +217,7 @@ def _to_one_side(
         likelier = np.sign(sum(_side_odds(answers[k], probabilities[k]) for k in row)) or 1.0
         other = chosen[n].best.reversed()
         if len({sides[k] for k in row}) > 1 and side != likelier and other.is_free:
-            warning = "it was answered to open to the other side than its copy beside it, and opens to the same side"
+            warning = "by itself it would open to the other side than its copy beside it, and opens to the same side"
             result[n] = replace(chosen[n], best=other, warning=warning)
     return result
 
