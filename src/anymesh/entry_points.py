@@ -54,9 +54,10 @@ WRITE_PACKAGE = "formats.packed:write_package"
 CHECK_ZIP = "formats.packed:check_zip"
 WRITE_ZIP = "formats.packed:write_zip"
 
-# What is usual for a kind of object: its bodies, with doubts about size and mass, and its size.
+# What is usual for a kind of object: its bodies, with doubts about size and mass, its size, and its moving parts.
 USUAL_BODIES = "kinds.bodies:usual_bodies"
 USUAL_SIZE = "kinds.usual:usual_size"
+USUAL_PARTS = "kinds.moving_parts:usual_parts"
 DESCRIBED = "kinds.pieces:described"
 
 # Resistance, springs, catches and detents of joints.

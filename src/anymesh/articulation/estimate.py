@@ -28,6 +28,7 @@ from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
 from anymesh.names import GIVEN, NAMED
 from anymesh.runtime import JOINTS, Deadline, Progress, silent
+from anymesh.scoring.classifier import KindPrior
 from anymesh.types import Joint, JointType, Motion, Part, Segmentation
 
 MAX_SWEPT = 8  # motions of a part that are swept, the likeliest of the part at rest; more choose no better
@@ -54,10 +55,12 @@ def part_motions(
     deadline: Deadline | None = None,
     most_swept: int = MAX_SWEPT,
     progress: Progress = silent,
+    usual: KindPrior | None = None,
 ) -> Iterator[PartMotions]:
     """Yield the motions of each part but the root, copies together. Only the likeliest motions are swept and offered.
 
     Parts that stand above or beside each other with the same handle at the same side move as copies do.
+    usual: motions of parts of the object's kind.
     """
     label, parts = segmentation.face_part[whole.source], segmentation.parts
     shapes = [whole.of(np.flatnonzero(label == i)) for i in range(len(parts))]
@@ -78,6 +81,7 @@ def part_motions(
                 m for k, (a, m) in scored.items() if k not in numbers and parent[k] == parent[i] and have_one_handle(context, a)
             )
             together = mine.averaged(tuple(itertools.islice((*row, *alike), MAX_COPIES)))
+            together = together if usual is None else usual.motions(context, together)
             yield from with_labels_of(segmentation, [PartMotions(i, parent[i], context, together)])
 
 

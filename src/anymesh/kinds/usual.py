@@ -28,12 +28,13 @@ Range = tuple[float, float]
 class Kind:
     """A kind of object.
 
-    name: as in the table; usual: longest side [m]; longest, height: usual range [m]; mass: usual range [kg]; substance: name;
-    wall: of its hollow bodies of that substance [m]; closed: solid bodies of it are hollow; wikidata: item. None or "" for what
-    is not known.
+    name, first: it and the first name of its row in the table; usual: longest side [m]; longest, height: usual range [m];
+    mass: usual range [kg]; substance: name; wall: of its hollow bodies of that substance [m]; closed: solid bodies of it are
+    hollow; wikidata: item. None or "" for what is not known.
     """
 
     name: str
+    first: str = ""
     usual: float | None = None
     longest: Range | None = None
     height: Range | None = None
@@ -58,10 +59,11 @@ def _floats(pair: list[Any]) -> Range:
 def _kinds(rows: Sequence[dict[str, Any]]) -> dict[tuple[str, ...], Kind]:
     kinds = dict[tuple[str, ...], Kind]()
     for row in rows:
+        names = row["words"].split()
         values: dict[str, Any] = {
             k: _floats(v) if isinstance(v, list) else v for k, v in row.items() if k not in ("words", "source")
         }
-        kinds |= {tuple(words_of(name)): Kind(name, **values) for name in row["words"].split()}
+        kinds |= {tuple(words_of(name)): Kind(name, names[0], **values) for name in names}
     return kinds
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import logging
 from collections.abc import Generator, Iterator
 from contextlib import contextmanager, suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Unpack
 
@@ -113,8 +114,8 @@ def joints(
     with RunFolder.open(Path(folder)) as kept, _kept_transcript(kept, who):
         run = Run(kept, who, deadline, progress)
         recognized, segmented = kept.recognition(), Keyed(kept.need(SEGMENTATION), kept.key(SEGMENTATION))
-        mesh = recognized.sized(kept.need(MESH)).mesh
-        solver = run.solver(mesh if reads_joints(animation) else mesh.without_joints())
+        sized = recognized.sized(kept.need(MESH))
+        solver = run.solver(sized if reads_joints(animation) else replace(sized, mesh=sized.mesh.without_joints()))
         return estimate_joints(run, solver, recognized, segmented).joints
 
 

@@ -14,15 +14,16 @@ from anymesh.articulation.estimate import PartMotions, choose_motion, is_named, 
 from anymesh.articulation.rank_motions import MIN_LABEL_CONFIDENCE, label_of
 from anymesh.articulation.vetting import vetted_joints
 from anymesh.config import Config
-from anymesh.entry_points import PROMPTED_STAGES, STATED_JOINTS, STATED_PARTS, resolve
+from anymesh.entry_points import PROMPTED_STAGES, STATED_JOINTS, STATED_PARTS, USUAL_PARTS, resolve
 from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.surface import DividedSurface, ObjectShape, ground_faces
 from anymesh.pipeline.options import GEOMETRY
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.runtime import Deadline, Progress, silent
+from anymesh.scoring.classifier import KindPrior
 from anymesh.segmentation.divide import divide_surface
 from anymesh.segmentation.naming import GIVEN, parts_from_file, parts_from_nodes, whole_as_base, with_names_of_file
-from anymesh.segmentation.segment import segment_parts
+from anymesh.segmentation.segment import LabelParts, segment_parts
 from anymesh.types import Joint, JointType, Mesh, Segmentation
 from anymesh.types.motion import Recognition
 from anymesh.types.questions import AnswererFactory
@@ -38,10 +39,17 @@ class GeometryStages:
     name = GEOMETRY
     recognizes = False
 
-    def __init__(self, mesh: Mesh, config: Config, deadline: Deadline, *, seams: bool = False) -> None:
+    def __init__(self, mesh: Mesh, config: Config, deadline: Deadline, *, seams: bool = False, name: str = "") -> None:
         self.mesh, self.config, self.deadline, self._seams = mesh, config, deadline, seams
+        self.category, self._name = config.category, name  # as given, or as a model answers; of the file
         self._by_itself: Segmentation | None = None
         self._swept: tuple[bytes, list[PartMotions]] | None = None  # faces of parts, and their motions
+
+    @property
+    def _usual(self) -> KindPrior | None:
+        """Return the moving parts of the kind that the category, the file or its only node names."""
+        nodes = self.mesh.nodes
+        return resolve(USUAL_PARTS)(self.category, self._name, nodes[0].name if len(nodes) == 1 else None)
 
     @cached_property
     def whole(self) -> ObjectShape:
@@ -92,7 +100,7 @@ class GeometryStages:
             above = self._parts_above_ground(progress) if self._ground.any() else None
             if above is None or len(above.parts) <= max(1, self.config.at_least):
                 shapes = self._shapes(self._divided)
-                above = segment_parts(self.mesh, shapes, self._labels, self.config.at_least, progress, self.deadline)
+                above = self._segment(self.mesh, shapes, self._labels, progress)
             self._by_itself = above
         return self._by_itself
 
@@ -108,7 +116,10 @@ class GeometryStages:
         def labels(segmentation: Segmentation) -> list[str]:
             return self._labels(with_ground(segmentation))
 
-        return with_ground(segment_parts(object_, shapes, labels, self.config.at_least, progress, self.deadline))
+        return with_ground(self._segment(object_, shapes, labels, progress))
+
+    def _segment(self, mesh: Mesh, shapes: list[ObjectShape], labels: LabelParts, progress: Progress) -> Segmentation:
+        return segment_parts(mesh, shapes, labels, self.config.at_least, progress, self.deadline, self._usual)
 
     def _labels(self, segmentation: Segmentation) -> list[str]:
         """Return a label of each part but the base from its motion by geometry; "" for one without a name that cannot move.
@@ -129,7 +140,7 @@ class GeometryStages:
         faces = segmentation.face_part.tobytes()
         if self._swept is None or self._swept[0] != faces:
             shape = self.shape_for(segmentation)
-            self._swept = faces, list(part_motions(shape, segmentation, self.deadline, progress=progress))
+            self._swept = faces, list(part_motions(shape, segmentation, self.deadline, progress=progress, usual=self._usual))
             return self._swept[1]
         progress("joints", segmentation.parts[-1].name, len(segmentation.parts) - 1, len(segmentation.parts))
         return with_labels_of(segmentation, self._swept[1])
@@ -176,7 +187,8 @@ class Solver:
     """Stage A and Stage B for one placed mesh [m, Z up].
 
     `answerer_factory` makes the visual answerer; without it geometry answers, in a frame that is turned about the vertical so
-    that the object is straight. The warnings of each stage include what was left out after the deadline.
+    that the object is straight. name: of the file, which may name the object's kind. The
+    warnings of each stage include what was left out after the deadline.
     """
 
     def __init__(
@@ -185,11 +197,12 @@ class Solver:
         config: Config | None = None,
         answerer_factory: AnswererFactory | None = None,
         deadline: Deadline | None = None,
+        name: str = "",
     ) -> None:
         self.mesh = mesh
         straight, self._T_straight = straight_mesh(mesh) if answerer_factory is None else (mesh, np.eye(4))
         seams = answerer_factory is not None  # the geometry answerer finds no more with finer patches (docs/decisions/0010)
-        self.geometry = GeometryStages(straight, config or Config(), deadline or Deadline(), seams=seams)
+        self.geometry = GeometryStages(straight, config or Config(), deadline or Deadline(), seams=seams, name=name)
         self.answers: StageAnswerer = (
             self.geometry if answerer_factory is None else resolve(PROMPTED_STAGES)(self.geometry, answerer_factory)
         )

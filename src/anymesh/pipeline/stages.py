@@ -21,7 +21,7 @@ from anymesh.pipeline.stage_files import JOINTS, MESH, RECOGNITION, SEGMENTATION
 from anymesh.rendering.preview import write_legend, write_preview
 from anymesh.runtime import PREVIEW, Deadline, Progress, cache_folder
 from anymesh.segmentation.naming import GIVEN
-from anymesh.types import Asset, Mesh, Source
+from anymesh.types import Asset, Source
 
 Result = TypeVar("Result")
 Answered = TypeVar("Answered", RecognitionResult, SegmentationResult, JointResult)
@@ -37,9 +37,9 @@ class Run:
     deadline: Deadline
     progress: Progress
 
-    def solver(self, mesh: Mesh) -> Solver:
+    def solver(self, loaded: LoadResult) -> Solver:
         """Return the solver of both stages for a mesh."""
-        return Solver(mesh, self.who.config, self.who.factory, self.deadline)
+        return Solver(loaded.mesh, self.who.config, self.who.factory, self.deadline, Path(loaded.source.path).stem)
 
     def answered(self, stage: Stage[Answered], key: str, name: str, compute: Callable[[], Answered]) -> Answered:
         """Return the saved result of a stage, or compute and save it.
@@ -88,7 +88,7 @@ def recognize(run: Run, loaded: Keyed[LoadResult], parts: str, *, sized: bool) -
 
     sized: whether the answered size sets the scale. Return also the solver of both stages for the mesh in its final size.
     """
-    solver, who = run.solver(loaded.result.mesh), run.who
+    solver, who = run.solver(loaded.result), run.who
     if parts != "auto":
         solver.parts(parts)  # report invalid parts before any model call
     if not solver.answers.recognizes:
@@ -98,7 +98,7 @@ def recognize(run: Run, loaded: Keyed[LoadResult], parts: str, *, sized: bool) -
     key = stage_key(RECOGNITION, previous=loaded.key, config=settings)
     recognized = run.answered(RECOGNITION, key, "recognize", lambda: solver.answers.recognize(sized=sized, metric=metric))
     final = recognized.sized(loaded.result)
-    return (solver if final.mesh is loaded.result.mesh else run.solver(final.mesh)), Keyed(recognized, key)
+    return (solver if final.mesh is loaded.result.mesh else run.solver(final)), Keyed(recognized, key)
 
 
 def find_parts(run: Run, solver: Solver, recognized: Keyed[RecognitionResult], parts: str) -> Keyed[SegmentationResult]:

@@ -89,6 +89,7 @@ class PromptedStages:
         """Run Stage A; without a recognition there is nothing to ask for, and geometry finds the parts."""
         if recognition is None:
             return self._geometry.find_parts(recognition, progress)
+        self._geometry.category = self.config.category or recognition.category
         answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._reference_parts))
         labels = tuple(r.label for r in recognition.labels)
         asked_for = recognition.size is not None  # the user did not give the labels
@@ -117,6 +118,7 @@ class PromptedStages:
 
         grounded: the parts come from `find_parts`, so that answers may once call them too much or too little.
         """
+        self._geometry.category = self.config.category or (None if recognition is None else recognition.category)
         answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._reference(segmentation)))
         questions = Questions(self.visual_prompts, answerer, self.config, recognition, progress)
         reground = self._regrounding(questions, segmentation) if grounded and recognition is not None else None

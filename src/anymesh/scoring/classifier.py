@@ -11,7 +11,7 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from jaxtyping import Float, Float32, Int16, Int32
@@ -30,6 +30,14 @@ NO_NOTE: Note = (np.inf, -np.inf, "")
 MIN_CONFIDENCE, MAX_CONFIDENCE = 0.05, 0.99  # range of confidences
 MISSING = -9.0  # value of a feature that does not apply to a candidate
 TREES, NETWORK = "trees", "network"  # how the names of arrays in a file begin; networks are numbered from 0
+
+
+@runtime_checkable
+class KindPrior(Protocol):
+    """Adds to log-odds what is known of the moving parts of an object's kind (`anymesh.kinds.moving_parts`)."""
+
+    def part_scores(self, score: np.ndarray, place: np.ndarray, clash: np.ndarray) -> Float[np.ndarray, " n"]: ...
+    def motions(self, context: Any, motions: Any) -> Any: ...
 
 
 @dataclass(frozen=True, eq=False)

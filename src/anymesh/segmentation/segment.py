@@ -20,6 +20,7 @@ from anymesh.geometry.topology import label_connected
 from anymesh.names import NAMED
 from anymesh.runtime import SEGMENT, Deadline, Progress, silent, usable_cores
 from anymesh.scoring import by_hand
+from anymesh.scoring.classifier import KindPrior
 from anymesh.segmentation.contacts import Contacts, find_contacts
 from anymesh.segmentation.naming import named_parts
 from anymesh.segmentation.part_candidates import (
@@ -194,13 +195,13 @@ MAX_ASSIGNMENTS = 3  # maximum number of assignments, each without the candidate
 
 def segment_parts(
     mesh: Mesh, shapes: Sequence[ObjectShape], label_parts: LabelParts, at_least: int = 0, progress: Progress = silent,
-    deadline: Deadline | None = None,
+    deadline: Deadline | None = None, kind: KindPrior | None = None,
 ) -> Segmentation:  # fmt: skip
     """Return the movable parts of a mesh and its base, which is the rest.
 
     shapes: the object as modelled, and perhaps as it looks otherwise, with the same patches; label_parts: stage B's test of how
     parts move, with "" for a part that cannot; at_least: minimum number of parts, even with weak evidence, for objects that are
-    known to move.
+    known to move; kind: parts of the object's kind.
 
     After the deadline no further contact is measured and no further candidate examined.
     """
@@ -211,9 +212,9 @@ def segment_parts(
     progress("segment", "candidates", 1, 2)
     looks = [examine_candidates(mesh, replace(c, members=members), progress, deadline) for c in groups]
     examined, score, reasons = _scored_together(looks)
-    words = [shared_name(examined, k) for k in range(len(score))]
+    words, classifier = [shared_name(examined, k) for k in range(len(score))], shipped_classifier()
     score = score + np.array([by_hand.NAME_SCORE.get(name_class(word), 0.0) for word in words])
-    classifier = shipped_classifier()
+    score = kind.part_scores(score, looks[0][1], conflicts(examined.overlap)) if kind and len(score) else score
     known = [word.label if (word := recognize(w)) else "" for w in words]
     sizes, plural = np.linalg.norm(np.ptp(examined.bounds, axis=1), axis=1) / examined.whole.diagonal, usual_label(mesh)
     usual = ["part" if size < MIN_USUAL_RATIO else plural for size in sizes]
