@@ -54,7 +54,8 @@ def key(value: Any) -> bytes:
             return value.shape.corners.tobytes() + value.mesh_patch.tobytes()
         case PartContext():
             surfaces = value.part, value.parent, value.rest, value.without_part
-            return b"".join(s.corners.tobytes() for s in surfaces) + value.opening_direction.tobytes()
+            pivot = b"" if value.pivot is None else value.pivot.tobytes()
+            return b"".join(s.corners.tobytes() for s in surfaces) + value.opening_direction.tobytes() + pivot
         case CandidateMotions():
             return motion_scores(value).tobytes()
         case Segmentation():

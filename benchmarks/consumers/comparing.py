@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.checking.engines.robot import read_urdf
-from anymesh.loading.load import read_in_metres
+from anymesh.formats.in_metres import read_in_metres
 from anymesh.types import JointType, Motion
 
 RELATIVE, LENGTH, ANGLE = 1e-4, 1e-4, 2e-3  # share of a value, [m], [rad]: what counts as equal

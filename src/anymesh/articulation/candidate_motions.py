@@ -25,6 +25,8 @@ MIN_GAP_FACTOR = 1.5  # a part that touches nothing is in contact within this mu
 CONTACT_RATIO = 0.008  # of the tolerance length: points closer to the parent are in contact
 MIN_FREE_ANGLE_RAD = float(np.deg2rad(12))  # [rad] a hinge that opens less is blocked
 MIN_FREE_TRAVEL_RATIO = 0.008  # of the tolerance length: a slide with less free travel is blocked
+# of the part's diagonal: lines nearer to the pivot of its node are beside it, where a user sees them as one, and on it
+NEAR_PIVOT_RATIO, ON_PIVOT_RATIO = 0.1, 0.02
 MIN_LARGE_RATIO = 0.15  # of the object's diagonal: a smaller part that slides in is a button, one that spins is a knob
 ENDLESS_ANGLE_RAD = 3.0  # [rad] minimum free angle in each direction of an endless rotation; the sweep ends at half a turn
 
@@ -106,6 +108,12 @@ class Candidate:
     captured: bool = False  # whether a slide is stopped in both directions, with free travel between
     contact_retention: float = 0.0  # 0..1, share of the contact that remains when the part opens slightly
     spins: bool = False  # whether a rotation is free all round, of a rotor or a crank and not of a door or a lever
+    off_pivot: float = np.inf  # distance of a rotation's axis to the pivot of the part's node, over the part's diagonal
+
+    @property
+    def at_pivot(self) -> bool:
+        """Return whether the axis is on the pivot of the part's node in the file, or beside it."""
+        return self.off_pivot < NEAR_PIVOT_RATIO
 
     @property
     def vertical(self) -> float:
@@ -306,6 +314,8 @@ def propose(context: PartContext) -> list[ProposedMotion]:
         proposals.append(("round", axis))
     proposals += barrels(context) + _edges(core) + _edge_middles(core) + _through(core) + _box_directions(core)
     proposals += _from_contact(context) + contact_axes(context)
+    if context.pivot is not None:
+        proposals += [("edge", hinge_about(a, context.pivot, "line along its box")) for a in core.axes]
     return distinct(proposals, context.tolerance_length)
 
 

@@ -117,6 +117,7 @@ def score_motions(context: PartContext, label: str, most: int, named: bool = Fal
     motions = unswept(context, propose(context))
     rest = unswept_features(context, motions)
     likely = likeliest(rest, most, fits_label(label if named else "", motions))
+    likely = np.union1d(likely, np.flatnonzero([m.at_pivot for m in motions]))
     candidates = swept(context, [motions[k] for k in likely])
     features = [rest[k] | way for k, way in zip(likely.repeat(2), swept_features(context, candidates), strict=True)]
     return PartMotionScores(context, label, candidates, features)
@@ -131,6 +132,8 @@ def _most_swept(most: int, deadline: Deadline | None) -> int:
 
 def _clear_of_others(context: PartContext, best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:
     """Among hinge lines at one rim, choose the one with the largest opening when the other parts are at rest."""
+    if best.at_pivot:
+        return _nearest_to_pivot(best, candidates)
     if best.role not in BOX_RIM_ROLES or not context.other_parts:
         return best
     near = replace(context.obstacles_with_others, tolerance=TIGHT_PENETRATION_SCALE * context.penetration)
@@ -145,6 +148,14 @@ def _clear_of_others(context: PartContext, best: Candidate, candidates: tuple[Ca
     free = {id(c): opens(c) for c in alternatives}
     most = max(free.values())
     return best if free[id(best)] > most - MIN_OPENING_GAIN_RAD else next(c for c in alternatives if free[id(c)] == most)
+
+
+def _nearest_to_pivot(best: Candidate, candidates: tuple[Candidate, ...]) -> Candidate:
+    """Among parallel lines beside the pivot, choose the nearest to it that opens by a right angle, or about as far as any."""
+    axis = best.opening_motion.axis
+    alike = [c for c in candidates if c.at_pivot and c.opening_motion.axis @ axis >= SAME_AXIS_COSINE]
+    least = min(max(c.opening for c in alike), np.pi / 2) - MIN_OPENING_GAIN_RAD
+    return min((c for c in alike if c.opening > least), key=lambda c: c.off_pivot)
 
 
 def _at_one_rim(a: Candidate, b: Candidate, thickness: float) -> bool:

@@ -167,8 +167,9 @@ def initial_direction(context: PartContext, motion: Motion) -> Float[np.ndarray,
 def _revolute(context: PartContext, role: Role, motion: Motion, near: Float[np.ndarray, " 3"]) -> Candidate:
     outward = float(initial_direction(context, motion) @ context.opening_direction)
     support, sibling, opposite = map(float, near)
+    off = np.inf if context.pivot is None else float(motion.distance(context.pivot[None])[0] / context.part.box.diagonal)
     return Candidate(
-        motion, UNSWEPT, role, 1, 0.0, 0.0, outward, support, sibling, opposite, handle_side=_handle_side(context, motion)
+        motion, UNSWEPT, role, 1, 0.0, 0.0, outward, support, sibling, opposite, _handle_side(context, motion), off_pivot=off
     )
 
 

@@ -226,7 +226,7 @@ def _revolute(context: PartContext, c: Candidate) -> tuple[float, float]:
     upper = _free_angle(context, motion, 1, max(most - (closing or 0.0), 0.0), np.inf if blocked or ajar else c.opening)
     lower = 0.0 if closing == 0 else _free_angle(context, motion, -1, closing or most, np.inf if blocked else c.closing)
     lower = _whole_degrees(lower) if lower >= MIN_CLOSING_ANGLE_RAD else 0.0
-    if upper < MIN_HINGE_RANGE_RAD:
+    if upper < (MIN_FREE_ANGLE_RAD if c.at_pivot else MIN_HINGE_RANGE_RAD):
         upper = min(most, c.opening) if c.opening >= MIN_FREE_ANGLE_RAD else most
         upper = upper if lower == 0 else 0.0
     return (0.0 - lower, upper)

@@ -13,7 +13,7 @@ from anymesh.config import SAME_AXIS_COSINE
 from anymesh.geometry.copies import beside, same_box
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet, body_obb
-from anymesh.motion.part_context import MAX_PART_DIAGONALS, MIN_SCALE_RATIO, PartContext, best_direction
+from anymesh.motion.part_context import MAX_PART_DIAGONALS, MIN_SCALE_RATIO, PartContext, best_direction, pivot_of
 from anymesh.types import Brief
 
 TOUCHING_RATIO = 0.01  # of the diagonal, or of MAX_PART_DIAGONALS of the part: a part touches another within this distance
@@ -118,6 +118,7 @@ def part_context(
         center=whole.shape.bounds.mean(0),
         other_parts=tuple(shapes[k] for k in range(1, len(shapes)) if k not in carried and k not in ancestors),
         link=shapes[i] if len(carried) > 1 else None,
+        pivot=pivot_of(whole, label == i),
     )
 
 

@@ -15,6 +15,7 @@ from anymesh.articulation.candidate_motions import (
     BOX_RIM_ROLES,
     MIN_FREE_TRAVEL_RATIO,
     MIN_LARGE_RATIO,
+    ON_PIVOT_RATIO,
     Candidate,
     CandidateMotions,
     MotionChoice,
@@ -115,7 +116,7 @@ def rank_motions(motions: CandidateMotions) -> MotionChoice:
     if not best.is_free:
         free = any(c.is_free for c in motions.candidates)
         why = f"blocked in every motion of a {motions.part.label}" if free else "blocked whichever way it is moved"
-        return MotionChoice(ranking, JointType.FIXED, NO_MOTION_CONFIDENCE, why)
+        return MotionChoice(ranking, best.motion.kind if best.at_pivot else JointType.FIXED, NO_MOTION_CONFIDENCE, why)
     counted = fits | fits[scores.argmax()]
     share = np.clip(share_of_best(np.where(counted, plain, -np.inf), same), 1e-6, 1 - 1e-6)
     confidence = shipped_classifier().confidence(float(np.log(share / (1 - share))))
@@ -150,8 +151,13 @@ def _order_of_endless(c: Candidate, *, same: bool) -> tuple[bool, bool]:
 
 
 def _scores_by_geometry(motions: CandidateMotions) -> Float[np.ndarray, " k"]:
-    """Return the log-odds of each candidate, with a penalty for blocked motions."""
-    penalty = [0.0 if c.is_free else by_hand.BLOCKED_SCORE for c in motions.candidates]
+    """Return the log-odds of each candidate, with a penalty for blocked motions and for those off the pivot."""
+    penalty = np.array([0.0 if c.is_free else by_hand.BLOCKED_SCORE for c in motions.candidates])
+    at_pivot = np.array([c.at_pivot for c in motions.candidates], bool)
+    if at_pivot.any():
+        slides = np.array([c.motion.kind is JointType.PRISMATIC for c in motions.candidates])
+        penalty += np.where(at_pivot, 0.0, np.where(slides, by_hand.PIVOT_SLIDE_SCORE, by_hand.OFF_PIVOT_SCORE))
+        penalty[np.where(at_pivot, motions.scores, -np.inf).argmax()] = 0.0
     stuck = [not motions.part.pressed and _stuck(c) for c in motions.candidates]
     return motions.scores + np.where(stuck, by_hand.STUCK_SCORE, penalty)
 
@@ -216,6 +222,8 @@ def reason(c: Candidate) -> str:
     if c.role == "round":
         return f"turns {range_} about the axis of its round outline"
     notes = [f"swings {range_} about the {c.motion.source}"]
+    if c.at_pivot:
+        notes.append(f"with the file's pivot of its node {'on' if c.off_pivot < ON_PIVOT_RATIO else 'beside'} this axis")
     if c.handle_side > 0.3:
         notes.append("opposite its handle")
     if c.hinge_support > 0.5:

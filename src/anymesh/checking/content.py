@@ -13,7 +13,7 @@ from jaxtyping import Float
 from anymesh.checking.engines.locate import find_file
 from anymesh.checking.engines.robot import Geometry, Robot, shape_triangles
 from anymesh.errors import InputError
-from anymesh.loading.load import read_in_metres
+from anymesh.formats.in_metres import read_in_metres
 from anymesh.types import Brief, Mesh
 
 

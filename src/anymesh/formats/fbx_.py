@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -190,12 +190,14 @@ class FbxScene:
         name, label = str(node.name) or self._names[node.typed_id], str(source.name) or self._names[node.typed_id]
         colors = self._colors(source, polygons, looks, face_look)
         path = self._path(node)
-        return Mesh(
+        placed = Mesh(
             vertices, faces, np.zeros(len(faces), np.int64), (Node(name, label, path=path if len(path) > 1 else ()),),
             face_look, tuple(look.material for look in looks), None if uv is None else uv[..., :2], colors,
             self._corner_normals(source, polygons, bool(deformed)),
             corner_more_uv=None if uv is None or uv.shape[2] == 2 else uv[..., 2:],
         ).transformed(T)  # fmt: skip
+        pivot = None if deformed else _pivot(node)
+        return replace(placed, nodes=(replace(placed.nodes[0], pivot=pivot),))
 
     def _triangles(self, source: Any) -> FbxPolygons | None:
         key = int(source.typed_id)
@@ -317,6 +319,17 @@ class FbxScene:
                 chosen = np.unique(np.linspace(0, len(times) - 1, min(len(times), MAX_SAMPLED)).astype(int))
                 tracks[int(moved.typed_id)] = NodeTrack(times[chosen], _sampler(*(np.array(rows) for rows in keys)))
         return tracks
+
+
+def _pivot(node: Any) -> tuple[float, float, float] | None:
+    """Return the point about which a node turns, in the frame of the scene: its rotation pivot, by default its origin."""
+    stated = {str(p.name): np.array(list(p.value_vec4)[:3], np.float64) for p in elements(node.props.props)}
+    offset, scaling, turning = (stated.get(key, np.zeros(3)) for key in ("ScalingOffset", "ScalingPivot", "RotationPivot"))
+    scale = np.array(list(node.local_transform.scale), np.float64)
+    with np.errstate(all="ignore"):
+        local = scaling + (turning - offset - scaling) / scale  # what the scale moves to the rotation pivot
+        point = matrix(node.node_to_world) @ [*local, 1]
+    return tuple(point[:3].tolist()) if np.isfinite(point).all() else None
 
 
 def _sampler(

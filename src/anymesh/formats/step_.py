@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import struct
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -31,7 +32,8 @@ def read_step(folder: Folder, work: Path) -> FileMesh:
     glb = cascadio.load(data, file_type="step", tol_linear=DEFLECTION_MM, tol_angular=TURN_RAD, use_parallel=False)
     if not glb:
         raise InputError(f"{name} is not a valid STEP file, it is broken, truncated, or has no solid or surface")
-    return FileMesh(read_gltf(_named(name, glb), folder), None, 1.0)
+    mesh = read_gltf(_named(name, glb), folder)  # origins of products are those of their sketches
+    return FileMesh(replace(mesh, nodes=tuple(replace(node, pivot=None) for node in mesh.nodes)), None, 1.0)
 
 
 def _named(name: str, glb: bytes) -> bytes:

@@ -321,8 +321,7 @@ def number_rows(rows: Int[np.ndarray, "n k"]) -> Int[np.ndarray, " n"]:
 
 
 MAX_FACES = 8000  # denser meshes are simplified for questions of shape and motion, never in the output
-# maximum number of faces added for small patches, relative to the number of faces kept of a dense mesh
-SMALL_PATCH_FACES_RATIO = 3
+SMALL_PATCH_FACES_RATIO = 3  # maximum number of faces added for small patches, over that of faces kept of a dense mesh
 KEPT_PATCH_FACES = 60  # minimum number of faces kept of a patch
 MIN_PATCH_FACES = 20  # the same if there are very many patches
 
@@ -341,6 +340,7 @@ class ObjectShape(Brief):
     mesh_patch: Int[np.ndarray, " F"]
     shared: Int[np.ndarray, "k 2"]
     diagonal: float
+    pivot: Float[np.ndarray, "R 3"] | None = None  # as `Mesh.face_pivot`
 
     def of(self, faces: Int[np.ndarray, " n"]) -> TriangleSet:
         """Return some of the R faces."""
@@ -361,6 +361,7 @@ class DividedSurface(Brief):
     shared: Int[np.ndarray, "k 2"]
     diagonal: float
     drawn: TriangleSet | None = None
+    pivot: Float[np.ndarray, "F 3"] | None = None  # as `Mesh.face_pivot`
 
     @property
     def drawn_out(self) -> DividedSurface | None:
@@ -377,7 +378,8 @@ class DividedSurface(Brief):
         group = self.patch * (int(label.max()) + 1) + label
         shape, source = _simplified(self.shape.take(rows), group[rows])
         source = rows[source]
-        return ObjectShape(shape.prepared(), self.patch[source], source, self.patch, self.shared, self.diagonal)
+        pivot = None if self.pivot is None else self.pivot[source]
+        return ObjectShape(shape.prepared(), self.patch[source], source, self.patch, self.shared, self.diagonal, pivot)
 
 
 def _simplified(shape: TriangleSet, group: Int[np.ndarray, " F"]) -> tuple[TriangleSet, Int[np.ndarray, " R"]]:

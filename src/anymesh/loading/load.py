@@ -14,7 +14,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.entry_points import DAE_FRAME, LOAD_ZIPPED, READERS, USUAL_SIZE, resolve
+from anymesh.entry_points import DAE_FRAME, LOAD_ZIPPED, READERS, TELLING_PIVOTS, USUAL_SIZE, resolve
 from anymesh.errors import AnymeshError, InputError, OptionError
 from anymesh.loading.files import ARCHIVE, FORMATS, MAX_FACES, FileMesh, Folder, check_file
 from anymesh.loading.scene_graph import scene_of_objects
@@ -71,8 +71,8 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: st
         return replace(inner, path=str(path / name), sha256=sha256, warnings=warnings)
     try:
         with np.errstate(over="ignore", invalid="ignore"):
-            framed = _read(suffix, data, folder)
-            mesh = _with_usable_uv(scene_of_objects(framed.mesh, folder), folder)
+            framed = read_framed(suffix, data, folder)
+            mesh = resolve(TELLING_PIVOTS)(_with_usable_uv(scene_of_objects(framed.mesh, folder), folder), framed.up)
     except AnymeshError:
         raise
     except Exception as error:  # readers raise many types of errors for broken files
@@ -85,27 +85,11 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: st
     return LoadedMesh(mesh, str(path), sha256, framed.up, framed.unit, notes, folder.digest())
 
 
-def read_in_metres(path: Path, root: Path | None) -> tuple[Mesh, tuple[str, ...]]:
-    """Return the mesh as engines and viewers of robots read it, and the reader's warnings.
-
-    The unit of COLLADA is applied, but its up axis is not (see docs/check.md); other formats are read without conversion.
-    root: as of `load_mesh`. Raise InputError.
-    """
-    data, folder, suffix = check_file(path), Folder(path, root), path.suffix.lower()
-    try:
-        framed = _read(suffix, data, folder)
-    except InputError:
-        raise
-    except Exception as error:  # readers raise many types of errors for broken files
-        cause = " ".join(f"{type(error).__name__}: {error}".split())[:150]
-        raise InputError(f"{path.name} is broken or truncated ({cause})") from None
-    scale = np.diag([framed.unit or 1.0] * 3 + [1.0])
-    return (framed.mesh if framed.unit in (None, 1.0) else framed.mesh.transformed(scale)), tuple(folder.warnings)
-
-
-def _read(suffix: str, data: bytes, folder: Folder) -> FileMesh:
+def read_framed(suffix: str, data: bytes, folder: Folder) -> FileMesh:
+    """Return what the reader of a suffix reads; joints and pivots only if those of the folder are read."""
     read = resolve(READERS[suffix])(data, folder)
-    return read if isinstance(read, FileMesh) else FileMesh(read, *_frame(suffix, data))
+    framed = read if isinstance(read, FileMesh) else FileMesh(read, *_frame(suffix, data))
+    return framed if folder.joints else replace(framed, mesh=framed.mesh.without_joints())
 
 
 def _with_usable_uv(mesh: Mesh, folder: Folder) -> Mesh:
@@ -127,18 +111,9 @@ def _check_numbers(name: str, mesh: Mesh) -> None:
 
 def _frame(suffix: str, data: bytes) -> tuple[str | None, float | None]:
     """Return the up axis and the unit that the format or the file states."""
-    match suffix:
-        case ".glb" | ".gltf":
-            return "y", 1.0
-        case ".dae":
-            return resolve(DAE_FRAME)(data)
-        case _:
-            return None, None
-
-
-def is_near(longest: float, usual: float) -> bool:
-    """Return whether a longest side is plausible for objects of a usual size."""
-    return usual / BELIEVED_FACTOR <= longest <= usual * BELIEVED_FACTOR
+    if suffix in (".glb", ".gltf"):
+        return "y", 1.0
+    return resolve(DAE_FRAME)(data) if suffix == ".dae" else (None, None)
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,7 +216,7 @@ def _scale_of_kind(extents: np.ndarray, unit: float | None, kind: str, usual: fl
     a_kind = f"{'an' if kind[:1] in 'aeiou' else 'a'} {kind}"
     units = [("the file's unit", unit)] if unit is not None else [("metres", 1.0), *UNITS]
     for name, factor in units:
-        if is_near(longest * factor, usual):
+        if usual / BELIEVED_FACTOR <= longest * factor <= usual * BELIEVED_FACTOR:
             return factor, f"scale {factor:g} ({name}; plausible for {a_kind})", ()
     factor, (name, first) = usual / longest, units[0]
     warning = f"{name} would make the {kind} {longest * first:.3g} m long; it was scaled to {usual:g} m"

@@ -151,7 +151,8 @@ def _named(mesh: Mesh) -> Mesh:
         first[members] = members[0] if joins else members
         for k in members:
             if chain != _chain(nodes[k]):
-                new[k] = replace(nodes[k], name=chain[-1], path=chain if joins else nodes[k].path)
+                pivot = nodes[k].pivot if not joins or len({nodes[m].pivot for m in members}) == 1 else None
+                new[k] = replace(nodes[k], name=chain[-1], path=chain if joins else nodes[k].path, pivot=pivot)
             elif is_generic(nodes[k].name) and not is_generic(nodes[k].geometry):
                 new[k] = replace(nodes[k], name=nodes[k].geometry)
     kept, face_node = np.unique(first[number], return_inverse=True)

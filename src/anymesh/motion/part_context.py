@@ -15,6 +15,7 @@ from jaxtyping import Bool, Float, Int
 from anymesh.config import ALONG_COSINE, FACING_COSINE
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import Outline, outline_about, roundest
+from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.sweep import Obstacles
 from anymesh.geometry.triangle_set import SurfacePoints, TriangleSet, body_obb
 from anymesh.motion.handle import face_axes, find_handle
@@ -30,6 +31,7 @@ CONTACT_REACHES = (0.08, 0.2)  # of the link's diagonal: its contact with the pa
 MAX_SURFACE_POINTS = 400  # sample points of the surfaces in contact
 MIN_ROUNDNESS = 0.5  # minimum roundness of the outline of a round part
 MAX_PART_DIAGONALS = 5  # lengths are compared with the object's diagonal, but with at most this many diagonals of the part
+MIN_OF_NODE = 0.6  # of the area of a part and its node together: least share in both for the pivot to be the part's
 MIN_SCALE_RATIO = 1e-9  # of the diagonal: keeps tolerances positive for a part that is a point
 MAX_LENGTH_RATIO = 4.0  # upper limit of ratios of lengths
 MAX_HEIGHT_OVER_RADIUS = 8.0
@@ -53,6 +55,17 @@ def connecting_area(
     while not ((gap_a < threshold).any() or (gap_b < threshold).any()):
         threshold *= 2
     return gap_a < threshold, gap_b < threshold, threshold
+
+
+def pivot_of(whole: ObjectShape, faces: Bool[np.ndarray, " R"]) -> Float[np.ndarray, " 3"] | None:
+    """Return the pivot of the node that these faces of the object are, by most of the area of both; None without."""
+    of_face, areas = whole.pivot, whole.shape.areas
+    if of_face is None:
+        return None
+    pivots = np.unique(of_face[faces & np.isfinite(of_face[:, 0])], axis=0)
+    nodes = [(of_face == pivot).all(1) for pivot in pivots]
+    shares = (areas[node & faces].sum() / areas[node | faces].sum() for node in nodes)
+    return next((pivot for pivot, share in zip(pivots, shares, strict=True) if share > MIN_OF_NODE), None)
 
 
 def best_direction(scores: Float[np.ndarray, " 6"], outwards: Float[np.ndarray, " 6"]) -> int:
@@ -85,6 +98,7 @@ class PartContext(Brief):
     other_parts: tuple[TriangleSet, ...] = ()  # the other movable parts, one each
     shared_opening_direction: Float[np.ndarray, " 3"] | None = None  # common to a row of repeated parts
     link: TriangleSet | None = None  # the part without what hangs on it; None if nothing does
+    pivot: Float[np.ndarray, " 3"] | None = None  # of the part's node in the file, None if it has none that tells [m]
 
     @cached_property
     def bounds(self) -> Float[np.ndarray, "2 3"]:

@@ -35,6 +35,7 @@ AnyJoint = TypeVar("AnyJoint", Joint, StatedJoint)
 Arrays = Mapping[str, np.ndarray]
 MESH_ARRAYS = tuple(f.name for f in fields(Mesh) if f.name not in ("nodes", "materials", "joints"))
 USUAL = (("wrap", (REPEAT, REPEAT)), ("uv_set", 0), ("strength", 1.0), ("nearest", False), ("unlit", False))  # not stored
+UNSAID = (("joint", -1), ("path", ()), ("pivot", None))  # of nodes, not stored
 log = logging.getLogger("anymesh")
 FOLDER = "stages"
 UNRECOGNIZED = "object"  # category of an object that no user named
@@ -75,7 +76,7 @@ def _pack_mesh(mesh: Mesh) -> tuple[Record, dict[str, np.ndarray]]:
             record["textures"][slot] = {"array": key} | stored
         materials.append(record)
     arrays |= {key: np.frombuffer(data, np.uint8) for data, key in images.items()}
-    nodes = [{k: v for k, v in asdict(node).items() if (k, v) not in (("joint", -1), ("path", ()))} for node in mesh.nodes]
+    nodes = [{k: v for k, v in asdict(node).items() if (k, v) not in UNSAID} for node in mesh.nodes]
     joints = {"joints": [_pack_joint(joint) for joint in mesh.joints]} if mesh.joints else {}
     return {"nodes": nodes, "materials": materials} | joints, arrays
 
@@ -100,7 +101,7 @@ def _unpack_mesh(record: Record, arrays: Arrays) -> Mesh:
     mesh_arrays: dict[str, Any] = {name: arrays.get(name) for name in MESH_ARRAYS}
     return Mesh(
         **mesh_arrays,
-        nodes=tuple(_unpack_node(node) for node in record["nodes"]),
+        nodes=tuple(Node(**_tuples(node)) for node in record["nodes"]),
         materials=tuple(material(m) for m in record["materials"]),
         joints=tuple(_unpack_joint(StatedJoint, joint) for joint in record.get("joints", ())),
     )
@@ -108,11 +109,6 @@ def _unpack_mesh(record: Record, arrays: Arrays) -> Mesh:
 
 def _tuples(values: Record) -> dict[str, Any]:
     return {k: tuple(v) if isinstance(v, list) else v for k, v in values.items()}
-
-
-def _unpack_node(node: Record) -> Node:
-    values: dict[str, Any] = {**node, "path": tuple(node.get("path", ()))}
-    return Node(**values)
 
 
 def _pack_exchanges(exchanges: tuple[Exchange, ...]) -> tuple[list[Record], dict[str, np.ndarray]]:

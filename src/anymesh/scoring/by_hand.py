@@ -14,10 +14,13 @@ from anymesh.types import JointType
 CUT_SCORE = 0.5
 # For a candidate whose name in the file is known, by the class of the name; no training mesh has names.
 NAME_SCORE: Mapping[str, float] = {"movable": 5.0, "fixed": -6.0}
-# For a motion that the sweep finds blocked.
+# For a motion that the sweep finds blocked, but for the best about a pivot of the file: artists let what they turn clip.
 BLOCKED_SCORE = -4.0
 # For a slide into a solid that leaves no room, of a part that is sunk into it and no button: it stands for "never".
 STUCK_SCORE = -12.0
+# For a part with a pivot in the file at a hinge: for a rotation about a line elsewhere, and for a slide.
+OFF_PIVOT_SCORE = -4.0
+PIVOT_SLIDE_SCORE = -2.0
 # For a part whose label has a typical joint: for a hinge, for a rotation about the axis of a round outline, for a slide.
 LABEL_PRIOR: Mapping[JointType, tuple[float, float, float]] = {
     JointType.REVOLUTE: (1.5, -2.5, -2.0),

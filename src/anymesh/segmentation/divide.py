@@ -49,7 +49,8 @@ def divide_surface(mesh: Mesh, seed: int, *, seams: bool = False, soft: bool = T
     pairs = np.sort(patch[surface.components.edges.faces], 1)
     shared = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
     apart = None if drawn is None else drawn.take(surface.row)
-    return DividedSurface(surface.shape.take(surface.row), surface.copy, patch[surface.row], shared, surface.diagonal, apart)
+    shape, patch = surface.shape.take(surface.row), patch[surface.row]
+    return DividedSurface(shape, surface.copy, patch, shared, surface.diagonal, apart, mesh.face_pivot)
 
 
 def split_patches(surface: MeshSurface, *, seams: bool, soft: bool) -> Int[np.ndarray, " F"]:

@@ -91,6 +91,7 @@ class Node:
     geometry: str = ""  # the geometry's name in the file, shared by instances
     joint: int = -1  # index into the mesh's joints of the one that moves this node, -1 = none
     path: tuple[str, ...] = ()  # names in the file from the scene's root to this node, each node's unique; () for (name,)
+    pivot: tuple[float, float, float] | None = None  # its origin in the mesh's frame, where this tells about what it turns
 
 
 def _check_range(name: str, numbers: np.ndarray, low: int, end: int) -> None:
@@ -148,6 +149,12 @@ class Mesh(Brief):
         return self.vertices[self.faces]
 
     @cached_property
+    def face_pivot(self) -> Float[np.ndarray, "F 3"] | None:
+        """Return the pivot of each face's node, NaN where it has none; None if no node has one."""
+        pivots = [(np.nan,) * 3 if node.pivot is None else node.pivot for node in self.nodes]
+        return None if np.isnan(pivots).all() else np.array(pivots)[self.face_node]
+
+    @cached_property
     def face_cross(self) -> Float[np.ndarray, "F 3"]:
         """Return twice the area times the unit normal of each face."""
         return face_cross(self.triangles)
@@ -195,8 +202,13 @@ class Mesh(Brief):
             normal = normal.astype(np.float64) @ _cofactors(linear).T * (-1.0 if mirrored else 1.0)
             length = np.linalg.norm(normal, axis=2, keepdims=True)
             normal = np.divide(normal, length, out=np.zeros_like(normal), where=length > 0).astype(np.float32)
+
+        def moved(node: Node) -> Node:
+            return node if node.pivot is None else replace(node, pivot=tuple((linear @ node.pivot + T[:3, 3]).tolist()))
+
         return replace(
             self,
+            nodes=tuple(map(moved, self.nodes)),
             vertices=self.vertices @ linear.T + T[:3, 3],
             faces=np.ascontiguousarray(self.faces[:, order]),
             corner_uv=corners(self.corner_uv),
@@ -207,8 +219,8 @@ class Mesh(Brief):
         )
 
     def without_joints(self) -> Mesh:
-        """Return the mesh without the joints that its file states."""
-        return replace(self, nodes=tuple(replace(node, joint=-1) for node in self.nodes), joints=()) if self.joints else self
+        """Return the mesh without the joints and pivots that its file states."""
+        return replace(self, nodes=tuple(replace(node, joint=-1, pivot=None) for node in self.nodes), joints=())
 
     def subset(self, faces: Int[np.ndarray, " n"] | Bool[np.ndarray, " F"]) -> Mesh:
         """Return the mesh of some faces (indices or mask), without unused vertices; nodes, materials and joints are kept."""

@@ -17,7 +17,7 @@ from jaxtyping import Float
 from anymesh.checking.engines.locate import find_file
 from anymesh.checking.engines.robot import Geometry, Inertial, Mimic, Robot, RobotJoint, RobotLink, shape_triangles
 from anymesh.errors import InputError
-from anymesh.loading.load import read_in_metres
+from anymesh.formats.in_metres import read_in_metres
 from anymesh.mujoco_ import load_mujoco, name_elements
 
 READ = (".obj", ".stl", ".msh")  # mesh formats that MuJoCo reads

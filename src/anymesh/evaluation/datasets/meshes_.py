@@ -10,8 +10,8 @@ import numpy as np
 import trimesh
 
 from anymesh.errors import InputError
+from anymesh.formats.in_metres import read_in_metres
 from anymesh.loading.join import simple_mesh
-from anymesh.loading.load import read_in_metres
 from anymesh.types import Material, Mesh
 
 

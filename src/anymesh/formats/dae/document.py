@@ -208,7 +208,8 @@ class DaeDocument:
         while above >= 0:
             path.append(self._names[above])
             above = self.nodes[above].parent
-        made = Node(_label(node.element) or geometry, geometry, path=tuple(path[::-1]) if len(path) > 1 else ())
+        pivot = tuple(node.T[:3, 3].tolist())
+        made = Node(_label(node.element) or geometry, geometry, path=tuple(path[::-1]) if len(path) > 1 else (), pivot=pivot)
         return replace(mesh, face_node=np.zeros(len(mesh.faces), np.int64), nodes=(made,))
 
     def _geometry(self, instance: ET.Element, tag: str, url: str | None) -> Mesh | None:

@@ -220,7 +220,8 @@ class GltfScene:
             if not np.isfinite(T).all():
                 raise InputError(f"{name}: node {index} has a transform that is not finite")
             path = (*(self.names[i] for i in chain), *((f"{self.names[index]}.{k}",) if len(transforms) > 1 else ()))
-            self.placed.append(replace(mesh.transformed(T), nodes=(Node(own, label, path=path if len(path) > 1 else ()),)))
+            made = Node(own, label, path=path if len(path) > 1 else (), pivot=tuple(T[:3, 3].tolist()))
+            self.placed.append(replace(mesh.transformed(T), nodes=(made,)))
             self.home.append(index)
 
     def _pose(self, number: int | None, mesh: int) -> Pose | None:

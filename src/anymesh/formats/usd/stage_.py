@@ -192,8 +192,18 @@ class StageReader:
         chain = tuple(str(prim.GetPath()).split("/")[1:])
         if instancer:
             chain = (*instancer.split("/")[1:], f"{prim.GetName()}_{len(self._placed)}")
-        node = Node(str(prim.GetName()), mesh.nodes[0].geometry, path=chain)
+        pivot = None if instancer else tuple((T @ [*self._pivot(prim), 1])[:3].tolist())
+        node = Node(str(prim.GetName()), mesh.nodes[0].geometry, path=chain, pivot=pivot)
         self._placed.append(PlacedPrim(replace(mesh.transformed(T), nodes=(node,)), instancer or str(prim.GetPath())))
+
+    def _pivot(self, prim: Any) -> tuple[float, ...]:
+        """Return the point of a prim's coordinates about which the nearest operations turn it, by default their origin."""
+        ops: list[Any] = []
+        while not ops and prim and not prim.IsPseudoRoot():
+            xform, prim = self._pxr.UsdGeom.Xformable(prim), prim.GetParent()
+            ops = list(xform.GetOrderedXformOps()) if xform else []
+        points = [value(op.GetAttr()) for op in ops if op.GetOpName() == "xformOp:translate:pivot"]
+        return next((tuple(map(float, p)) for p in points if p is not None), (0.0, 0.0, 0.0))
 
     def _skinned(self, prim: Any, T: np.ndarray) -> tuple[Mesh | None, np.ndarray]:
         """Return a mesh at the rest pose of its skeleton, and its transform to the stage."""
