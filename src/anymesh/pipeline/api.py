@@ -46,7 +46,7 @@ def articulate(
     format defines), an axis such as z or -y, or a direction such as "0,0.7,0.7"; scale: auto, a factor (file units to metres)
     or METRES:AXIS;
     root: folder within which files that the mesh refers to may be read (default: the mesh's own); animation: read, or ignore
-    (animations, physics joints and bones of the file give no joints);
+    (animations, physics joints, bones and pivots of the file tell no joints);
     time_limit: [s], past a share of which each stage shortens its work, with a warning; options: `FormatOptions` (base,
     formats, drives, hulls) and `AnswererOptions`.
     Raise InputError, OptionError, OutputError or ModelError; then nothing is written. After OpenQuestionError and BudgetError,

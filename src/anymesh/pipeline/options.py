@@ -181,7 +181,7 @@ class PlacementOptions:
     root: str | Path | None = _option(  # noqa: RUF009
         None, "Folder for textures, and for package:// and model:// references.", metavar="FOLDER", kind=Path
     )
-    animation: str = _option("read", "read or ignore: whether animations, physics joints, bones and pivots of the file tell joints.")
+    animation: str = _option("read", "read or ignore: whether animations, physics joints, bones and pivots of the file count.")
 
 
 @dataclass(frozen=True)
