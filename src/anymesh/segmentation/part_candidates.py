@@ -224,8 +224,8 @@ def usual_label(mesh: Mesh) -> str:
     Of the joints of large parts in objects that are named so, 52 of 55 are of the kind (Articraft-10K).
     """
     node = int(mesh.face_node[0])
-    found = named_plurals(mesh.nodes[node].name) & {"door", "drawer"} if (mesh.face_node == node).all() else set()
-    return found.pop() if len(found) == 1 else "part"
+    several = named_plurals(mesh.nodes[node].name) & {"door", "drawer"} if (mesh.face_node == node).all() else set()
+    return several.pop() if len(several) == 1 else "part"
 
 
 def shared_name(candidates: PartCandidates, candidate: int) -> str:
