@@ -67,10 +67,10 @@ def _separations(shapes: Sequence[TriangleSet], reach: Float[np.ndarray, " p"]) 
 
 def descendants(parent: list[int], i: int) -> list[int]:
     """Return all descendants of part i."""
-    found = [j for j, over in enumerate(parent) if over == i]
-    for above in found:  # grows
-        found += [j for j, over in enumerate(parent) if over == above]
-    return sorted(found)
+    below = [j for j, over in enumerate(parent) if over == i]
+    for above in below:  # grows
+        below += [j for j, over in enumerate(parent) if over == above]
+    return sorted(below)
 
 
 def find_barrel_candidates(whole: ObjectShape, part: TriangleSet, parent: TriangleSet) -> tuple[TriangleSet, ...]:
