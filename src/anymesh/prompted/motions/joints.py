@@ -74,6 +74,8 @@ from anymesh.types.questions import VisualAnswerer
 
 MIN_GUIDED_SHARE = 0.4  # minimum share of the sideways directions in which an outward slide is guided
 MIN_KEPT = 0.9  # share of an answered range that is free; less gets a warning. Answers are round numbers
+ON_AXIS_RATIO = 0.02  # of the part's diagonal: two points so near to the axis of a pin replace its ends, if they are
+MIN_APART_RATIO = 0.2  # of the part's diagonal apart; both are estimates
 INTO_POINTS = 8  # candidates for an axis into the surface, half of which stand for axes
 
 
@@ -275,12 +277,15 @@ def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape
     if shaped:
         motions = [m for _, m in pivots(case.context, case.shown.normal, case.frame)]
         entering = [*case.circles, *own, *motions]
-    inwards = [shaped and abs(float(m.axis @ case.context.opening_direction)) >= ALONG_COSINE for m in (*own, *case.pins)]
-    ends = [(m, 1 if one else 2) for m, one in zip((*own, *case.pins), inwards, strict=True)]
     if case.kind is JointAppearance.HINGE_HIDDEN:
         samples = case.context.part.samples
         colors = pictures.face_colors[whole.source[samples.faces]]
         points = with_more(points, shot.inside(superpoint_centres(samples, colors)), project, most)
+    size = case.context.part.box.diagonal
+    on_axis = [(m, points[m.distance(points) <= ON_AXIS_RATIO * size] @ m.axis) for m in case.pins]
+    pins = [m for m, along in on_axis if len(along) < 2 or np.ptp(along) < MIN_APART_RATIO * size]
+    inwards = [shaped and abs(float(m.axis @ case.context.opening_direction)) >= ALONG_COSINE for m in (*own, *pins)]
+    ends = [(m, 1 if one else 2) for m, one in zip((*own, *pins), inwards, strict=True)]
     if config.verify != "off" and (entering or ends):
         first, axes = axis_points(case.context, entering, project, most, ends)
         inside = shot.is_inside(first)
