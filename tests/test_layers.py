@@ -43,7 +43,8 @@ MAX_MODULES, MAX_CORE_LINES, SMALL_MODULE = 18, 20_000, 90
 LONG_FUNCTIONS = {"agents/server_.py:_making", "physics/collision.py:collision_shapes"}
 MANY_PARAMETERS = {
     # public functions, whose options are keyword arguments
-    "agents/server_.py:articulate", "agents/tools.py:articulate", "applications/generate/run.py:explain_generation",
+    "agents/server_.py:articulate", "agents/server_.py:export", "agents/tools.py:articulate", "agents/tools.py:export",
+    "applications/generate/run.py:explain_generation",
     "applications/generate/run.py:generate", "applications/plan/planner.py:plan", "applications/plan/replay_.py:replay",
     "applications/policy/env_.py:make_env", "applications/policy/training_.py:train",
     "applications/scan/rendered.py:render_frames", "evaluation/evaluating.py:evaluate",

@@ -70,8 +70,12 @@ PARSE_MECHANISMS = "mechanisms.choosing:parse_mechanisms"
 SCENE_WARNING = "applications.scenes.objects:scene_warning"
 ARTICULATE_SCENE = "applications.scenes.command_line:articulate_scene"
 
-# How a part moves, in words.
+# How a part moves, in words, and how else it may move; joints that are too unsure to be written.
 MOTION_WORDS = "correcting.motions:motion_words"
+WITH_OTHERS = "correcting.articulations:with_others"
+SAMPLES = "correcting.sampling:Variants"
+WITH_PROPOSALS = "correcting.proposals:with_proposals"
+PROBABILITY = "correcting.proposals:probability"
 
 # What an asset shows of itself in a notebook.
 ASSET_HTML = "viewer.report:asset_html"

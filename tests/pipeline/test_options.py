@@ -76,5 +76,9 @@ def test_commands_have_the_options_of_the_classes(name: str) -> None:
         assert missing == {"suggest", "spent", "limiter", "completer", "texture", "watertight"}
 
 
-OWN = {("generate", "max_calls"), *(("eval", name) for name in ("answerer", "viewpoints", "force", "up"))}  # texts of their own
+OWN = {
+    ("generate", "max_calls"),
+    ("export", "seed"),
+    *(("eval", name) for name in ("answerer", "viewpoints", "force", "up")),
+}  # texts of their own
 LOCAL = dict.fromkeys(("Account", "Limiter"), object)

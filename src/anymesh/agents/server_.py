@@ -25,6 +25,10 @@ MeshPath = Annotated[str, Field(description="Mesh file: GLB, glTF, OBJ, PLY, STL
 AssetPath = Annotated[str, Field(description="Folder of an asset that articulate wrote.")]
 OutPath = Annotated[str, Field(description="Folder to write the asset to; open questions lie in OUT.questions beside it.")]
 Formats = Annotated[str, Field(description="Of urdf, mjcf, usd, sdf, glb, with commas between.")]
+Precision = Annotated[
+    float,
+    Field(description="Write only joints that are right with this probability, such as 0.9; others are proposals.", ge=0, le=1),
+]
 CORRECTIONS = (
     "Each is an object with `part` (a part or joint) and operations, as of `anymesh correct`, such as "
     '{"part": "door_1", "motion": 3, "limits": "0,110", "copies": true}; operations, in the order in which they apply:\n'
@@ -95,6 +99,7 @@ def _making(work: ToolRunner) -> tuple[Callable[..., Any], ...]:
         ] = "auto",
         scale: Annotated[str, Field(description="auto, a factor to metres, or METRES:AXIS such as 0.9:z.")] = "auto",
         mass: Annotated[float | None, Field(description="Mass of the whole object in kg; by its materials if none.")] = None,
+        precision: Precision | None = None,
         at_least: Annotated[
             int, Field(description="With geometry: least number of parts, however weak the evidence; 1 if it is known to move.")
         ] = 0,
@@ -105,7 +110,7 @@ def _making(work: ToolRunner) -> tuple[Callable[..., Any], ...]:
         """Turn a rigid mesh into an articulated asset. Stops at each open question: answer it, then call again as before."""
         return await work.run(
             ctx, work.tools.articulate, mesh, out, answerer=answerer, parts=parts, category=category, up=up, scale=scale,
-            mass=mass, at_least=at_least, formats=formats, force=force, time_limit=time_limit, long=True,
+            mass=mass, precision=precision, at_least=at_least, formats=formats, force=force, time_limit=time_limit, long=True,
         )  # fmt: skip
 
     async def answer(
@@ -134,11 +139,14 @@ def _making(work: ToolRunner) -> tuple[Callable[..., Any], ...]:
         drives: Annotated[Literal["passive", "position"] | None, Field(description="Whether drives lead the joints.")] = None,
         package: Annotated[str | None, Field(description="Folder for a ROS 2 package of the URDF.")] = None,
         archive: Annotated[str | None, Field(description="Zip file of the asset.")] = None,
+        precision: Precision | None = None,
+        sample: Annotated[int, Field(description="Number of variants whose parts move otherwise, by weight.")] = 0,
+        seed: Annotated[int, Field(description="Seed of the variants.")] = 0,
     ) -> Content:
         """Write the files of an asset anew, where what is not given stays as it was, as a package or as a zip."""
         return await work.run(
             ctx, work.tools.export, asset, formats=formats, base=base, drives=drives, package=package, archive=archive,
-            long=True,
+            precision=precision, sample=(sample, seed), long=True,
         )  # fmt: skip
 
     return articulate, answer, correct, export

@@ -85,6 +85,7 @@ class AgentTools:
         up: str = "auto",
         scale: str = "auto",
         mass: float | None = None,
+        precision: float | None = None,
         at_least: int = 0,
         formats: str | None = None,
         force: bool = False,
@@ -102,7 +103,7 @@ class AgentTools:
         try:
             asset = pipeline.articulate(
                 source, target, answerer=who, parts=parts, category=category, up=up, scale=scale, mass=mass,
-                at_least=at_least, formats=formats, force=force, time_limit=time_limit, progress=progress,
+                precision=precision, at_least=at_least, formats=formats, force=force, time_limit=time_limit, progress=progress,
             )  # fmt: skip
         except OpenQuestionError as error:
             (path,) = error.folders
@@ -146,6 +147,7 @@ class AgentTools:
             "asset": self._places.shown(folder),
             "parts": [{name: part.get(name) for name in parts} for part in record["parts"]],
             "joints": [{name: joint.get(name) for name in joints} for joint in record["joints"]],
+            "proposals": record.get("proposals", []),
             "warnings": record["warnings"],
             "files": record["files"],
             "corrections": len(open_asset(folder).history.done),
@@ -198,18 +200,22 @@ class AgentTools:
         drives: str | None = None,
         package: str | None = None,
         archive: str | None = None,
+        precision: float | None = None,
+        sample: tuple[int, int] = (0, 0),
         progress: Progress = silent,
     ) -> ToolResult:
         """Write the files of an asset anew; what is not given stays as it was.
 
-        package: folder for a ROS 2 package; archive: a zip file.
+        package: folder for a ROS 2 package; archive: a zip file; sample: number of variants, and their seed.
         """
         folder = self._places.inside(asset, below=True)
         places = [None if path is None else self._places.inside(path) for path in (package, archive)]
         pipeline.export_asset(
-            folder, formats=formats, base=base, drives=drives, package=places[0], archive=places[1], progress=progress
-        )
+            folder, formats=formats, base=base, drives=drives, package=places[0], archive=places[1], precision=precision,
+            sample=sample[0], seed=sample[1], progress=progress,
+        )  # fmt: skip
         made = [self._places.shown(path) for path in places if path is not None]
+        made += [self._places.shown(folder / "samples")] if sample[0] else []
         return ToolResult(
             {"asset": self._places.shown(folder), "files": (read_json(folder / "asset.json") or {})["files"], "made": made}
         )

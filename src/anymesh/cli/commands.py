@@ -9,6 +9,7 @@ import typer
 
 from anymesh.cli.options import (
     INPUT,
+    OUTPUT,
     Animation,
     Answering,
     Folder,
@@ -22,6 +23,7 @@ from anymesh.cli.options import (
     Placement,
     Quiet,
     Running,
+    Sample,
     Time,
     Verbose,
     Zip,
@@ -118,8 +120,8 @@ def _note(outcome: MeshOutcome) -> str:
     from anymesh.pipeline.run_folder import Saved
 
     if outcome.error is None:
-        asset = Saved.at(outcome.out).asset()
-        return summary(asset.segmentation, asset.joints, asset.warnings)
+        asset = Saved.at(outcome.out).written()
+        return summary(asset.segmentation, asset.joints, asset.warnings, len(asset.proposals))
     return ", ".join(map(str, outcome.error.folders)) if isinstance(outcome.error, OpenQuestionError) else str(outcome.error)
 
 
@@ -178,6 +180,8 @@ def export(
     writing: Formats,
     package: Package = None,
     zip_: Zip = None,
+    sample: Sample = 0,
+    seed: Annotated[int, typer.Option(help="Seed of --sample.", rich_help_panel=OUTPUT)] = 0,
     time: Time,
     json_: Json = False,
     quiet: Quiet = False,
@@ -186,6 +190,7 @@ def export(
     """Write the files of the asset whose stages are in DIR."""
     from anymesh import pipeline
 
+    more: dict[str, Any] = {"package": package, "archive": zip_, "sample": sample, "seed": seed}
     with Shown(quiet or json_) as progress:
-        asset = pipeline.export_asset(folder, package=package, archive=zip_, progress=progress, **writing, **time)
+        asset = pipeline.export_asset(folder, progress=progress, **more, **writing, **time)
     print_asset(asset, folder, json_, quiet, verbose)

@@ -29,7 +29,7 @@ ORDER = INPUT, PARTS, OUTPUT, MODEL, ADVANCED = "Input", "Parts", "Output", "Wit
 GROUPS = {PlacementOptions: INPUT, FormatOptions: OUTPUT, AnswererOptions: MODEL, RunOptions: OUTPUT}
 OTHER_GROUPS = {  # of fields that differ from their class
     "category": INPUT,
-    **dict.fromkeys(("parts_list", "at_least"), PARTS),
+    **dict.fromkeys(("parts_list", "at_least", "precision"), PARTS),
     **dict.fromkeys(("hulls", "resistance", "mechanisms", "visuals", "shapes", "profile", "time_limit", "seed"), ADVANCED),
     **dict.fromkeys(("animation", "root", "cache", "timeout", "viewpoints", "verify", "proposer"), ADVANCED),
 }
@@ -52,6 +52,9 @@ Package = Annotated[
     Path | None, typer.Option(metavar="DIR", help="Also write a ROS 2 package of the URDF, in DIR.", rich_help_panel=OUTPUT)
 ]
 Zip = Annotated[Path | None, typer.Option("--zip", metavar="FILE", help="Also write one .zip file.", rich_help_panel=OUTPUT)]
+Sample = Annotated[
+    int, typer.Option(metavar="N", help="Also write N variants whose parts move otherwise, by weight.", rich_help_panel=OUTPUT)
+]
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON object and nothing else.", rich_help_panel=OUTPUT)]
 Verbose = Annotated[bool, typer.Option("--verbose", "-v", help="Also the reason of each joint.", rich_help_panel=OUTPUT)]
 Quiet = Annotated[bool, typer.Option("--quiet", "-q", help="No progress, no summary.", rich_help_panel=OUTPUT)]

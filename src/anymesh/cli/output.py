@@ -35,6 +35,7 @@ OTHER_STEPS = {
     "interaction": "moving joints", "train": "training", "generate": "making the mesh", "targets": "choosing where to touch",
     "route": "planning the arm's way", "check": "checking frames", "splat": "making depth", "allocate": "finding the space",
     "fuse": "fusing depth", "color": "colouring", "clean": "cleaning", "smooth": "smoothing", "simplify": "simplifying",
+    "samples": "writing variants",
 }  # fmt: skip
 MANY = ("batch", "scene")  # steps whose items are meshes, with steps of their own
 MIN_SHARE, MIN_SECONDS = 0.1, 3.0  # done, and time taken, below which no time left is estimated
@@ -62,7 +63,9 @@ def print_joints(asset: Asset, record: dict[str, Any], json_: bool, verbose: boo
     from anymesh.pipeline.results import summary
 
     rows = [joint_row(asset, j) for j in asset.joints]
-    record |= {"joints": rows, "summary": summary(asset.segmentation, asset.joints, asset.warnings)}
+    line = summary(asset.segmentation, asset.joints, asset.warnings, len(asset.proposals))
+    proposals = [{"part": p.part.name, "motion": p.motion, "probability": p.probability} for p in asset.proposals]
+    record |= {"joints": rows, "proposals": proposals, "summary": line}
     if json_:
         typer.echo(json.dumps(record, indent=2))
         return
@@ -101,6 +104,10 @@ def print_asset(asset: Asset, out: Path, json_: bool, quiet: bool, verbose: bool
         echo(_spent(record["usage"], out))
     files = json.loads((out / "asset.json").read_bytes())["files"].values()
     echo(f"wrote {', '.join(files)}, preview.png and asset.json to {out}")
+    for p in asset.proposals:
+        echo(f"proposed, not written ({p.probability:.2f}): {p.part.name}, {p.motion}")
+    if asset.proposals:
+        echo(f"accept a proposal: anymesh correct {out} PART --accept")
     if record["hint"]:
         echo(record["hint"])
     echo(record["summary"])

@@ -63,7 +63,7 @@ def _correct(
         )
         print_result({"part": part, "motions" if motions else "regions": rows}, rows, columns, json_, quiet)
     else:
-        rows = [row for row in part_rows(asset.asset) if part is None or row["part"] == asset.joint(part).part]
+        rows = [row for row in part_rows(asset.asset, asset.precision) if part is None or row["part"] == asset.joint(part).part]
         record = {"out": str(folder), "parts": list(asset.parts), "joints": rows, "warnings": list(asset.warnings)}
         print_result(record, rows, PART_COLUMNS, json_, quiet)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import getpass
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from anymesh.correcting.edits import joint_of_part, part_number
 from anymesh.correcting.history import History, Opened, open_asset, save_asset
 from anymesh.correcting.listing import changed_rows, motion_rows, named_part, part_rows, region_rows
 from anymesh.correcting.parsing import corrections_of
+from anymesh.correcting.proposals import unsure
 from anymesh.pipeline.results import verdict
 from anymesh.types import Asset, Joint, JointType
 
@@ -73,6 +75,16 @@ class EditableAsset:
     def joints(self) -> tuple[EditableJoint, ...]:
         """All joints."""
         return tuple(EditableJoint(self, j.child) for j in self.asset.joints)
+
+    @property
+    def proposals(self) -> tuple[EditableJoint, ...]:
+        """The joints that are too unsure to be written: their parts are fixed in the files until they are accepted."""
+        return tuple(EditableJoint(self, part) for part in unsure(self.asset, self._opened.precision))
+
+    @property
+    def precision(self) -> float:
+        """The probability from which joints are written; 0: all are."""
+        return self._opened.precision
 
     @property
     def warnings(self) -> tuple[str, ...]:
@@ -134,7 +146,7 @@ class EditableAsset:
 
     def take(self, history: History) -> None:
         """Continue from another history of the same asset."""
-        self._opened = Opened(self._opened.folder, history, self._opened.version)
+        self._opened = replace(self._opened, history=history)
 
     def __repr__(self) -> str:
         rows, name = part_rows(self.asset), self.asset.name
@@ -249,6 +261,10 @@ class EditableJoint:
     def confirm(self) -> EditableJoint:
         """State that the joint is right; this clears its warnings."""
         return self._do(right=True)
+
+    def accept(self) -> EditableJoint:
+        """Accept a proposal: the joint is right, and is written."""
+        return self._do(accept=True)
 
     def same_for_copies(self) -> EditableJoint:
         """Give the copies of the part its label and its joint, mirrored where they are mirror images."""

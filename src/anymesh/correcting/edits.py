@@ -166,7 +166,7 @@ def change_parent(asset: Asset, c: ChangeParent) -> Asset:
 
 
 def _reason(what: str) -> dict[str, object]:
-    return {"confidence": CERTAIN, "reason": f"{BY_HAND}: {what}"}
+    return {"confidence": CERTAIN, "reason": f"{BY_HAND}: {what}", "others": ()}
 
 
 def _unit(axis: Vector) -> Float[np.ndarray, " 3"]:
@@ -212,7 +212,7 @@ def confirm(asset: Asset, c: Confirm) -> Asset:
     joint, part = joint_of_part(asset, c.part), asset.segmentation.parts[part_number(asset, c.part)]
     if joint.reason.startswith(CONFIRMED):
         raise CorrectionError(f"the joint of {c.part!r} is confirmed already")
-    sure = with_joint(asset, replace(joint, confidence=CERTAIN, reason=f"{CONFIRMED}: {joint.reason}"))
+    sure = with_joint(asset, replace(joint, confidence=CERTAIN, reason=f"{CONFIRMED}: {joint.reason}", others=()))
     begin = UNSURE_PART.format(c.part)
     sure = replace(sure, warnings=tuple(w for w in sure.warnings if not w.startswith(begin)))
     return _with_part(sure, c.part, replace(part, confidence=CERTAIN))

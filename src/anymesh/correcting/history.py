@@ -15,13 +15,12 @@ from anymesh.correcting.corrections import Correction, CorrectionError, FaceSet
 from anymesh.correcting.edits import apply
 from anymesh.errors import OutputError
 from anymesh.export import write_asset
-from anymesh.export.options import ExportOptions
 from anymesh.pipeline.atomic_folder import CORRECTIONS, locked
 from anymesh.pipeline.results import CorrectionResult
 from anymesh.pipeline.run_folder import RunFolder, Saved
 from anymesh.pipeline.stage_files import CORRECTION, stage_key
 from anymesh.rendering.preview import write_preview
-from anymesh.runtime import cache_folder, read_json, write_json
+from anymesh.runtime import cache_folder, write_json
 from anymesh.types import Asset, JointType
 
 # the kinds of corrections, with their names in a log, such as "change_type"
@@ -152,11 +151,15 @@ class StaleError(OutputError):
 
 @dataclass(frozen=True, eq=False)
 class Opened:
-    """An asset under correction. version: of the saved state on which its history is based."""
+    """An asset under correction.
+
+    version: of the saved state on which its history is based; precision: probability from which its joints are written.
+    """
 
     folder: Path
     history: History
     version: str
+    precision: float = 0.0
 
 
 def open_asset(folder: str | Path) -> Opened:
@@ -164,7 +167,7 @@ def open_asset(folder: str | Path) -> Opened:
     saved = Saved.at(Path(folder))
     version = saved.last_key()
     log = unpack_log(saved.corrections(saved.editing()))
-    return Opened(saved.target, History.of(saved.asset(edited=False), log), version)
+    return Opened(saved.target, History.of(saved.asset(edited=False), log), version, saved.how().precision)
 
 
 def save_asset(opened: Opened) -> Opened:
@@ -188,8 +191,8 @@ def _write(run: RunFolder, history: History) -> None:
     key = stage_key(stage, previous=run.last_key(edited=False), config={"log": log})
     run.save(stage, key, CorrectionResult(asset.segmentation, asset.joints, asset.warnings, tuple(log)))
     with run.timed("export"):
-        how = ExportOptions.parse({}, before=read_json(run.target / "asset.json") or {})
+        how = run.how()
         write_asset(run.asset(), run.folder, how, cache=cache_folder("shapes"))
-        write_preview(asset, run.folder / "preview.png")
+        write_preview(how.written(asset), run.folder / "preview.png")
     before = () if stage is CORRECTION else run.corrections(CORRECTION)
     write_json(run.folder / CORRECTIONS, {"asset": asset.name, "corrections": [*before, *log]})

@@ -12,8 +12,9 @@ from anymesh.correcting.corrections import ChooseMotion, CorrectionError
 from anymesh.correcting.edits import apply, components_of, joint_of_part, part_number
 from anymesh.correcting.motions import motion_words, ranked_motions, told_apart
 from anymesh.correcting.picking import PickedPart
+from anymesh.correcting.proposals import unsure
 from anymesh.names import listed
-from anymesh.pipeline.results import verdict
+from anymesh.pipeline.results import JointVerdict, verdict
 from anymesh.types import Asset, Joint
 from anymesh.types.motion import extent
 
@@ -77,11 +78,16 @@ def region_rows(asset: Asset, part: str) -> list[dict[str, Any]]:
     return rows
 
 
-def part_rows(asset: Asset) -> list[dict[str, Any]]:
-    """Return one row per joint: part, joint, motion in words, range, parent, confidence, verdict (sure, check, guess), why."""
-    rows = []
+def part_rows(asset: Asset, precision: float = 0.0) -> list[dict[str, Any]]:
+    """Return one row per joint: part, joint, motion in words, range, parent, confidence, verdict, why.
+
+    The verdict is sure, check, guess, or proposed for a joint that is not written since its probability is below the precision.
+    """
+    rows, left = [], unsure(asset, precision)
     for j in asset.joints:
         sure = verdict(asset.segmentation, j, asset.warnings)
+        if j.child in left:
+            sure = JointVerdict("proposed", f"not written: right with probability {left[j.child]:.2f}; {sure.why}".rstrip("; "))
         row = {"part": j.child, "joint": j.name, "motion": motion_words(asset, j), "range": extent(j), "parent": j.parent}
         rows.append(row | {"confidence": j.confidence, "verdict": sure.word, "why": sure.why})
     return rows

@@ -45,6 +45,7 @@ OPERATIONS = (
     Operation("label", "TEXT", "Say what the part is, such as drawer."),
     Operation("rename", "NAME", "Give the part's link another name."),
     Operation("right", "", "State that the joint is right as it is; this clears its warnings."),
+    Operation("accept", "", "Accept a proposal, which --precision left fixed: its joint is right, and is written."),
     Operation(
         "copies", "", "The same for its copies: they get the part's label and joint, mirrored where they are mirror images."
     ),

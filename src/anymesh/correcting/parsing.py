@@ -264,6 +264,12 @@ def inwards(asset: Asset, part: str, axis: Float[np.ndarray, " 3"] | None) -> Fl
     return ways[max(opposite, key=lambda k: seen[opposite[k]] - seen[k])]
 
 
+def _accept(plan: CorrectionPlan, _: Any, __: Mapping[str, Any]) -> None:
+    if plan.joint.confidence == 1:
+        raise CorrectionError(f"{plan.name!r} is no proposal: its joint is certain, and is written")
+    plan.add(Confirm(plan.name))
+
+
 def _copies(plan: CorrectionPlan, _: Any, operations: Mapping[str, Any]) -> None:
     if not operations.get("remove"):
         plan.add(*same_for_copies(plan.asset, plan.name))
@@ -304,6 +310,7 @@ HANDLERS: dict[str, Callable[[CorrectionPlan, Any, Mapping[str, Any]], None]] = 
     "label": _label,
     "rename": _rename,
     "right": lambda plan, _, __: plan.add(Confirm(plan.name)),
+    "accept": _accept,
     "copies": _copies,
     "remove": _remove,
 }

@@ -9,6 +9,7 @@ are continuous and capture all errors.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -28,6 +29,7 @@ BOTH_WAYS = 0.5  # a range opens both ways if its smaller side is more than this
 Vector = Float[np.ndarray, " 3"]
 Limits = tuple[float, float] | None
 MIN_MATCH_IOU = 0.5  # IoU from which a part counts as found
+RIGHT_ANGLE, RIGHT_PLACE = 10.0, 0.1  # [deg], half the object's diagonal
 POINTS = 1000  # points per part for the mean displacement
 
 
@@ -162,6 +164,34 @@ class JointScore:
         """Whether the joint was found and has the right kind of motion."""
         return self.type_found is not None and same_motion(self.type_true, self.type_found)
 
+    @property
+    def right(self) -> bool:
+        """Whether a user need not correct the joint but for its limits.
+
+        Right type, axis within 10 degrees and, level with the part, within .1 of half the diagonal, and it opens to the true
+        side.
+        """
+        line = self.type_true is JointType.PRISMATIC or (self.at_part is not None and self.at_part <= RIGHT_PLACE)
+        turned = self.angle is not None and self.angle <= RIGHT_ANGLE
+        return self.type_right and turned and line and self.opens_right is not False
+
+
+@dataclass(frozen=True)
+class FoundJoint:
+    """A joint of the result: the confidences of its part and of the joint, and its other articulations.
+
+    true: name of the true part that it moves, "" for none; right: whether it needs no correction but for its limits; weights:
+    of its articulations, its own first; true_one: which of these is right, None if none is.
+    """
+
+    name: str
+    part_confidence: float
+    confidence: float
+    true: str = ""
+    right: bool = False
+    weights: tuple[float, ...] = ()
+    true_one: int | None = None
+
 
 @dataclass(frozen=True)
 class ObjectScore:
@@ -179,6 +209,7 @@ class ObjectScore:
     executable: bool | None = None  # None if not tested
     faults: tuple[str, ...] = ()  # of joints that were driven
     opened: ParticulateMetrics | None = None  # at the upper ends of all ranges
+    found: tuple[FoundJoint, ...] = ()  # all joints of the result that move
 
     @property
     def f1(self) -> float:
@@ -212,7 +243,19 @@ def score(sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, .
         rest=alike.rest,
         posed=alike.posed,
         opened=alike.opened,
+        found=tuple(_found(sample, segmentation, joint, counterparts) for joint in joints if joint.type is not JointType.FIXED),
     )
+
+
+def _found(sample: EvalSample, segmentation: Segmentation, joint: Joint, counterparts: Mapping[str, str]) -> FoundJoint:
+    """Score a joint of the result and its other articulations. counterparts: found part of each true one."""
+    part = next(p for p in segmentation.parts if p.name == joint.child)
+    name = next((true for true, own in counterparts.items() if own == joint.child), "")
+    known = next((j for j in sample.truth.joints if j.child == name), None)
+    scores = [] if known is None else [_joint(sample, known, own, 1.0, None) for own in (joint, *joint.others)]
+    true_one = next((k for k, own in enumerate(scores) if own.right), None)
+    weights = (joint.confidence, *(other.confidence for other in joint.others))
+    return FoundJoint(joint.child, part.confidence, joint.confidence, name, true_one == 0, weights, true_one)
 
 
 def failed(truth: GroundTruth) -> ObjectScore:

@@ -17,7 +17,6 @@ from anymesh.evaluation.record import Off, Record, what_is_off
 from anymesh.evaluation.score import JointScore, ObjectScore
 from anymesh.types import JointType
 
-RIGHT_ANGLE, RIGHT_PLACE = 10.0, 0.1  # [deg], half the object's diagonal
 AA_ANGLE, AA_ORIGIN = 14.3239, 0.05  # .25 rad [deg], and 50 mm for a diagonal of 2 m
 OPD_ANGLE, OPD_ORIGIN = 10.0, 0.25  # [deg], share of the object's diagonal
 S2O_ANGLE, S2O_ORIGIN = 5.0, 0.1  # [deg], share of the part's diagonal
@@ -30,12 +29,8 @@ UNLIKE = ParticulateMetrics(
 
 
 def right(joint: JointScore) -> bool:
-    """Return whether a user need not correct a joint but for its limits.
-
-    Right type, axis within 10 degrees and, level with the part, within .1 of half the diagonal, and it opens to the true side.
-    """
-    line = _line(joint, joint.at_part, RIGHT_PLACE)
-    return joint.type_right and _within(joint.angle, RIGHT_ANGLE) and line and joint.opens_right is not False
+    """Return whether a user need not correct a joint but for its limits: see `JointScore.right`."""
+    return joint.right
 
 
 def articulate_anything(joint: JointScore) -> bool:

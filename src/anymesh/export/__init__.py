@@ -34,7 +34,7 @@ def write_asset(
 
     cache: folder for convex decompositions.
     """
-    model = build_model(asset, how, config=config, cache=cache, deadline=deadline)
+    model = build_model(how.written(asset), how, config=config, cache=cache, deadline=deadline)
     write_meshes(model, folder, config)
     if how.visuals is Visuals.DAE:
         resolve(WRITE_DAE)(model, folder, config)

@@ -11,15 +11,16 @@ from typing import Any
 import numpy as np
 
 import anymesh
+from anymesh.entry_points import PROBABILITY, resolve
 from anymesh.export.formats import main_file
-from anymesh.export.model import ExportLink, Model, SubstanceShare
+from anymesh.export.model import ExportLink, Model, SubstanceShare, faces_path
 from anymesh.export.options import Format
 from anymesh.physics.mechanism import Mechanism
 from anymesh.physics.resistance import Resistance
 from anymesh.rendering.viewpoints import away
-from anymesh.types import Exchange, Joint, Mesh, Source
+from anymesh.types import Asset, Exchange, Joint, ProposedJoint, Source
 
-SCHEMA_VERSION = "1.3"
+SCHEMA_VERSION = "1.4"
 STATED = ("name", "density", "static_friction", "dynamic_friction", "restitution")  # of substances
 TIMING_FILE = "timing.json"  # separate, so that everything else is the same in every run
 
@@ -38,8 +39,9 @@ def asset_record(model: Model) -> dict[str, Any]:
         "files": {str(kind): main_file(kind, asset.name) for kind in model.how.formats},
         "mass": _round(sum(body.inertia.mass for body in model.bodies)),
         "mass_range": [_round(sum(b.inertia.mass * b.inertia.spread[k] for b in model.bodies)) for k in (0, 1)],
-        "parts": [_part(asset.mesh, body, asset.source_face) for body in model.bodies],
+        "parts": [_part(asset, body) for body in model.bodies],
         "joints": [_joint(model, joint) for joint in asset.joints],
+        **({"proposals": [_proposal(asset, p) for p in asset.proposals]} if model.how.precision else {}),
         "no_contact": [{"links": [e.a, e.b], "reason": e.why} for e in model.exclusions],
         "answerer": asset.answerer,
         "usage": usage(asset.exchanges),
@@ -51,13 +53,8 @@ def asset_record(model: Model) -> dict[str, Any]:
 
 def source_record(source: Source) -> dict[str, Any]:
     """Return where a mesh came from as plain values."""
-    return {
-        "path": source.path,
-        "sha256": source.sha256,
-        "T_asset_source": source.T_asset_source.tolist(),
-        "up": source.up,
-        "notes": list(source.notes),
-    }
+    place = {"T_asset_source": source.T_asset_source.tolist(), "up": source.up}
+    return {"path": source.path, "sha256": source.sha256, **place, "notes": list(source.notes)}
 
 
 def usage(exchanges: Sequence[Exchange]) -> dict[str, Any]:
@@ -83,20 +80,21 @@ def json_text(record: Mapping[str, Any]) -> str:
     return json.dumps(record, indent=2, allow_nan=False) + "\n"
 
 
-def _part(mesh: Mesh, body: ExportLink, source_face: np.ndarray | None) -> dict[str, Any]:
+def _part(asset: Asset, body: ExportLink) -> dict[str, Any]:
     link, shapes = body.link, [type(shape).__name__.lower() for shape in body.shapes]
+    of_source = len(asset.source_faces(link.faces))
     return {
         "name": link.name,
         "label": link.part.label,
         "parent": None if link.joint is None else link.joint.parent,
-        "area": _round(mesh.face_areas[link.faces].sum()),
+        "area": _round(asset.mesh.face_areas[link.faces].sum()),
         "mass": _round(body.inertia.mass),
         "mass_range": [_round(body.inertia.mass * factor) for factor in body.inertia.spread],
         **({"wall": _round(body.inertia.wall)} if body.inertia.wall else {}),
         "substances": [_substance(share) for share in body.substances],
-        "face_count": len(body.source_faces(source_face)),
-        "faces": body.faces_path(),
-        "new_faces": len(link.faces) - len(body.source_faces(source_face)),
+        "face_count": of_source,
+        "faces": faces_path(body.name),
+        "new_faces": len(link.faces) - of_source,
         "collision": {kind: shapes.count(kind) for kind in ("box", "cylinder", "hull") if kind in shapes},
         **({} if body.openings is None else {"openings": _round(body.openings)}),
         "confidence": _round(link.part.confidence),
@@ -112,37 +110,48 @@ def _substance(share: SubstanceShare) -> dict[str, Any]:
 def _joint(model: Model, joint: Joint) -> dict[str, Any]:
     resistance, mechanism = model.resistances.get(joint.name), model.mechanisms.get(joint.name)
     return {
-        "name": joint.name,
-        "type": str(joint.type),
-        "parent": joint.parent,
-        "child": joint.child,
-        "origin": [_round(v) for v in joint.origin],
-        "axis": [_round(v) for v in joint.axis],
-        "limits": None if joint.limits is None else [_round(v) for v in joint.limits],
+        **_motion(joint),
         **({} if resistance is None else _resistance(resistance)),
         **({} if mechanism is None else {"mechanism": _mechanism(mechanism, model.how.formats)}),
-        "confidence": _round(joint.confidence),
-        "reason": joint.reason,
+        **_certainty(joint),
+        "probability": _round(resolve(PROBABILITY)(model.asset.segmentation.parts, joint)),
     }
+
+
+def _motion(joint: Joint) -> dict[str, Any]:
+    axis = {"origin": [_round(v) for v in joint.origin], "axis": [_round(v) for v in joint.axis]}
+    limits = None if joint.limits is None else [_round(v) for v in joint.limits]
+    links = {"parent": joint.parent, "child": joint.child}
+    return {"name": joint.name, "type": str(joint.type), **links, **axis, "limits": limits}
+
+
+def _certainty(joint: Joint) -> dict[str, Any]:
+    """Return confidence and reason, and the weighted articulations where there are several: the joint's own first."""
+    every = [_motion(way) | {"weight": _round(way.confidence)} for way in (joint, *joint.others)]
+    ways = [{k: way[k] for k in ("weight", "type", "origin", "axis", "limits")} for way in every]
+    articulations = {"articulations": ways} if joint.others else {}
+    return {"confidence": _round(joint.confidence), "reason": joint.reason, **articulations}
+
+
+def _proposal(asset: Asset, proposal: ProposedJoint) -> dict[str, Any]:
+    part, faces = proposal.part, asset.source_faces(proposal.faces)
+    return {
+        "label": part.label, **_motion(proposal.joint), **_certainty(proposal.joint), "motion": proposal.motion,
+        "part_confidence": _round(part.confidence), "part_reason": part.reason, "probability": _round(proposal.probability),
+        "face_count": len(faces), "faces": faces_path(part.name),
+    }  # fmt: skip
 
 
 def _resistance(r: Resistance) -> dict[str, Any]:
     numbers = {"typical": r.pull.typical, "least": r.pull.least, "most": r.pull.most}
     vectors = {"at": r.pull.at, "direction": r.pull.direction}
+    pull = {name: _round(v) for name, v in numbers.items()} | {name: [_round(v) for v in vs] for name, vs in vectors.items()}
+    least, most = (_round(v) for v in r.friction_range)
     return {
-        "effort": _round(r.effort),
-        "velocity": _round(r.velocity),
-        "damping": _round(r.damping),
-        "friction": _round(r.friction),
-        "friction_range": [_round(v) for v in r.friction_range],
-        "armature": _round(r.armature),
-        "pull": {
-            "unit": r.pull.unit,
-            **{name: _round(v) for name, v in numbers.items()},
-            **{name: [_round(v) for v in values] for name, values in vectors.items()},
-        },
-        "resistance": r.source,
-    }
+        "effort": _round(r.effort), "velocity": _round(r.velocity), "damping": _round(r.damping),
+        "friction": _round(r.friction), "friction_range": [least, most], "armature": _round(r.armature),
+        "pull": {"unit": r.pull.unit, **pull}, "resistance": r.source,
+    }  # fmt: skip
 
 
 def _mechanism(m: Mechanism, formats: Sequence[Format]) -> dict[str, Any]:

@@ -18,14 +18,8 @@ Writer = Callable[[Model, Path, ExportConfig], None]  # writes into an asset fol
 
 def main_file(kind: Format, name: str) -> str:
     """Return the main file of an asset called `name`, relative to its folder."""
-    return {
-        Format.URDF: f"{name}.urdf",
-        Format.MJCF: f"{name}.xml",
-        Format.USD: f"{name}.usdc",
-        Format.SDF: "model.sdf",
-        Format.GLB: f"{name}.glb",
-        Format.USDZ: f"{name}.usdz",
-    }[kind]
+    names = {Format.MJCF: f"{name}.xml", Format.USD: f"{name}.usdc", Format.SDF: "model.sdf"}
+    return names.get(kind, f"{name}.{kind}")
 
 
 def load_libraries(formats: Sequence[Format]) -> None:
@@ -54,23 +48,15 @@ def _write_glb(model: Model, folder: Path, config: ExportConfig) -> None:
     (folder / main_file(Format.GLB, model.asset.name)).write_bytes(glb)
 
 
-def _write_sdf(model: Model, folder: Path, config: ExportConfig) -> None:
-    resolve(WRITE_SDF)(model, folder, config)
-
-
-def _write_usdz(model: Model, folder: Path, config: ExportConfig) -> None:
-    resolve(WRITE_USDZ)(model, folder, config)
-
-
-def _write_usd(model: Model, folder: Path, config: ExportConfig) -> None:
-    resolve(WRITE_USD)(model, folder, config)
+def _by_name(place: str, model: Model, folder: Path, config: ExportConfig) -> None:
+    resolve(place)(model, folder, config)
 
 
 WRITERS: Mapping[Format, Writer] = {
     Format.URDF: _write_urdf,
     Format.MJCF: write_mjcf,
-    Format.USD: _write_usd,
-    Format.SDF: _write_sdf,
+    Format.USD: partial(_by_name, WRITE_USD),
+    Format.SDF: partial(_by_name, WRITE_SDF),
     Format.GLB: _write_glb,
-    Format.USDZ: _write_usdz,
+    Format.USDZ: partial(_by_name, WRITE_USDZ),
 }

@@ -13,7 +13,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.export.links import Link, Primitive
-from anymesh.export.model import FOLDER, ExportConfig, ExportLink, Model
+from anymesh.export.model import FOLDER, ExportConfig, ExportLink, Model, faces_path
 from anymesh.names import legal_names
 from anymesh.types import Hull, Material, Mesh
 from anymesh.types.mesh import TEXTURE_SLOTS, to_srgb
@@ -44,7 +44,9 @@ def write_meshes(model: Model, folder: Path, config: ExportConfig) -> None:
         (folder / FOLDER / f"{body.name}.mtl").write_text(mtl, encoding="ascii", newline="\n")
         write_obj(folder / body.visual_path(), body.name, f"{body.name}.mtl", primitives, names)
         _write_hulls(body, folder)
-        np.save(folder / body.faces_path(), body.source_faces(model.asset.source_face).astype(np.int64), allow_pickle=False)
+    faces = {body.name: body.link.faces for body in bodies} | {p.part.name: p.faces for p in model.asset.proposals}
+    for name, mine in faces.items():
+        np.save(folder / faces_path(name), model.asset.source_faces(mine), allow_pickle=False)
 
 
 def _write_hulls(body: ExportLink, folder: Path) -> None:

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from jaxtyping import Int
 
 from anymesh.entry_points import CHOOSE_MECHANISMS, RESISTANCES, USUAL_BODIES, resolve
 from anymesh.export.flat_looks import losses, tiled, tinted, with_materials
@@ -68,17 +67,6 @@ class ExportLink:
         """Return the path relative to the asset folder, with forward slashes."""
         return f"{FOLDER}/{self.name}.{kind}"
 
-    def faces_path(self) -> str:
-        """Return the path of the link's face indices in the source (an int64 .npy), relative to the asset folder."""
-        return f"{FOLDER}/{self.name}.faces.npy"
-
-    def source_faces(self, source_face: Int[np.ndarray, " F"] | None) -> Int[np.ndarray, " n"]:
-        """Return the source-file indices of the link's faces, without those added by Stage C."""
-        if source_face is None:
-            return self.link.faces
-        faces = source_face[self.link.faces]
-        return faces[faces >= 0]
-
     def collisions(self) -> Iterator[tuple[Shape, str | None, Substance | None]]:
         """Yield each collision shape with its path as of `hull_paths`, and its substance."""
         return zip(self.shapes, self.hull_paths(), self.surfaces or (None,) * len(self.shapes), strict=True)
@@ -91,6 +79,11 @@ class ExportLink:
             number = f"_{len(paths) - paths.count(None)}" if hulls > 1 else ""
             paths.append(f"{FOLDER}/{self.name}_collision{number}.obj" if isinstance(shape, Hull) else None)
         return tuple(paths)
+
+
+def faces_path(name: str) -> str:
+    """Return the path of the face indices of a link or proposal in the source (an int64 .npy), relative to the asset folder."""
+    return f"{FOLDER}/{name}.faces.npy"
 
 
 @dataclass(frozen=True)
@@ -149,12 +142,7 @@ class ExportConfig(InertiaConfig):
 
 
 def build_model(
-    asset: Asset,
-    how: ExportOptions,
-    *,
-    config: ExportConfig,
-    cache: Path | None,
-    deadline: Deadline | None = None,
+    asset: Asset, how: ExportOptions, *, config: ExportConfig, cache: Path | None, deadline: Deadline | None = None
 ) -> Model:
     """Build the model of an asset, with legal names and the warnings of its collision shapes.
 

@@ -7,9 +7,10 @@ from dataclasses import dataclass, fields, replace
 from enum import StrEnum
 from typing import Any
 
-from anymesh.entry_points import PARSE_MECHANISMS, resolve
+from anymesh.entry_points import PARSE_MECHANISMS, WITH_PROPOSALS, resolve
 from anymesh.errors import OptionError
 from anymesh.physics.resistance import ResistanceLevel
+from anymesh.types import Asset
 
 
 class Base(StrEnum):
@@ -58,8 +59,11 @@ class Profile(StrEnum):
     SIMREADY = "simready"
 
 
+USUAL_PRECISION = 0.0  # probability from which joints are written where none is asked for; 0: all are
 DEFAULT = (Format.URDF, Format.MJCF, Format.SDF, Format.GLB)
-MASSES, GIVEN_MASS = (1e-3, 1e6), "given_mass"  # [kg] of an object; its name in asset.json, where mass is that of the parts
+GIVEN_MASS = "given_mass"  # name in asset.json of the mass of the whole, where mass is that of the parts
+# least and greatest value of numbers, and how their message ends
+NUMBERS = {"mass": (1e-3, 1e6, " kg, or 0 for none given"), "precision": (0.0, 1.0, ": how likely a written joint is right")}
 CHOICES: Mapping[str, type[StrEnum]] = {  # options whose values are words
     "base": Base, "drives": Driven, "visuals": Visuals, "shapes": Shapes, "resistance": ResistanceLevel,
     "profile": Profile,
@@ -80,7 +84,8 @@ def parse_formats(text: str) -> tuple[Format, ...]:
 class ExportOptions:
     """How an asset is written.
 
-    hulls: maximum number of collision shapes per link, None for no limit; mechanisms: auto, off, all, or LABEL=KIND,...
+    hulls: maximum number of collision shapes per link, None for no limit; mechanisms: auto, off, all, or LABEL=KIND,...;
+    precision: probability of being right from which a joint is written; 0 for all.
     """
 
     base: Base = Base.FIXED
@@ -93,6 +98,7 @@ class ExportOptions:
     shapes: Shapes = Shapes.PRIMITIVES
     profile: Profile = Profile.NONE
     mass: float | None = None  # [kg] of the whole object, None if what it is made of decides
+    precision: float = USUAL_PRECISION
 
     @classmethod
     def parse(cls, given: Mapping[str, Any], *, before: Mapping[str, Any] | None = None) -> ExportOptions:
@@ -108,26 +114,34 @@ class ExportOptions:
 
     @classmethod
     def _of(cls, record: Mapping[str, Any]) -> ExportOptions:
-        kept = {k: record[k] for k in (f.name for f in fields(cls)) if k in record} | {"mass": record.get(GIVEN_MASS)}
+        kept: dict[str, Any] = {"precision": 0.0} if record else {}
+        kept |= {k: record[k] for k in (f.name for f in fields(cls)) if k in record}
+        kept["mass"] = record.get(GIVEN_MASS)
         formats = tuple(f for f in Format if f in record.get("files", {})) or DEFAULT
         return cls.parse({**kept, "formats": ",".join(formats)})
 
     def record(self) -> dict[str, Any]:
         """Return the values for asset.json but the formats, which its files show; most only if they are not the default."""
         values = {f.name: (getattr(self, f.name), f.default) for f in fields(self) if f.name != "formats"}
+        values["precision"] = (self.precision, 0.0)  # as it is without the key
         stated = {k: v for k, (v, usual) in values.items() if k in ("base", "drives", "resistance") or v != usual}
         return {GIVEN_MASS if k == "mass" else k: str(v) if k in CHOICES else v for k, v in stated.items()}
+
+    def written(self, asset: Asset) -> Asset:
+        """Return the asset as it is written: joints below the precision are proposals, and their parts are fixed."""
+        return resolve(WITH_PROPOSALS)(asset, self.precision) if self.precision else asset
 
     def with_formats(self, others: tuple[Format, ...]) -> ExportOptions:
         """Return the options with further formats."""
         return replace(self, formats=tuple(f for f in Format if f in self.formats or f in others))
 
 
-def _mass(given: Any) -> float | None:
-    """Return a mass [kg]; None for 0."""
-    if isinstance(given, bool | str) or (given != 0 and not MASSES[0] <= given <= MASSES[1]):
-        raise OptionError(f"--mass: found {given!r}; valid are {MASSES[0]:g} to {MASSES[1]:g} kg, or 0 for none given")
-    return float(given) or None
+def _number(name: str, given: Any) -> float | None:
+    """Return a mass [kg], None for 0, or a precision."""
+    least, most, valid = NUMBERS[name]
+    if isinstance(given, bool | str) or (given != 0 and not least <= given <= most):
+        raise OptionError(f"--{name}: found {given!r}; valid are {least:g} to {most:g}{valid}")
+    return float(given) or (None if name == "mass" else 0.0)
 
 
 def _value(name: str, given: Any) -> Any:
@@ -137,8 +151,8 @@ def _value(name: str, given: Any) -> Any:
     if name == "mechanisms":
         resolve(PARSE_MECHANISMS)(str(given))
         return str(given)
-    if name == "mass":
-        return _mass(given)
+    if name in NUMBERS:
+        return _number(name, given)
     if name in CHOICES:
         if given not in list(CHOICES[name]):
             raise OptionError(f"--{name}: found {given!r}; valid are {', '.join(CHOICES[name])}")

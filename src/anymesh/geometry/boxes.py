@@ -185,4 +185,7 @@ def straight_mesh(mesh: Mesh) -> tuple[Mesh, Float[np.ndarray, "4 4"]]:
 
 def turned_back(joint: Joint, T: Float[np.ndarray, "4 4"]) -> Joint:
     """Return a joint of the turned mesh in the frame from which T turned it."""
-    return joint if (np.eye(4) == T).all() else replace(joint, origin=joint.origin @ T[:3, :3], axis=joint.axis @ T[:3, :3])
+    if (np.eye(4) == T).all():
+        return joint
+    others = tuple(turned_back(other, T) for other in joint.others)
+    return replace(joint, origin=joint.origin @ T[:3, :3], axis=joint.axis @ T[:3, :3], others=others)

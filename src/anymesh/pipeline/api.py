@@ -9,7 +9,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Unpack
 
-from anymesh.entry_points import CHECK_ZIP, REMOVE_TRANSCRIPT, WRITE_PACKAGE, WRITE_TRANSCRIPT, WRITE_ZIP, resolve
+from anymesh.entry_points import CHECK_ZIP, REMOVE_TRANSCRIPT, SAMPLES, WRITE_PACKAGE, WRITE_TRANSCRIPT, WRITE_ZIP, resolve
 from anymesh.errors import OpenQuestionError, OptionError, OutputError
 from anymesh.export import ExportOptions, Format
 from anymesh.isolation import AHEAD, shared_pool
@@ -124,6 +124,8 @@ def export_asset(
     *,
     package: str | Path | None = None,
     archive: str | Path | None = None,
+    sample: int = 0,
+    seed: int = 0,
     time_limit: float = DEFAULT_SECONDS,
     progress: Progress = silent,
     **writing: Unpack[Writing],
@@ -133,9 +135,11 @@ def export_asset(
     writing: as for `articulate`; what is not given stays as it was, and formats that the folder holds are written anew, besides
     those that are given.
 
-    package: folder for a ROS 2 package of the URDF; archive: a zip file of the asset.
+    package: folder for a ROS 2 package of the URDF; archive: a zip file of the asset; sample: number of variants to write into
+    `samples/`, in each of which a part moves by one of its articulations, drawn by weight with this seed.
     """
     deadline = Deadline(time_limit)
+    samples = resolve(SAMPLES)(sample, seed)
     ExportOptions.parse(writing)  # report invalid values before anything is read
     if archive is not None:
         resolve(CHECK_ZIP)(Path(archive))
@@ -147,6 +151,7 @@ def export_asset(
         if package is not None and Format.URDF not in how.formats:
             raise OptionError(f"--package needs the format urdf, found {','.join(how.formats)!r}")
         asset = write_files(run, how, deadline, progress)
+        samples.write(asset, run.folder, how, progress)
     if package is not None:
         resolve(WRITE_PACKAGE)(Path(folder), Path(package), base=how.base)
     if archive is not None:

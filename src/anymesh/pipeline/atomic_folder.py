@@ -158,7 +158,8 @@ def move_files(new: Path, target: Path, *, remove: Iterable[str], last: str) -> 
     for name in sorted(remove, key=lambda name: name != last):
         (target / name).unlink(missing_ok=True)
         with suppress(OSError):  # a folder with other files stays
-            (target / name).parent.rmdir()
+            for folder in [*Path(name).parents][:-1]:
+                (target / folder).rmdir()
     for name in sorted(files, key=lambda name: name == last):
         (target / name).parent.mkdir(parents=True, exist_ok=True)
         (new / name).replace(target / name)

@@ -199,9 +199,7 @@ class FormatOptions:
 
     base: str | None = _option(None, "fixed (usual) or free: whether the root link is fixed to the world.", kind=str)
     formats: str | None = _option(
-        None,
-        "Comma-separated, of urdf, mjcf, usd, sdf, glb, usdz; usually without usd and usdz, of an extra.",
-        kind=str,
+        None, "Comma-separated, of urdf, mjcf, usd, sdf, glb, usdz; usually without usd and usdz, of an extra.", kind=str
     )
     drives: str | None = _option(
         None, "passive (usual), or position: joints follow a commanded position, initially 0.", kind=str
@@ -223,6 +221,10 @@ class FormatOptions:
     mass: float | None = _option(
         None, "Mass of the whole object, 0 for that of its materials and walls.", metavar="KG", kind=float
     )
+    precision: float | None = _option(
+        None, "Write only joints that are right with this probability, such as 0.9, and propose the others; 0: all.",
+        metavar="P", kind=float,
+    )  # fmt: skip
 
 
 class Writing(TypedDict, total=False):
@@ -238,6 +240,7 @@ class Writing(TypedDict, total=False):
     shapes: str | None
     profile: str | None
     mass: float | None
+    precision: float | None
 
 
 class MakingOptions(Answering, Writing):

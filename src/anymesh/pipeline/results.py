@@ -166,8 +166,8 @@ def verdict(segmentation: Segmentation, joint: Joint, warnings: Sequence[str]) -
     return JointVerdict(word, "" if word == "sure" else fault or doubt)
 
 
-def summary(segmentation: Segmentation, joints: Sequence[Joint], warnings: Sequence[str]) -> str:
-    """Return one line on all joints, such as "3 joints, 2 sure, 1 to check: door_2 (why)"."""
+def summary(segmentation: Segmentation, joints: Sequence[Joint], warnings: Sequence[str], proposed: int = 0) -> str:
+    """Return one line on all joints, such as "3 joints, 2 sure, 1 to check: door_2 (why)". proposed: number of proposals."""
     verdicts = [(joint.child, verdict(segmentation, joint, warnings)) for joint in joints]
     counts = [f"{len(joints)} joint{'' if len(joints) == 1 else 's'}"]
     for word, said in (("sure", "sure"), ("check", "to check"), ("guess", "guessed")):
@@ -175,4 +175,4 @@ def summary(segmentation: Segmentation, joints: Sequence[Joint], warnings: Seque
         names = {why: ", ".join(name for name, other in mine if other == why) for _, why in mine if why}
         listed = "; ".join(f"{name} ({why})" for why, name in names.items())
         counts += [f"{len(mine)} {said}" + (f": {listed}" if listed else "")] if mine else []
-    return ", ".join(counts)
+    return ", ".join([*counts, f"{proposed} proposed"] if proposed else counts)

@@ -17,6 +17,7 @@ from types import TracebackType
 from typing import Any, TypeVar
 
 from anymesh.errors import RESUMES, AnymeshError, BudgetError, OpenQuestionError, OutputError, note_stage
+from anymesh.export.options import ExportOptions
 from anymesh.pipeline.atomic_folder import (
     CORRECTIONS,
     FOLDER_PREFIX,
@@ -132,6 +133,14 @@ class Saved:
             self.need(MESH), self.recognition(), self.need(SEGMENTATION), self.need(JOINTS),
             correction=saved(CORRECTION), completion=saved(COMPLETION), revision=saved(REVISION), timing=self.timing(),
         )  # fmt: skip
+
+    def how(self) -> ExportOptions:
+        """Return how the asset was written."""
+        return ExportOptions.parse({}, before=read_json(self.target / LAST) or {})
+
+    def written(self) -> Asset:
+        """Return the asset as it was written: joints below the precision are proposals."""
+        return self.how().written(self.asset())
 
     def editing(self) -> Stage[CorrectionResult]:
         """Return the stage that holds the corrections of this output."""

@@ -14,7 +14,7 @@ from anymesh.articulation.estimate import PartMotions, choose_motion, is_named, 
 from anymesh.articulation.rank_motions import MIN_LABEL_CONFIDENCE, label_of
 from anymesh.articulation.vetting import vetted_joints
 from anymesh.config import Config
-from anymesh.entry_points import PROMPTED_STAGES, STATED_JOINTS, STATED_PARTS, USUAL_PARTS, resolve
+from anymesh.entry_points import PROMPTED_STAGES, STATED_JOINTS, STATED_PARTS, USUAL_PARTS, WITH_OTHERS, resolve
 from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.surface import DividedSurface, ObjectShape, ground_faces
 from anymesh.pipeline.options import GEOMETRY
@@ -88,8 +88,10 @@ class GeometryStages:
         self, segmentation: Segmentation, recognition: Recognition | None, progress: Progress = silent, grounded: bool = False
     ) -> JointResult:
         """Run Stage B."""
-        vetted = vetted_joints(segmentation, self.motions(segmentation, progress))
-        return joint_result(vetted.joints, self.name, self.deadline.warnings(), doubts=vetted.doubts)
+        motions = self.motions(segmentation, progress)
+        vetted = vetted_joints(segmentation, motions)
+        joints = resolve(WITH_OTHERS)(vetted.joints, segmentation, motions)
+        return joint_result(joints, self.name, self.deadline.warnings(), doubts=vetted.doubts)
 
     def parts(self, progress: Progress = silent) -> Segmentation:
         """Return the parts found by geometry, computed once.

@@ -182,8 +182,9 @@ def _unpack_segmentation(record: Record, arrays: Arrays) -> SegmentationResult:
 
 
 def _pack_joint(joint: Joint | StatedJoint) -> Record:
-    record = {f.name: getattr(joint, f.name) for f in fields(joint)}
-    return record | {"type": str(joint.type), "origin": joint.origin.tolist(), "axis": joint.axis.tolist()}
+    record = {f.name: getattr(joint, f.name) for f in fields(joint) if f.name != "others"}
+    others = {"others": [_pack_joint(other) for other in joint.others]} if isinstance(joint, Joint) and joint.others else {}
+    return record | others | {"type": str(joint.type), "origin": joint.origin.tolist(), "axis": joint.axis.tolist()}
 
 
 def _unpack_joint(kind: type[AnyJoint], record: Record) -> AnyJoint:
@@ -191,6 +192,8 @@ def _unpack_joint(kind: type[AnyJoint], record: Record) -> AnyJoint:
     values: dict[str, Any] = {name: value for name, value in record.items() if name in known}
     values |= {"type": JointType(record["type"]), "limits": _limits(record)}
     values["origin"], values["axis"] = np.array(record["origin"], float), np.array(record["axis"], float)
+    if "others" in values:
+        values["others"] = tuple(_unpack_joint(kind, other) for other in values["others"])
     return kind(**values)
 
 
@@ -208,11 +211,7 @@ def _unpack_joints(record: Record, arrays: Arrays) -> JointResult:
 
 def _pack_completed(result: CompletionResult) -> tuple[Record, dict[str, np.ndarray]]:
     record, arrays = _pack_mesh(result.mesh)
-    return {**record, "notes": list(result.notes)}, {
-        **arrays,
-        "face_part": result.face_part,
-        "source_face": result.source_face,
-    }
+    return {**record, "notes": list(result.notes)}, {**arrays, "face_part": result.face_part, "source_face": result.source_face}
 
 
 def _unpack_completed(record: Record, arrays: Arrays) -> CompletionResult:

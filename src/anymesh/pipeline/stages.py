@@ -138,7 +138,7 @@ def write_files(folder: RunFolder, how: ExportOptions, deadline: Deadline, progr
     """Write the files of the asset and its preview; only the legend of the preview if the deadline is near."""
     progress("export", "files", 0, 2)
     load_libraries(how.formats)
-    asset = folder.asset()
+    asset = how.written(folder.asset())
     brief = deadline.late(PREVIEW)
     if brief:
         deadline.leave_out("preview: it shows only the list of joints")

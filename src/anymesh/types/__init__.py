@@ -1,6 +1,6 @@
 """Data types of the package: frozen, numpy only, validated when constructed."""
 
-from anymesh.types.asset import Asset, Part, Segmentation, Source
+from anymesh.types.asset import Asset, Part, ProposedJoint, Segmentation, Source
 from anymesh.types.brief import Brief
 from anymesh.types.exchange import Exchange, Picture
 from anymesh.types.mesh import Box, Cylinder, Hull, Material, Mesh, Node, Shape, Texture
@@ -24,6 +24,7 @@ __all__ = [
     "Node",
     "Part",
     "Picture",
+    "ProposedJoint",
     "Segmentation",
     "Shape",
     "Source",

@@ -85,6 +85,20 @@ class Source(Brief):
 
 
 @dataclass(frozen=True, eq=False)
+class ProposedJoint(Brief):
+    """A joint that is too unsure to be written, and its part, which is fixed instead.
+
+    probability: that both are right; faces: (n,) of the mesh, now of the part that carries it; motion: in words.
+    """
+
+    part: Part
+    joint: Joint
+    probability: float
+    motion: str
+    faces: Int[np.ndarray, " n"]
+
+
+@dataclass(frozen=True, eq=False)
 class Asset:
     """Everything the exporters need. `mesh` is in the asset frame at rest [m, Z up]."""
 
@@ -101,6 +115,7 @@ class Asset:
     notes: tuple[str, ...] = ()  # changes by Stage C, in words
     category: str = ""  # kind of object as given or answered, "" if only the name tells
     front: float | None = None  # answered azimuth that shows the front [deg], 0 looks along +y
+    proposals: tuple[ProposedJoint, ...] = ()  # with --precision
 
     def __post_init__(self) -> None:
         names = [p.name for p in self.segmentation.parts]
@@ -122,8 +137,15 @@ class Asset:
     def __repr__(self) -> str:
         head = f"Asset {self.name!r}: {len(self.segmentation.parts)} parts, {len(self.mesh.faces)} faces, by {self.answerer}"
         more = [f"  and {len(self.joints) - SHOWN} more joints"] if len(self.joints) > SHOWN else []
-        warned = [f"  {len(self.warnings)} warnings"] if self.warnings else []
-        return "\n".join((head, *(f"  {joint!r}" for joint in self.joints[:SHOWN]), *more, *warned))
+        more += [f"  {len(self.proposals)} proposals, which are fixed"] if self.proposals else []
+        more += [f"  {len(self.warnings)} warnings"] if self.warnings else []
+        return "\n".join((head, *(f"  {joint!r}" for joint in self.joints[:SHOWN]), *more))
+
+    def source_faces(self, faces: Int[np.ndarray, " m"]) -> Int[np.ndarray, " n"]:
+        """Return the indices of faces in the source file, without those added by Stage C."""
+        if self.source_face is not None:
+            faces = self.source_face[faces]
+        return faces[faces >= 0].astype(np.int64)
 
     def _repr_html_(self) -> str:
         """Return what a notebook shows of the asset: its report, in a frame."""

@@ -146,7 +146,7 @@ class Joint:
     """A joint at rest in the asset frame. Positive motion opens.
 
     origin: a point on the axis [m]; axis: unit; limits: (lower, upper) [rad or m] containing 0, None if and only if the joint
-    is continuous or fixed.
+    is continuous or fixed; others: other joints that the part may have, likeliest first, whose confidence is their weight.
     """
 
     name: str
@@ -158,6 +158,7 @@ class Joint:
     limits: tuple[float, float] | None
     confidence: float
     reason: str
+    others: tuple[Joint, ...] = ()
 
     def __post_init__(self) -> None:
         if not abs(float(np.linalg.norm(self.axis)) - 1) <= 1e-6:  # also rejects NaN

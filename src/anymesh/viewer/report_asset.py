@@ -30,7 +30,21 @@ from anymesh.geometry.distance_ import distance_to_mesh
 from anymesh.geometry.simplify_ import simplify
 from anymesh.loading import load_mesh
 from anymesh.rendering.render import face_colors
-from anymesh.types import Asset, Brief, Exchange, Joint, JointType, Material, Mesh, Part, Picture, Segmentation, Source, Texture
+from anymesh.types import (
+    Asset,
+    Brief,
+    Exchange,
+    Joint,
+    JointType,
+    Material,
+    Mesh,
+    Part,
+    Picture,
+    ProposedJoint,
+    Segmentation,
+    Source,
+    Texture,
+)
 from anymesh.types.triangles import normals_and_areas
 from anymesh.viewer.scene import report_scene
 
@@ -82,15 +96,10 @@ def read_asset(folder: Path) -> Asset:
     try:
         parts = tuple(Part(p["name"], p["label"], p["confidence"], p["reason"]) for p in record["parts"])
         source = record["source"]
+        T = np.array(source["T_asset_source"], float)
         return Asset(
             name=record["name"],
-            source=Source(
-                source["path"],
-                source["sha256"],
-                np.array(source["T_asset_source"], float),
-                source["up"],
-                tuple(source["notes"]),
-            ),
+            source=Source(source["path"], source["sha256"], T, source["up"], tuple(source["notes"])),
             mesh=mesh,
             segmentation=Segmentation(_face_part(mesh, parts), parts),
             joints=tuple(_joint(joint) for joint in record["joints"]),
@@ -98,6 +107,7 @@ def read_asset(folder: Path) -> Asset:
             warnings=tuple(map(str, record["warnings"])),
             exchanges=read_transcript(folder / TRANSCRIPT),
             notes=tuple(map(str, record.get("finish", ()))),  # since schema 1.2
+            proposals=tuple(_proposal(p) for p in record.get("proposals", ())),  # since schema 1.4
         )
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise InputError(f"{folder / RECORD} is not what anymesh writes: {type(error).__name__}: {error}") from error
@@ -144,6 +154,13 @@ def _joint(record: Mapping[str, Any]) -> Joint:
         confidence=record["confidence"],
         reason=record["reason"],
     )
+
+
+def _proposal(record: Mapping[str, Any]) -> ProposedJoint:
+    part = Part(record["child"], record["label"], record["part_confidence"], record["part_reason"])
+    return ProposedJoint(
+        part, _joint(record), float(record["probability"]), str(record["motion"]), np.zeros(0, int)
+    )  # no faces
 
 
 def _exchange(folder: Path, path: Path) -> Exchange | None:

@@ -89,6 +89,23 @@ def part_table(asset: Asset) -> str:
     return _table("Parts", head, rows)
 
 
+def proposal_table(asset: Asset) -> str:
+    """Return a table of the joints that were too unsure to be written, with the reason for each and how to accept it."""
+    head = ("part", "motion", "range", "probability", "reason", "accept it")
+    rows = [
+        (
+            html_text(p.part.name),
+            html_text(p.motion),
+            html_text(extent(p.joint)),
+            sure(p.probability),
+            html_text(p.joint.reason),
+            f"<code>anymesh correct DIR {html_text(p.part.name)} --accept</code>",
+        )
+        for p in sorted(asset.proposals, key=lambda p: -p.probability)
+    ]
+    return _table("Proposals, which are not written: their parts are fixed", head, rows)
+
+
 def transcript(entry: ReportEntry) -> str:
     """Return every question to a model with its pictures and answer, collapsed; "" if there were none."""
     asked = entry.asset.exchanges if entry.asset else ()
@@ -205,6 +222,7 @@ def _card(number: int, entry: ReportEntry) -> str:
         words = [verdict(entry.asset.segmentation, j, entry.asset.warnings).word for j in entry.asset.joints]
         worst = next((w for w in ("guess", "check", "sure") if w in words), "nothing moves")
         count = f"{len(words)} joint{'' if len(words) == 1 else 's'}"
+        count += f", {len(entry.asset.proposals)} proposed" if entry.asset.proposals else ""
         word = f'<span>{count} <span class="mark {worst.split()[0]}">{worst}</span></span>'
     small = _text(thumbnail(entry.preview)) if entry.preview else ""
     picture = f'<img alt="{html_text(entry.title)}, opened" src="data:image/jpeg;base64,{small}">' if small else "<i></i>"
@@ -221,7 +239,7 @@ def _section(number: int, entry: ReportEntry, *, alone: bool) -> str:
     return (
         f'{begin}<p class="facts">{facts}</p>{warnings(entry)}<div class="look">{_stage(entry, alone)}'
         f'<div class="panel">{_tools(entry)}{sliders(asset)}</div></div>{_picture(entry)}'
-        f"{joint_table(asset)}{part_table(asset)}{transcript(entry)}</section>"
+        f"{joint_table(asset)}{proposal_table(asset)}{part_table(asset)}{transcript(entry)}</section>"
     )
 
 

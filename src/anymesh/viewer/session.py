@@ -23,6 +23,7 @@ from anymesh.correcting import (
     save_asset,
 )
 from anymesh.correcting.motions import Ready, made_ready
+from anymesh.correcting.proposals import unsure
 from anymesh.geometry.kinematics import link_transforms
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.types import Asset, Brief, Joint, Segmentation
@@ -97,6 +98,11 @@ class Session:
         return self.asset if self.preview is None else apply(self.asset, self.preview)
 
     @property
+    def proposals(self) -> dict[str, float]:
+        """The probability of the joints that are too unsure to be written, by their part."""
+        return unsure(self.asset, self._opened.precision)
+
+    @property
     def unsaved(self) -> bool:
         """Whether there are unsaved changes."""
         return self.history.done != self._saved
@@ -129,7 +135,7 @@ class Session:
         self._saved = self.history.done
 
     def _go(self, history: History) -> None:
-        self._opened = Opened(self._opened.folder, history, self._opened.version)
+        self._opened = replace(self._opened, history=history)
         self._settle()
 
     def _settle(self) -> None:

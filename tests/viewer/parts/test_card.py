@@ -35,7 +35,17 @@ def test_the_root_has_no_joint_and_offers_new_parts():
     card = part_card(SIDEWAYS, "base", None, None)
     assert "has no joint" in card
     assert [f'data-say="level {level}"' in card for level in Level] == [True] * 3
-    assert 'data-say="lasso"' in nothing_selected()
+    assert 'data-say="lasso"' in nothing_selected(SIDEWAYS, {})
+
+
+def test_a_proposal_is_one_click_from_acceptance():
+    listed = nothing_selected(SIDEWAYS, {"drawer": 0.43})
+    assert all(words in listed for words in ('data-say="accept drawer"', 'data-say="look drawer"', "0.43", "slides out"))
+    card = part_card(SIDEWAYS, "drawer", None, None, {"drawer": 0.43})
+    assert "not written: right with probability 0.43" in card
+    assert card.count('data-say="confirm"') == 1
+    assert "Accept" in card
+    assert "Accept" not in part_card(SIDEWAYS, "drawer", None, None)
 
 
 def found_of(asset, part: str) -> ShownMotions:

@@ -106,7 +106,7 @@ def mesh_before(job: GenerationJob, work: WorkFolder, *, anew: bool) -> Generate
 def _finished(job: GenerationJob) -> Asset | None:
     if not (finished_before(job) and (job.out / "asset.json").is_file()):
         return None
-    asset = Saved.at(job.out).asset()
+    asset = Saved.at(job.out).written()
     return None if any(e.given_up for e in asset.exchanges) else _warned(asset, job)
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from html import escape
+from types import MappingProxyType
 
 import numpy as np
 
@@ -17,6 +19,7 @@ from anymesh.viewer.panels import badge
 from anymesh.viewer.scene import color_of
 
 BY_PERSON = ("corrected by hand", "confirmed by hand")  # begins of the reasons of joints that a person set
+MAX_PROPOSED = 20  # proposals that are listed
 SAME_WAY = 0.99  # minimum cosine between axes of one motion
 LEVEL_HINTS = {
     Level.FACET: "The flat face that is clicked",
@@ -65,12 +68,27 @@ def levels(now: Choosing | None) -> str:
     return "".join(buttons)
 
 
-def nothing_selected() -> str:
-    """Return what the card says before a part is selected."""
+def nothing_selected(asset: Asset, proposals: Mapping[str, float]) -> str:
+    """Return what the card says before a part is selected, with the proposals. proposals: their probabilities, by part."""
     return _card(
-        "<p>Click a part to see how it moves, and to correct it. Click what should be a part and is none, to make it one.</p>"
+        f"{_proposed(asset, proposals)}<p>Click a part to see how it moves, and to correct it. "
+        "Click what should be a part and is none, to make it one.</p>"
         f'<div class="row"><span>New part:</span>{levels(None)}</div>'
     )
+
+
+def _proposed(asset: Asset, proposals: Mapping[str, float]) -> str:
+    """Return one row per proposal, the likeliest first, with buttons to accept it and to look at it; "" without any."""
+    if not proposals:
+        return ""
+    joints, rows = {joint.child: joint for joint in asset.joints}, []
+    for name in sorted(proposals, key=lambda name: -proposals[name])[:MAX_PROPOSED]:
+        words = f"<b>{escape(name)}</b>: {escape(motion_words(asset, joints[name]))} {badge(proposals[name])}"
+        tools = button("Accept", f"accept {name}", kind="main") + button("Look", f"look {name}")
+        rows.append(f'<div class="row"><span>{words}</span>{tools}</div>')
+    more = f"<p>and {len(proposals) - MAX_PROPOSED} more</p>" if len(proposals) > MAX_PROPOSED else ""
+    head = "<p><b>Proposed</b>: too unsure to be written, so these parts stay fixed until you accept them.</p>"
+    return head + "".join(rows) + more
 
 
 def choosing_card(now: Choosing, counts: dict[str, int]) -> str:
@@ -88,8 +106,13 @@ def choosing_card(now: Choosing, counts: dict[str, int]) -> str:
     )
 
 
-def part_card(asset: Asset, name: str, motions: ShownMotions | None, at: int | None) -> str:
-    """Return the card of a selected part. motions: None while they are searched for; at: which of its motions is shown."""
+def part_card(
+    asset: Asset, name: str, motions: ShownMotions | None, at: int | None, proposals: Mapping[str, float] = MappingProxyType({})
+) -> str:
+    """Return the card of a selected part.
+
+    motions: None while they are searched for; at: which of its motions is shown; proposals: as in `nothing_selected`.
+    """
     number = next(k for k, p in enumerate(asset.segmentation.parts) if p.name == name)
     joint = next((j for j in asset.joints if j.child == name), None)
     r, g, b = color_of(number)
@@ -97,22 +120,27 @@ def part_card(asset: Asset, name: str, motions: ShownMotions | None, at: int | N
     more = f'<div class="row"><span>New part from here:</span>{levels(None)}</div>'
     if joint is None:
         return _card(f"<p>{title}: carries the others and has no joint.</p>{more}")
-    return _card(f"{_state(asset, joint, title)}{_buttons(joint, motions)}{_gallery(asset, joint, motions, at)}{more}")
+    state, buttons = _state(asset, joint, title, proposals.get(name)), _buttons(joint, motions, name in proposals)
+    return _card(f"{state}{buttons}{_gallery(asset, joint, motions, at)}{more}")
 
 
-def _state(asset: Asset, joint: Joint, title: str) -> str:
-    """Return how a part moves, and how sure that is."""
+def _state(asset: Asset, joint: Joint, title: str, proposed: float | None) -> str:
+    """Return how a part moves, and how sure that is. proposed: the probability of a proposal."""
     what = f"{escape(motion_words(asset, joint))} <span class='quiet'>{escape(extent(joint))}</span>"
     if joint.reason.startswith(BY_PERSON):
         return f'<p>{title}: {what} <span class="now">✓ {joint.reason.partition(":")[0]}</span></p>'
     said = verdict(asset.segmentation, joint, asset.warnings)
     why = f'<p class="why">{escape(said.why)}</p>' if said.why else ""
+    if proposed is not None:
+        why = f"<p><b>Proposed</b>, not written: right with probability {proposed:.2f}</p>{why}"
     return f"<p>{title}: {what} {badge(joint.confidence, said.word)}</p>{why}"
 
 
-def _buttons(joint: Joint, motions: ShownMotions | None) -> str:
+def _buttons(joint: Joint, motions: ShownMotions | None, proposed: bool) -> str:
     buttons = []
-    if not joint.reason.startswith(BY_PERSON):
+    if proposed:
+        buttons.append(button("Accept", "confirm", kind="main", hint="The joint is right, and is written"))
+    elif not joint.reason.startswith(BY_PERSON):
         buttons.append(button("This joint is right", "confirm", hint="Clears its warning"))
     if joint.type is not JointType.FIXED:
         buttons.append(button("Flip direction", "flip", hint="Opens the other way"))
@@ -130,7 +158,7 @@ def _gallery(asset: Asset, joint: Joint, motions: ShownMotions | None, at: int |
     if motions is None:
         return '<p class="quiet" role="status">Looking for its motions …</p>'
     if not motions.joints:
-        return "<p>No free motion was motions. Give it an axis in the tab Correct: click an edge, or drag it.</p>"
+        return "<p>No free motion was found. Give it an axis in the tab Correct: click an edge, or drag it.</p>"
     cards = []
     for k, (words, picture) in enumerate(zip(motions.words, motions.pictures, strict=True)):
         now = '<span class="now">now</span>' if same_motion(joint, motions.joints[k]) else ""

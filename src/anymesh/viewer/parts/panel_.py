@@ -115,9 +115,9 @@ class PartPanel:
         if self._maker.busy:
             content = self._maker.card(session)
         elif session.selected is None:
-            content = nothing_selected()
+            content = nothing_selected(session.asset, session.proposals)
         else:
-            content = part_card(session.asset, session.selected, self._shown, self._at)
+            content = part_card(session.asset, session.selected, self._shown, self._at, session.proposals)
         if self.html.content != content:
             self.html.content = content
 
@@ -187,6 +187,10 @@ class PartPanel:
             plain[verb]()
         elif verb in kinds:
             self._page.correct(kinds[verb](self._selected()))
+        elif verb == "look":
+            self._page.select(value)
+        elif verb == "accept":
+            self._page.correct(Confirm(value))
         elif verb == "level" and value in set(Level):
             maker.choose(Level(value))
         elif verb == "motion" and value.isdigit():
