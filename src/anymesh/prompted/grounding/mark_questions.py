@@ -27,7 +27,7 @@ from anymesh.types.questions import VisualAnswerer
 
 MAX_MARKS_PER_PICTURE = 40  # marks that can be distinguished in one picture
 WELL, HALF = 400.0, 0.5  # a view shows a mark well with this many pixels of a 640 px view, or this share of its maximum
-LEAST_WELL = 0.1  # share of its maximum below which it never does; an estimate that changes few of the recorded questions
+LEAST_WELL = 0.05  # share of its maximum below which it never does; an estimate that changes few recorded questions
 # a mark of this many pixels in the view of the front is shown there if the chosen views show less than this share; estimates
 LARGE, FRONT_SHARE = 4000.0, 0.3
 MIN_MARK_PIXELS = 30.0  # [px of a 640 px view] minimum size of a drawn mark
