@@ -25,7 +25,7 @@ from anymesh.types import JointType
 from anymesh.vocabulary import words_of
 
 WRITTEN = Path(__file__).parents[1] / "src" / "anymesh" / "kinds" / "moving_parts.json"
-MECHANISMS = re.compile(  # bare mechanisms, by which nobody names an object, and a kind named by its whole description
+MECHANISMS = re.compile(  # bare mechanisms, by which no user names an object, and a kind named by its whole description
     r"chain|module|tripodmounted|car_axles|stack|carriage|gripper|wrist|elbow|orthogonal|branching|gantry|single_|slider|slide\b|slide_with|telescoping_boom"
     r"|telescoping_mast|_axis|xyz_cartesian|rotary_base|rotary_table|vane_array|arm\b|create-a"
 )

@@ -21,7 +21,7 @@ from anymesh.kinds.usual import KINDS
 from anymesh.motion.part_context import PartContext
 from anymesh.segmentation.part_classifier import shipped_classifier
 from anymesh.segmentation.segment import likely_parts
-from anymesh.types import JointType
+from anymesh.types import Brief, JointType
 from anymesh.vocabulary import words_of
 
 MOVES = ("turns level", "turns upright", "slides level", "slides upright")
@@ -46,7 +46,7 @@ def _moves(axes: Float[np.ndarray, "n 3"], slides: Bool[np.ndarray, " n"]) -> In
 
 
 @dataclass(frozen=True, eq=False)
-class CountedParts:
+class CountedParts(Brief):
     """Parts of some objects. A size is the diagonal of a part over that of its object.
 
     objects: how many; middle, spread: mean and standard deviation of the logarithm of the size of each part; moves: (r, 4) how
@@ -73,7 +73,7 @@ class CountedParts:
 
 
 @dataclass(frozen=True, eq=False)
-class UsualParts:
+class UsualParts(Brief):
     """The moving parts of a kind of object, or of several kinds with the same name.
 
     names: of the kinds; moving: number of moving parts of each object that was counted; own, rest: parts of the kind, and of
@@ -144,7 +144,7 @@ class PartTable:
     def find(self, *texts: str | None) -> UsualParts | None:
         """Return the moving parts of the kind that the first of some texts names that names one.
 
-        None without one, or for a kind that only `kinds.json` knows.
+        None without one, or for a kind that only `kinds.json` has.
         """
         for words in (words_of(text) for text in texts if text):
             for end in range(len(words), 0, -1):

@@ -25,7 +25,7 @@ from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.lines import plane_normal, round_patches
 from anymesh.prompted.pictures.visual_prompts import Facing
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, PartShown
-from anymesh.types import Joint, JointType, Motion, Picture, Segmentation
+from anymesh.types import Brief, Joint, JointType, Motion, Picture, Segmentation
 from anymesh.types.exchange import DrawnPictures
 from anymesh.types.motion import BASE, Recognition, RecognizedLabel
 from anymesh.types.questions import Answer, Question, VisualAnswerer
@@ -37,7 +37,7 @@ TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 
 
 @dataclass(frozen=True, eq=False)
-class PartCase:
+class PartCase(Brief):
     """A part whose joint is being estimated.
 
     number: index in the segmentation; carried: parts that depend on it; circles: axes of its largest round patches; recognized:
