@@ -31,6 +31,7 @@ from training.boosting import Model, Sample, Scores, fit, held_out, leave_kinds_
 from training.calibration import Scored, calibration_table, fit_confidence, log_odds
 from training.collect_rows import called
 from training.motion_rows import MotionRows, read_rows
+from training.splits import ATTRIBUTION, VALIDATION, Use, used_for
 
 MODELS = tuple(Model(800, seed, extra_trees=True) for seed in range(3))
 UNSWEPT_MODELS = (Model(100, 0, extra_trees=True),)
@@ -93,7 +94,10 @@ def table(
     rows: Sequence[MotionRows], swept: Sequence[MotionRows], scores: Scores, of: Callable[[MotionRows], str]
 ) -> list[str]:
     """Return lines of a table, one for each group of parts. scores: of the swept motions."""
-    lines = ["| | joints | offered | swept | right motion | and right side |", "|---|---|---|---|---|---|"]
+    lines = [
+        "| | joints | offered | swept | right motion | and right side | mean over kinds |",
+        "|---|---|---|---|---|---|---|",
+    ]
     best = [int(s.argmax()) for s in scores]
     for group in [*sorted({of(r) for r in rows}), "all"]:
         chosen = [k for k, r in enumerate(rows) if group in (of(r), "all")]
@@ -101,7 +105,11 @@ def table(
         among = np.mean([bool(right_side(swept[k]).any()) for k in chosen])
         right = np.mean([swept[k].right[best[k]] > 0 for k in chosen])
         side = np.mean([right_side(swept[k])[best[k]] for k in chosen])
-        lines.append(f"| {group} | {len(chosen)} | {offered:.2f} | {among:.2f} | {right:.2f} | {side:.2f} |")
+        of_kind: dict[str, list[bool]] = {}
+        for k in chosen:
+            of_kind.setdefault(rows[k].kind, []).append(bool(right_side(swept[k])[best[k]]))
+        mean = np.mean([np.mean(some) for some in of_kind.values()])
+        lines.append(f"| {group} | {len(chosen)} | {offered:.2f} | {among:.2f} | {right:.2f} | {side:.2f} | {mean:.2f} |")
     return lines
 
 
@@ -122,12 +130,22 @@ def confidences(rows: Sequence[MotionRows], scores: Scores) -> Scored:
     return Scored(log_odds(np.array(shares)), right, [called(r) for r in rows])
 
 
+def kept_table(rows: Sequence[MotionRows], kept: Sequence[MotionRows]) -> list[str]:
+    """Return the table of the parts `kept` by classifiers trained on the rows."""
+    trees, before = fit(samples_of(rows), MODELS), fit(unswept_samples(rows), UNSWEPT_MODELS)
+    chosen = [highest(before.score(s.features), MAX_SWEPT) for s in unswept_samples(kept)]
+    swept = [r.of_motions(k) for r, k in zip(kept, chosen, strict=True)]
+    scores = over_copies(swept, [trees.score(r.features) for r in swept])
+    return table(kept, swept, scores, called)
+
+
 def main(argv: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description="Train the classifier of motions.")
     parser.add_argument("folder", type=Path)
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args(argv)
-    rows = read_rows(options.folder)
+    every = read_rows(options.folder)
+    rows = used_for(Use.TRAIN, every)
     samples = samples_of(rows)
     left = leave_sources_out(samples), leave_kinds_out(samples)
     scores_of_all = [held_out(samples, masks, MODELS) for masks in left]
@@ -142,6 +160,8 @@ def main(argv: Sequence[str] | None = None) -> None:
         "which alone are swept.", "",
         "## Trained on all other sources", "", *table(rows, *by_source, called), "",
         "## Trained on other kinds (4 folds, a kind in one fold)", "", *table(rows, *by_kind, called), "",
+        f"## The {len(VALIDATION)} kinds of Articraft for validation, by the classifier trained on all others", "",
+        *kept_table(rows, used_for(Use.VALIDATION, every)), "",
         "## Confidence", "",
         f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f}. Where a model answers, all motions",
         f"are swept: slope {slope_of_all:.2f}. Both are in the manifest of the classifier.",
@@ -159,7 +179,10 @@ def main(argv: Sequence[str] | None = None) -> None:
             ("unswept_classifier.npz", unswept_names(rows), unswept_samples(rows), UNSWEPT_MODELS, {}),
         ):
             settings = [asdict(m) for m in models]
-            manifest = manifest_of(names, objects, models=settings, joints=len(rows), scores=scores, **more)
+            manifest = manifest_of(
+                names, objects, models=settings, joints=len(rows), scores=scores, validation=sorted(VALIDATION),
+                attribution=ATTRIBUTION, **more,
+            )  # fmt: skip
             write(WRITTEN / file, manifest, fit(some, models))
 
 

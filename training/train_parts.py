@@ -38,6 +38,7 @@ from training.part_rows import PartRows, read_rows
 from training.part_scores import RIGHT as RIGHT_IOU
 from training.part_scores import Counts, overlap_of, scored
 from training.set_training import CandidateSet, train_all
+from training.splits import ATTRIBUTION, VALIDATION, Use, used_for
 
 MODELS = (Model(150, 0), Model(250, 1, True), Model(150, 2), Model(250, 3, True))
 EPOCHS, SEEDS = 16, 3  # of the networks
@@ -188,11 +189,12 @@ def confidences(rows: Sequence[PartRows], scores: Scores, chosen: Sequence[Seque
 
 
 def write_page(
-    rows: Sequence[PartRows], scores: Mapping[str, Scores], slope: float, offset: float
+    rows: Sequence[PartRows], scores: Mapping[str, Scores], slope: float, offset: float, kept: Sequence[str]
 ) -> dict[str, dict[str, float]]:
     """Write parts.md, and return the F1 of each group of objects.
 
-    scores: "source" and "kind", of objects left out of training by source and by kind; slope, offset: their calibration.
+    scores: "source" and "kind", of objects left out of training by source and by kind; slope, offset: their calibration; kept:
+    the table of the kinds for validation.
     """
     taken = {left: choices(rows, chances(scores[left], slope, offset)) for left in ("source", "kind")}
     found = {left: outcomes(rows, some) for left, some in taken.items()}
@@ -210,6 +212,7 @@ def write_page(
         f"## Trained on other kinds ({FOLDS} folds, a kind in one fold)", "",
         *table(rows, found["kind"], best), "",
         f"On {len(still)} objects without movable parts, {wrong} parts were found.", "",
+        f"## The {len(VALIDATION)} kinds of Articraft for validation, by the classifier trained on all others", "", *kept, "",
         "## Confidence", "",
         f"Fitted to other kinds, over all sources: slope {slope:.2f}, offset {offset:.2f}, in the classifier's manifest.", "",
         *calibration_table(right["kind"], slope, offset), "",
@@ -221,32 +224,48 @@ def write_page(
     return {f"F1, other {left}s": f1_of(rows, some) for left, some in found.items()}
 
 
+def validation_table(rows: Sequence[PartRows], classifier: Classifier, slope: float, offset: float) -> list[str]:
+    """Return the table of the kinds for validation, scored by a classifier that was trained on all others."""
+    samples = samples_of(rows)
+    sets = sets_of(rows, samples)
+    networks = [classifier.score_together(s.own, s.place, s.relations) for s in sets]
+    scores = of_both(rows, [classifier.score(s.own) for s in sets], networks)
+    best = outcomes(rows, choices(rows, [np.where((iou := r.iou()) > RIGHT_IOU, iou, 0.0) for r in rows]))
+    return table(rows, outcomes(rows, choices(rows, chances(scores, slope, offset))), best)
+
+
 def main(argv: Sequence[str] | None = None) -> None:
     parser = argparse.ArgumentParser(description="Train the classifier of parts.")
     parser.add_argument("folder", type=Path)
     parser.add_argument("--write", action="store_true")
     options = parser.parse_args(argv)
-    rows = read_rows(options.folder)
+    every = read_rows(options.folder)
+    rows = used_for(Use.TRAIN, every)
     samples = samples_of(rows)
     sets = sets_of(rows, samples)
     by_sources = held_out(rows, samples, sets, leave_sources_out(samples, SMALL), "source")
     save_scores(options.folder, by_sources | held_out(rows, samples, sets, leave_kinds_out(samples), "kind"))
     scores = read_scores(options.folder, rows)
     slope, offset = calibrated(rows, scores["kind"])
-    f1 = write_page(rows, scores, slope, offset)
+    (networks,) = train_all(sets, [range(len(rows))], EPOCHS, SEEDS)
+    confidence = {"slope": round(slope, 2), "offset": round(offset, 2)}
+    trained = Classifier(fit(samples, MODELS), tuple(networks), rows[0].names, {"confidence": confidence})
+    kept = used_for(Use.VALIDATION, every)
+    f1 = write_page(rows, scores, slope, offset, validation_table(kept, trained, slope, offset))
     if not options.write:
         return
-    (networks,) = train_all(sets, [range(len(rows))], EPOCHS, SEEDS)
     told = {
         "scores": f1,
-        "confidence": {"slope": round(slope, 2), "offset": round(offset, 2)},
+        "confidence": confidence,
         "networks": {"epochs": EPOCHS, "seeds": SEEDS, "objects": len(rows)},
+        "validation": sorted(VALIDATION),
+        "attribution": ATTRIBUTION,
     }
     objects = sorted({(r.source, r.kind, r.name) for r in rows})
     models = [asdict(m) for m in MODELS]
     candidates = sum(len(r.features) for r in rows)
     manifest = manifest_of(rows[0].names, objects, models=models, candidates=candidates, **told)
-    write(WRITTEN, manifest, fit(samples, MODELS), networks)
+    write(WRITTEN, manifest, trained.trees, networks)
 
 
 if __name__ == "__main__":

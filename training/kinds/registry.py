@@ -15,9 +15,19 @@ from training.kinds.model import Model, left_by_an_artist, write_urdf
 Kinds = dict[str, Callable[[Model], None]]
 
 
+SECTIONS = tomllib.loads((Path(__file__).parent / "kinds.toml").read_text(encoding="utf-8"))
+
+
+def subject_of(kind: str) -> str:
+    """Return the subject of a kind, the folder of its module."""
+    of = {k: subject for section in SECTIONS.values() for subject, families in section.items()
+          for names in families.values() for k in names.split()}  # fmt: skip
+    return of[kind]
+
+
 def _named(section: str) -> Kinds:
     """Return the functions that build the kinds of a section of kinds.toml, from the module SUBJECT/FAMILY of each family."""
-    subjects = tomllib.loads((Path(__file__).parent / "kinds.toml").read_text(encoding="utf-8"))[section]
+    subjects = SECTIONS[section]
     return {
         name: getattr(import_module(f"training.kinds.{subject}.{family}"), name)
         for subject, families in subjects.items()
