@@ -49,13 +49,13 @@ HEAD = """# Meshes of public packs
 `python -m benchmarks.packs FOLDER OUT`, {date}, without a model, with default options.
 Before: {before}. After: {after}.
 
-Viewer A made the list and knew the states; viewer B sees the previews, joints and warnings of both states in random order
-under neutral ids. Usable: all main moving parts, with the right type, axis, direction and a plausible range. Nearly: one
+Viewers A and B are vision models, apart from each other. Each sees the previews, joints and warnings of both states, in random
+order under neutral ids. Usable: all main moving parts, with the right type, axis, direction and a plausible range. Nearly: one
 correction repairs it. Nothing: nothing was found although something should move; where nothing should, nothing is usable.
 Silently wrong: a wrong joint without a warning that has the word "sure" (the word that the terminal gives today, for both
 states), or a confidence from 0.8 or 0.5. Held-out packs have other sources than the dev packs and were not looked at while
-the code was changed. What should move was written down before the runs, and corrected afterwards for `pal_wardrobe`, whose
-front had not been seen.
+the code was changed; those of Kenney were, from the middle on, and count as dev. What should move was written down before the
+runs, and corrected afterwards for `pal_wardrobe`, whose front had not been seen.
 """
 Row = dict[str, Any]
 
