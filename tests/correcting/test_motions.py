@@ -67,6 +67,7 @@ SEEN = [
     ("prismatic", (-1, 0, 0), (0.3, -0.01, 0.3), (0.0, 0.2), "slides out, to the left"),
     ("prismatic", (0, 0, 1), (0.3, -0.01, 0.3), (-0.1, 0.1), "slides, up and down"),
     ("prismatic", (0, 1, 0), (0.3, -0.01, 0.3), (0.0, 0.01), "is pushed in, towards the back"),
+    ("prismatic", (0, 1, 0), (0.3, -0.01, 0.3), (0.0, 1.0), "slides out, towards the back"),  # as a drawer behind a door
     ("prismatic", (0, -1, 1), (0.3, -0.01, 0.3), (0.0, 0.1), "slides, towards the front and up"),
     ("fixed", (0, 0, 1), (0.3, -0.01, 0.3), None, "does not move"),
 ]

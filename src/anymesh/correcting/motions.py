@@ -142,7 +142,11 @@ def _facets(asset: Asset, joint: Joint) -> tuple[str, str, str]:
     if joint.type is JointType.FIXED:
         return "does not move", "", ""
     if joint.type is JointType.PRISMATIC:
-        words = f"slides, {_way(opening, BOTH)}" if both else f"{_slides(asset, corners, opening)}, {_way(opening)}"
+        words = (
+            f"slides, {_way(opening, BOTH)}"
+            if both
+            else f"{_slides(asset, corners, opening, max(upper, -lower))}, {_way(opening)}"
+        )
         return words, "", f"{100 * lower:.1f}..{100 * upper:.1f} cm"
     range_ = "" if joint.limits is None else f"{np.degrees(lower):.0f}..{np.degrees(upper):.0f}°"
     low, high = corners.min(0), corners.max(0)
@@ -167,11 +171,12 @@ def _hinge(size: np.ndarray, along: str, side: str) -> str:
     return words if along in AXES else f"{words}, slanted"
 
 
-def _slides(asset: Asset, corners: np.ndarray, opening: np.ndarray) -> str:
-    """Return whether a part slides out of the object, is pushed into it, or slides along it."""
+def _slides(asset: Asset, corners: np.ndarray, opening: np.ndarray, travel: float) -> str:
+    """Return whether a part slides out of the object, even from behind a door, is pushed into it, or slides along it."""
     part, whole = corners @ opening, asset.mesh.vertices @ opening
     near = AT_EDGE * asset.mesh.diagonal
-    if whole.max() - part.max() < near:
+    ahead = whole.max() - part.max()
+    if ahead < near or travel > ahead + near:
         return "slides out"
     return "is pushed in" if part.min() - whole.min() < near else "slides"
 
