@@ -1,7 +1,7 @@
 """Origins of nodes that tell about a hinge: artists of game packs put the origin of a door or a lid on the line it turns about.
 
 Most origins say nothing: programs put them into the middle of a box, all at the scene's origin, or at one corner of each box.
-The numbers were chosen on the dev packs and the Kenney ones of `benchmarks/packs.csv`; estimates do not decide there.
+The numbers were chosen on the dev packs of `benchmarks/packs.csv`; those called an estimate decide nothing on them.
 """
 
 from __future__ import annotations
@@ -20,9 +20,8 @@ MAX_OUTSIDE_RATIO = 0.1  # of the diagonal of a node's box: an origin farther ou
 OFF_RATIO = 0.5  # of half a side: an origin nearer to the middle is in the middle; hinges of packs begin at .66
 END_RATIO = 0.9  # of half a side: an origin farther from the middle is at the end; packs have .91 and more
 THIN_RATIO = 0.25  # of the longest side: a shorter one is a thickness, where the origin may lie at any depth
-MIDDLE_RATIO = (
-    0.25  # of half a side: nearer to the middle of the lowest face, a node is placed by what it stands on; an estimate
-)
+# of half a side: nearer to the middle of the lowest face, a node is placed by what it stands on; an estimate
+MIDDLE_RATIO = 0.25
 ALIKE_RATIO, MAX_ALIKE_SHARE = 0.1, 0.8  # of half a side; share of the other nodes' area whose origins lie as in their boxes
 MAX_EXAMINED = 1000  # nodes; of more, none is looked at
 
