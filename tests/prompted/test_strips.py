@@ -6,11 +6,24 @@ from assets import box, mesh_of
 
 from anymesh.config import Config
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.prompted.pictures.strips import COLUMNS, PANEL, Posed, grid, motion_strip, moved, silhouette, strip_camera
-from anymesh.prompted.pictures.views import views
+from anymesh.prompted.pictures.sides import CLEAR, SeenFrom, Sides
+from anymesh.prompted.pictures.strips import (
+    COLUMNS,
+    PANEL,
+    Posed,
+    best_camera,
+    grid,
+    motion_strip,
+    moved,
+    silhouette,
+    strip_camera,
+    strip_poses,
+)
+from anymesh.prompted.pictures.views import is_beside, views
 from anymesh.prompted.pictures.visual_prompts import BAR, card_view, part_card, titled
 from anymesh.rendering.marks import HIGHLIGHT
 from anymesh.rendering.render import render
+from anymesh.rendering.viewpoints import away
 from anymesh.types import JointType, Motion
 
 X, Y, Z = np.eye(3)
@@ -188,7 +201,19 @@ def test_poses_are_cast_at_as_if_the_part_had_been_moved():
 def test_a_blocked_motion_is_marked_in_its_panel():
     mesh, moving, *motions = door()
     camera = strip_camera(mesh, moving, motions, 160)
-    plain, marked = (motion_strip(mesh, moving, motions, camera=camera, blocked=b) for b in ((False, False), (False, True)))
+    words = (("turns", "turns"), ("turns", "turns (blocked)"))
+    plain, marked = (motion_strip(mesh, moving, motions, camera=camera, words=some) for some in words)
     changed = np.argwhere((plain != marked).any(-1))
     assert changed[:, 1].min() > 2 * 160  # the third panel, at its top
-    assert changed[:, 0].max() < 40
+    assert changed[:, 0].max() < 60
+
+
+def test_the_camera_is_on_the_side_of_the_answered_front():
+    mesh, moving, *motions = door()
+    for front in (0.0, 90.0, 250.0):
+        posed, poses = strip_poses(mesh, moving, motions)
+        camera = best_camera(posed, poses, motions, 60, SeenFrom(sides=Sides(front)))
+        assert is_beside(camera.T_world_camera[:3, 3] - mesh.bounds.mean(0), away(np.deg2rad(front), 0.0))
+    strip = motion_strip(mesh, moving, motions, seen_from=SeenFrom(sides=Sides(0.0)))
+    compass = (strip == CLEAR).all(-1)
+    assert all(compass[:, k * PANEL : (k + 1) * PANEL].sum() > 5000 for k in range(3))  # one in each panel

@@ -57,6 +57,7 @@ from anymesh.prompted.motions.verify import (
     answers_a_line,
     choose_motions,
 )
+from anymesh.prompted.pictures.sides import Sides
 from anymesh.prompted.pictures.visual_prompts import Shot, VisualPrompts
 from anymesh.prompted.questions.prompting import (
     ArrowTable,
@@ -221,7 +222,8 @@ def _ask(
     progress("joints", "motions", 2, 4)
     if config.verify != "motion":
         return _ChosenMotions(cases, {c.number: as_answered(c) for c in cases}, segmentation)
-    asking = MotionQuestioner(questions.visual_prompts, segmentation.face_part, questions.answerer, questions.category, fits)
+    labels, sides = segmentation.face_part, Sides(questions.recognition.front if questions.recognition else None)
+    asking = MotionQuestioner(questions.visual_prompts, labels, questions.answerer, questions.category, fits, sides)
     return _ChosenMotions(cases, choose_motions(cases, asking, config.seed), segmentation)
 
 

@@ -19,6 +19,7 @@ from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE, reason, same
 from anymesh.config import FACING_COSINE
 from anymesh.prompted.motions.cases import PartCase, ask_each
 from anymesh.prompted.motions.offers import MotionOffers, fits, make_offers, moves_as
+from anymesh.prompted.pictures.sides import UNNAMED, SeenFrom, Sides
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.prompting import JointAppearance, MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.types import Brief, JointType, Picture
@@ -143,7 +144,7 @@ class Choice:
 class MotionQuestioner(Brief):
     """Settings of the motion question.
 
-    labels: (F,) part of each face; category: of the object.
+    labels: (F,) part of each face; category: of the object; sides: of the object, as answered.
     """
 
     visual_prompts: VisualPrompts
@@ -151,6 +152,7 @@ class MotionQuestioner(Brief):
     answerer: VisualAnswerer
     category: str
     ask_fit: bool = False
+    sides: Sides = UNNAMED
 
     def picks(self, offers: Mapping[int, MotionOffers], shown: Mapping[int, tuple[int, ...]]) -> dict[int, MotionPick]:
         """Ask which motion each part makes; return the picked indices of its offers, by part.
@@ -169,14 +171,18 @@ class MotionQuestioner(Brief):
     def _table(self, offers: MotionOffers, shown: tuple[int, ...]) -> MotionTable:
         """Return the motions with these indices, and the faces of the part with its carried parts."""
         moving = np.isin(self.labels, [offers.case.number, *offers.case.carried])
-        return replace(offers.table(shown), moving=np.flatnonzero(moving))
+        table = offers.table(shown)
+        shown_as = zip(table.motions, table.amounts, strict=True)
+        words = tuple(self.sides.words(motion, amount, offers.case.shown.points) for motion, amount in shown_as)
+        return replace(table, moving=np.flatnonzero(moving), words=words)
 
     def _strip(self, case: PartCase, title: str, table: MotionTable) -> Picture:
         """Draw the part with its carried parts, at rest and in each motion."""
         moving = np.zeros(len(self.labels), bool)
         moving[table.moving] = True
         facing = self.visual_prompts.facing(self.labels, case.drawn_alike)
-        return self.visual_prompts.strip(moving, title, table.motions, table.amounts, table.blocked, facing)
+        seen_from = SeenFrom(facing, self.sides)
+        return self.visual_prompts.strip(moving, title, table.motions, table.amounts, table.described, seen_from)
 
 
 def choose_motions(cases: list[PartCase], asking: MotionQuestioner, seed: int) -> dict[int, Choice]:

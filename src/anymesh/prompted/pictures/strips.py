@@ -16,6 +16,7 @@ from PIL import Image, ImageDraw
 
 from anymesh.geometry.raycast_ import Hits, RayScene
 from anymesh.prompted.pictures.plates import PAD, Plate, draw_plate, plate_size
+from anymesh.prompted.pictures.sides import ANYWHERE, SeenFrom, emptiest_corner, with_compass
 from anymesh.prompted.pictures.views import box_of, is_beside
 from anymesh.rendering.marks import HIGHLIGHT, WHITE, axis_line, blend, draw_arrow, draw_ring, lighten, rim, ring
 from anymesh.rendering.render import lit, shade, turned
@@ -33,13 +34,15 @@ DEPTH = 0.02  # share of the diagonal above which a difference in depth counts
 # elevations and azimuths [deg] with their weights: people see objects from slightly above; oblique views show three dimensions
 ELEVATION_WEIGHTS = {24: 1.0, 55: 0.75, -24: 0.4}
 AZIMUTH_WEIGHTS = {35: 1.0, -35: 1.0, 0: 0.65, 75: 0.9, -75: 0.9, 145: 0.8, -145: 0.8}
+# azimuth [deg] from which a camera is behind the front that was answered, and the weight of such views; an estimate
+BEHIND_DEG, BEHIND_WEIGHT = 90, 0.5
 LIGHTEN = 0.5  # share by which the colours of static faces are moved towards white
 BOX_MARGIN = 2.0  # [px] margin around the part's box within which rays are cast
 ONWARD = 1e-5  # share of the diagonal by which a ray continues behind a moving face
 MAX_LAYERS = 24  # maximum number of moving faces that a ray passes before it counts as lost
 COLUMNS = 4  # number of panels side by side (1600 px at most)
 GHOST = 0.3  # opacity of the part where it is hidden
-TITLE, WORD = 24, 18  # [px] font size of a panel's number, and of its motion label
+TITLE, WORD = 24, 15  # [px] font size of a panel's number, and of its motion label
 BLOCKED = (250, 200, 120)  # background of the label of a blocked motion
 STILL_LINE, PART_LINE, LINE = (120, 120, 120), (8, 30, 90), 0.55  # colours of lines along creases, and their opacity
 CREASE = 0.82  # cosine (of 35 degrees) between normals below which a line is drawn
@@ -58,36 +61,40 @@ def motion_strip(
     moving: Bool[np.ndarray, " F"],
     motions: Sequence[tuple[Motion, float]],
     *,
-    blocked: Sequence[bool] = (),
+    words: Sequence[str] = (),
     camera: Camera | None = None,
     scene: RayScene | None = None,
-    facing: Float[np.ndarray, " 3"] | None = None,
+    seen_from: SeenFrom = ANYWHERE,
 ) -> UInt8[np.ndarray, "H W 3"]:
     """Draw panels in rows: the rest pose, then each motion with its axis and the outline of the rest pose.
 
-    moving: faces of the part and of everything it carries; motions: each with the amount [rad or m] that is shown;
-    blocked: motions that are labelled as blocked; camera: `strip_camera` if None; scene: the mesh's ray scene, if it already
-    exists; facing: direction to the side that the camera is on, None for any. Raise ValueError if nothing moves.
+    Each panel has a compass. moving: faces of the part and of everything it carries; motions: each with the amount [rad or m]
+    that is shown; words: beside their numbers, by default whether they turn or slide; camera: `strip_camera` if None; scene:
+    the mesh's ray scene, if it already exists. Raise ValueError if nothing moves.
     """
     posed, poses = strip_poses(mesh, moving, motions, scene)
-    camera = camera or best_camera(posed, poses, motions, PANEL, facing)
+    camera = camera or best_camera(posed, poses, motions, PANEL, seen_from)
     fine = replace(camera, width=2 * camera.width, height=2 * camera.height)
     rays = fine.rays()
     still = posed.still_picture(rays)
     shape = (fine.height, fine.width)
     lines = _lines(still.distance.reshape(shape), still.normal.reshape(*shape, 3), np.zeros(shape, bool))
     rest = posed.part_pixels(poses[0], fine)
-    panels = [_titled(_half(_painted(still, lines, rest)), "rest")]
+    panels = [_half(_painted(still, lines, rest))]
     covered = np.zeros(shape, bool)
     covered.reshape(-1)[rest.pixel] = True
     outline = rim(covered, 2)
     for k, (motion, amount) in enumerate(motions):
-        picture = _painted(still, lines, posed.part_pixels(poses[k + 1], fine))
+        part = posed.part_pixels(poses[k + 1], fine)
+        covered.reshape(-1)[part.pixel] = True
+        picture = _painted(still, lines, part)
         picture = blend(picture, outline, (90, 90, 90), 0.7)
         drawn = _with_axis(picture, *motion_axis(posed.corners, motion, amount, fine), fine)
-        word = "slides" if motion.kind is JointType.PRISMATIC else "turns"
-        panels.append(_titled(_half(drawn), str(k + 1), f"{word}, blocked" if k < len(blocked) and blocked[k] else word))
-    return grid(panels)
+        panels.append(_half(drawn))
+    titles = words or ["slides" if m.kind is JointType.PRISMATIC else "turns" for m, _ in motions]
+    compass, corner = seen_from.sides.compass(camera), emptiest_corner(covered[::2, ::2])
+    named = zip(panels, [("rest", ""), *((str(k), word) for k, word in enumerate(titles, 1))], strict=True)
+    return grid([_titled(with_compass(panel, compass, corner), *title) for panel, title in named])
 
 
 def _painted(still: Still, lines: Bool[np.ndarray, "H W"], part: PartPixels) -> UInt8[np.ndarray, "H W 3"]:
@@ -152,17 +159,18 @@ def _half(picture: UInt8[np.ndarray, "H W 3"]) -> UInt8[np.ndarray, "h w 3"]:
 
 
 def _titled(panel: UInt8[np.ndarray, "H W 3"], title: str, word: str = "") -> UInt8[np.ndarray, "H W 3"]:
-    """Draw the panel's number in a corner, its motion label beside it, and a frame."""
+    """Draw the panel's number in a corner, the words beside it, a line after each comma, and a frame."""
     drawn = Image.fromarray(panel)
     draw = ImageDraw.Draw(drawn)
     draw.rectangle([0, 0, panel.shape[1] - 1, panel.shape[0] - 1], outline=(150, 150, 150))
     width, height = plate_size(title, TITLE)
     draw_plate(draw, Plate(title, (4, 4, 4 + width + 2 * PAD, 4 + height), (4 + PAD, 4 + PAD), TITLE), (20, 20, 20))
-    if word:
-        wide, high = plate_size(word, WORD)
-        left = 12 + width + 2 * PAD
-        plate = Plate(word, (left, 4, left + wide + 2 * PAD, 4 + high), (left + PAD, 4 + PAD), WORD)
+    left, top = 12 + width + 2 * PAD, 4
+    for line in word.split(", ") if word else ():
+        wide, high = plate_size(line, WORD)
+        plate = Plate(line, (left, top, left + wide + 2 * PAD, top + high), (left + PAD, top + PAD), WORD)
         draw_plate(draw, plate, BLOCKED if "blocked" in word else WHITE)
+        top += high + 1
     return np.asarray(drawn)
 
 
@@ -197,9 +205,9 @@ def best_camera(
     poses: Sequence[np.ndarray],
     motions: Sequence[tuple[Motion, float]],
     size: int,
-    facing: Float[np.ndarray, " 3"] | None = None,
+    seen_from: SeenFrom = ANYWHERE,
 ) -> Camera:
-    """Choose the camera for a part in the poses of `strip_poses`. facing: as in `motion_strip`."""
+    """Choose the camera for a part in the poses of `strip_poses`."""
     places = [transformed(posed.corners, T) for T in poses]
     focus = bounds_of(np.concatenate(places))
     total = bounds_of(np.concatenate([posed.mesh.bounds, focus]))
@@ -207,13 +215,15 @@ def best_camera(
     focus = np.stack([np.maximum(focus[0] - margin, total[0]), np.minimum(focus[1] + margin, total[1])])
     step = DEPTH * posed.mesh.diagonal
     best, most = None, -1.0
-    ways = [(a, e) for e in ELEVATION_WEIGHTS for a in AZIMUTH_WEIGHTS]
-    before = [(a, e) for a, e in ways if facing is None or is_beside(away(np.deg2rad(a), np.deg2rad(e)), facing)]
+    ways, facing, front = [(a, e) for e in ELEVATION_WEIGHTS for a in AZIMUTH_WEIGHTS], seen_from.facing, seen_from.sides.front
+    turned_by = front or 0.0
+    before = [(a, e) for a, e in ways if facing is None or is_beside(away(*np.deg2rad([a + turned_by, e])), facing)]
     for azimuth, elevation in before or ways:
-        far = orbit_camera(total, np.deg2rad(azimuth), np.deg2rad(elevation), SKETCH)
+        far = orbit_camera(total, *np.deg2rad([azimuth + turned_by, elevation]), SKETCH)
         near = framed(far, box_corners(focus), AIR, far.height)
         rays = near.rays()
         score = _difference(_depths(posed, poses, near, rays), step) * ELEVATION_WEIGHTS[elevation] * AZIMUTH_WEIGHTS[azimuth]
+        score *= 1.0 if front is None or abs(azimuth) < BEHIND_DEG else BEHIND_WEIGHT
         if best is None or score > most:
             best, most = near, score
     assert best is not None

@@ -13,6 +13,7 @@ from PIL import Image, ImageDraw
 from anymesh.config import REFERENCE_PX, Config
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures.drawing import clearest_view, draw_arrows, draw_points
+from anymesh.prompted.pictures.sides import ANYWHERE, SeenFrom
 from anymesh.prompted.pictures.strips import motion_strip, silhouette
 from anymesh.prompted.pictures.views import (
     best_view,
@@ -304,15 +305,12 @@ class VisualPrompts:
         title: str,
         motions: Sequence[Motion],
         amounts: Sequence[float],
-        blocked: Sequence[bool] = (),
-        facing: Float[np.ndarray, " 3"] | None = None,
+        words: Sequence[str] = (),
+        seen_from: SeenFrom = ANYWHERE,
     ) -> Picture:
-        """Draw a part and what it carries, at rest and moved by each amount [rad or m].
-
-        blocked: motions labelled so; facing: direction to the side that the camera is on, None for any.
-        """
+        """Draw a part and what it carries, at rest and moved by each amount [rad or m]. words: as in `motion_strip`."""
         shown = list(zip(motions, amounts, strict=True))
-        strip = motion_strip(self._mesh, moving, shown, blocked=blocked, scene=self.scene, facing=facing)
+        strip = motion_strip(self._mesh, moving, shown, words=words, scene=self.scene, seen_from=seen_from)
         return encode(titled(strip, title))
 
     def _near(self, view: View, face_part: np.ndarray, part: int) -> View:

@@ -234,7 +234,7 @@ class MotionTable(Brief):
     """Numbered motions of one part, as drawn, and the displacement of each [rad or m]: number k is row k - 1.
 
     blocked: motions in which the part would hit something as modelled; moving: faces of the mesh that move, including those of
-    carried parts, None for the part's own alone.
+    carried parts, None for the part's own alone; words: of each motion, () for whether it turns or slides.
     """
 
     part: PartShown
@@ -242,15 +242,19 @@ class MotionTable(Brief):
     amounts: tuple[float, ...]
     blocked: tuple[bool, ...] = ()
     moving: Int[np.ndarray, " f"] | None = None
+    words: tuple[str, ...] = ()
+
+    @property
+    def described(self) -> tuple[str, ...]:
+        """Return each motion in words, with those that are blocked."""
+        words = self.words or tuple("slides" if m.kind is JointType.PRISMATIC else "turns" for m in self.motions)
+        blocked = (*self.blocked, *[False] * len(words))
+        return tuple(f"{word} (blocked)" if stop else word for word, stop in zip(words, blocked, strict=False))
 
     @property
     def listed(self) -> str:
-        """Return the motions in words."""
-        words = []
-        for k, motion in enumerate(self.motions):
-            blocked = ", blocked" if k < len(self.blocked) and self.blocked[k] else ""
-            words.append(f"{k + 1} ({'slides' if motion.kind is JointType.PRISMATIC else 'turns'}{blocked})")
-        return ", ".join(words)
+        """Return the motions in words, with their numbers."""
+        return ", ".join(f"{k} {word}" for k, word in enumerate(self.described, 1))
 
 
 class PartFit(StrEnum):

@@ -350,9 +350,7 @@ class MotionsForm(TableForm):
         number, table = self.chosen[self.step], self.table
         if number == 0:
             return "None of these: the next ones are shown, if there are any."
-        moves = "slides" if table.motions[number - 1].kind is JointType.PRISMATIC else "turns"
-        blocked = ", blocked by something as modelled" if number <= len(table.blocked) and table.blocked[number - 1] else ""
-        return f"Motion {number} of {len(table.motions)}: it {moves}{blocked}."
+        return f"Motion {number} of {len(table.motions)}: it {table.described[number - 1]}."
 
     def answer(self) -> dict[str, Any]:
         answer = super().answer()
