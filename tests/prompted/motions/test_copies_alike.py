@@ -36,7 +36,7 @@ def test_copies_are_drawn_from_one_side() -> None:
 
     def eyes(alike: bool) -> list[float]:
         shots = [prompts.shot(labels, c.number, c.drawn_alike if alike else None) for c in (left, right)]
-        return [float((shot.view.camera.T_world_camera[:3, 3] - middle) @ Y) for shot in shots]
+        return [float((shot.views[0].camera.T_world_camera[:3, 3] - middle) @ Y) for shot in shots]
 
     apart, alike = eyes(False), eyes(True)
     assert apart[0] * apart[1] < 0

@@ -42,6 +42,7 @@ from anymesh.prompted.motions.lines import (
     cluster_points,
     followed,
     hinge,
+    hinge_candidates,
     pivots,
     prismatic,
     superpoint_centres,
@@ -251,13 +252,20 @@ def _hinges(questions: Questions, cases: list[PartCase], whole: ObjectShape, seg
     """Return the hinges by part number: points are shown and picked, and give a line."""
     labels, pictures = segmentation.face_part, questions.visual_prompts
     turning = [c for c in cases if c.kind.is_rotation]
-    shots = {c.number: pictures.shot(labels, c.number, c.drawn_alike) for c in turning}
+    paper = questions.config.verify == "off"
+    candidates = {c.number: None if paper else hinge_candidates(c.context, c.pins) for c in turning}
+    shots = {c.number: pictures.shot(labels, c.number, c.drawn_alike, candidates[c.number]) for c in turning}
     tables = {c.number: _points(questions, c, shots[c.number], whole) for c in turning}
     picks = ask_each(
         questions.answerer,
         turning,
-        lambda c, title: shots[c.number].with_points(tables[c.number].points, title, tables[c.number].hidden),
-        lambda p, some: WhichPoints(p, tuple(tables[c.number] for c in some), questions.category),
+        lambda c, title: shots[c.number].with_points(tables[c.number].points, title),
+        lambda p, some: WhichPoints(
+            p,
+            tuple(tables[c.number] for c in some),
+            questions.category,
+            two_views=any(len(shots[c.number].views) > 1 for c in some),
+        ),
     )
     hinges = {}
     for case in turning:
@@ -295,7 +303,7 @@ def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape
         points = followed(first[inside], points, project, most) if inside.any() else points
     if len(axes):
         axes = np.concatenate([axes, np.full((len(points) - len(axes), 3), np.nan)])
-    return PointTable(case.shown, points, case.kind, axes if len(axes) else None, pictures.hidden(shot, points))
+    return PointTable(case.shown, points, case.kind, axes if len(axes) else None, shot.hidden(points))
 
 
 def _surface_directions(questions: Questions, cases: list[PartCase], segmentation: Segmentation) -> dict[int, Motion]:

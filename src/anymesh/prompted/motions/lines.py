@@ -23,10 +23,11 @@ from anymesh.prompted.grounding.cloud import COLOR_WEIGHT, MIN_SUPERPOINT_POINTS
 from anymesh.prompted.pictures.drawing import labels_apart
 from anymesh.types import JointType, Motion
 
-Project = Callable[[Float[np.ndarray, "n 3"]], Float[np.ndarray, "n 2"]]  # points [m] to pixels of the picture shown
+Project = Callable[[Float[np.ndarray, "n 3"]], Float[np.ndarray, "n d"]]  # points [m] to x and y [px] in each picture shown
 MAX_POINTS = 20  # maximum number of candidate points, and of k-means clusters
 MIN_LABEL_DISTANCE = 35.0  # [px] minimum distance between the numbers of candidate points
 MAX_CONTACT_POINTS = 4000  # maximum number of points of a connecting area for clustering
+VIEW_POINTS = 100  # about how many points of a contact choose the views
 TRIALS = 200  # planes tried by RANSAC
 MAX_CIRCLES = 4  # round patches per part, the largest first; and as many in contact, as a pin is small
 MAX_PATCHES = 40  # patches examined, the largest first
@@ -75,6 +76,14 @@ def axis_points(
             if labels_apart(project(more), MIN_LABEL_DISTANCE / 2):
                 points, directions = more, np.concatenate([directions, motion.axis[None]])
     return points, directions
+
+
+def hinge_candidates(context: PartContext, pins: Sequence[Motion]) -> Float[np.ndarray, "k 3"]:
+    """Return points [m] that views of a part's hinge should show: some of its contact, and the ends of axes of round parts."""
+    contact, corners = context.contact, context.part.corners
+    along = [(m, (corners - m.origin) @ m.axis) for m in pins]
+    ends = [m.origin + reach * m.axis for m, on in along for reach in (on.min(), on.max())]
+    return np.concatenate([contact[:: max(1, len(contact) // VIEW_POINTS)], np.array(ends).reshape(-1, 3)])
 
 
 def superpoint_centres(points: SurfacePoints, colors: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "s 3"]:

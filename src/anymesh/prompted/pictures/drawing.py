@@ -88,8 +88,8 @@ def draw_arrows(
     return np.asarray(drawn)
 
 
-def labels_apart(pixels: Float[np.ndarray, "k 2"], min_distance: float) -> bool:
-    """Return whether all points are at least `min_distance` [px] apart."""
+def labels_apart(pixels: Float[np.ndarray, "k d"], min_distance: float) -> bool:
+    """Return whether all points are at least `min_distance` [px] apart. pixels: x and y of each picture that shows them."""
     gaps = np.linalg.norm(pixels[:, None] - pixels[None], axis=2)
     return bool((gaps[np.triu_indices(len(pixels), 1)] >= min_distance).all())
 

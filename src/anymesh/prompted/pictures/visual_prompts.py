@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 
@@ -41,6 +41,9 @@ CONTACT_UNDER = 0.02  # share of the contact's extent: points deeper than this b
 GHOST = 0.75  # share by which the colours of the rest are moved towards white
 # azimuth and elevation [deg] of cameras that are shown surface that no view shows, with the rest as a ghost
 INSIDE_DIRECTIONS = ((45.0, 25.0), (225.0, 25.0), (30.0, 60.0))
+GLASS = 0.6  # share of what lies under a part in a picture in which the part looks as if it were glass
+SEEN = 0.9  # share of the points of a hinge above which one view is enough; an estimate
+DEPTH_WEIGHT = 0.3  # weight of the angle to the first view for the second one; an estimate
 ARROW = 0.35  # length of an arrow, as a share of the part's size
 Facing = tuple[tuple[int, ...], np.ndarray]  # parts that are drawn from one side, and the direction in which they open
 UNDER = 0.003  # share of the diagonal: points deeper than this below a surface count as hidden
@@ -142,33 +145,60 @@ def _over_ghost(near: View, whole: View) -> UInt8[np.ndarray, "H W 3"]:
 
 @dataclass(frozen=True, eq=False)
 class Shot(Brief):
-    """A part in its best view, in close-up if it is small there."""
+    """A part in one or two views, in close-up where it is small.
 
-    view: View
-    mask: np.ndarray  # (H, W) pixels of the part
+    masks: (H, W) pixels of the part in each view; through: draws a view without the part; hidden_in: which points [m] lie
+    below a surface in a view.
+    """
 
-    def project(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 2"]:
-        """Project points [m] to pixels of the picture, without the title bar."""
-        return self.view.camera.project(points)[0]
+    views: tuple[View, ...]
+    masks: tuple[np.ndarray, ...]
+    through: Callable[[View], np.ndarray]
+    hidden_in: Callable[[View, np.ndarray], np.ndarray]
+
+    def project(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n k"]:
+        """Project points [m] to pixels of the pictures, without the title bar: x and y of each view."""
+        return np.concatenate([view.camera.project(points)[0] for view in self.views], 1)
+
+    def _drawn(self, points: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, "v n"]:
+        """Return which points [m] lie inside each picture, so that they can be drawn."""
+        sizes = np.array([[view.camera.width, view.camera.height] for view in self.views])
+        pixels = self.project(points).reshape(len(points), len(self.views), 2)
+        return np.all((pixels >= 0) & (pixels < sizes), axis=2).T
 
     def is_inside(self, points: Float[np.ndarray, "n 3"]) -> Bool[np.ndarray, " n"]:
-        """Return which points [m] lie inside the picture, so that they can be drawn."""
-        pixels, camera = self.project(points), self.view.camera
-        return np.all((pixels >= 0) & (pixels < [camera.width, camera.height]), axis=1)
+        """Return which points [m] lie inside a picture."""
+        return np.any(self._drawn(points), axis=0)
 
     def inside(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "k 3"]:
-        """Return the points [m] inside the picture; if there are none, the one nearest to its centre."""
+        """Return the points [m] inside a picture; if there are none, the one nearest to the centre of the first."""
         if len(points) == 0 or (kept := self.is_inside(points)).any():
             return points[kept] if len(points) else points
-        middle = np.array([self.view.camera.width, self.view.camera.height]) / 2
-        return points[np.linalg.norm(self.project(points) - middle, axis=1).argmin()][None]
+        middle = np.array([self.views[0].camera.width, self.views[0].camera.height]) / 2
+        return points[np.linalg.norm(self.project(points)[:, :2] - middle, axis=1).argmin()][None]
 
-    def with_points(
-        self, points: Float[np.ndarray, "k 3"], title: str, hidden: Bool[np.ndarray, " k"] | None = None
-    ) -> Picture:
-        """Draw the picture with points numbered 1, 2, ...; hidden: points that are drawn hollow."""
-        image = draw_points(highlight(self.view.color, self.mask), self.project(points), range(1, len(points) + 1), hidden)
-        return encode(titled(image, title))
+    def hidden(self, points: Float[np.ndarray, "k 3"]) -> Bool[np.ndarray, " k"]:
+        """Return which points [m] no view shows, as they lie below a surface."""
+        return np.all([self.hidden_in(view, points) for view in self.views], axis=0)
+
+    def with_points(self, points: Float[np.ndarray, "k 3"], title: str) -> Picture:
+        """Draw the views side by side with points numbered 1, 2, ..., each where it is seen.
+
+        Those that no view shows are hollow, in every view that they lie in, and the part is drawn as if it were glass.
+        """
+        hidden, panels = np.array([self.hidden_in(view, points) for view in self.views]), []
+        inside = self._drawn(points)
+        drawn = inside & (~hidden | (hidden | ~inside).all(0))
+        for view, mask, here in zip(self.views, self.masks, drawn, strict=True):
+            k = np.flatnonzero(here)
+            under = self.hidden_in(view, points)
+            image = np.where((mask & under[k].any())[..., None], self._glass(view), view.color) if len(k) else view.color
+            tinted = highlight(image.astype(np.uint8), mask, alpha=0.15 if under[k].any() else 0.3)
+            panels.append(draw_points(tinted, view.camera.project(points[k])[0], (k + 1).tolist(), under[k]))
+        return encode(titled(np.concatenate([panels[0], *map(_edged, panels[1:])], 1), title))
+
+    def _glass(self, view: View) -> UInt8[np.ndarray, "H W 3"]:
+        return np.round(GLASS * self.through(view) + (1 - GLASS) * view.color).astype(np.uint8)
 
 
 class VisualPrompts:
@@ -272,15 +302,47 @@ class VisualPrompts:
         view = card_view(self._from(face_part, alike), face_part, part, self.scene, contact)
         return encode(part_card(self._mesh, view, face_part, part, title, self.scene))
 
-    def shot(self, face_part: Int[np.ndarray, " F"], part: int, alike: Facing | None = None) -> Shot:
-        """Return the part in its best view. alike: as in `card`."""
-        views = self._from(face_part, alike)
-        view = self._near(views[best_view(views, face_part, part)], face_part, part)
-        return Shot(view, self._mask(view, face_part, part))
+    def shot(
+        self,
+        face_part: Int[np.ndarray, " F"],
+        part: int,
+        alike: Facing | None = None,
+        candidates: Float[np.ndarray, "k 3"] | None = None,
+    ) -> Shot:
+        """Return the part in the view that shows it best, or in the two that together show most of some points [m].
 
-    def hidden(self, shot: Shot, points: Float[np.ndarray, "k 3"]) -> Bool[np.ndarray, " k"]:
-        """Return which points [m] lie below a surface, as seen by the shot's camera."""
-        return hidden_points(self.scene, shot.view.camera, points, UNDER * self._mesh.diagonal)
+        alike: as in `card`.
+        """
+        views = self._from(face_part, alike)
+        best = [views[best_view(views, face_part, part)]]
+        two = best if candidates is None else self._two(views, face_part, part, candidates)
+        near = tuple(self._near(view, face_part, part) for view in two)
+        rest = self._mesh.subset(face_part != part)
+
+        def through(view: View) -> UInt8[np.ndarray, "H W 3"]:
+            return shown(rest, view.camera, RayScene(rest.vertices, rest.faces)).color
+
+        return Shot(near, tuple(self._mask(view, face_part, part) for view in near), through, self._hidden)
+
+    def _two(self, views: list[View], face_part: np.ndarray, part: int, points: np.ndarray) -> list[View]:
+        """Return the view that shows most of the part, and one that shows most of the points that it hides, or in depth.
+
+        One view is enough where it shows nearly all points.
+        """
+        pixels = np.array([visible_pixels(view, face_part, part) for view in views]) + 1e-9
+        seen = np.array([~self._hidden(view, points) for view in views])
+        first = int(pixels.argmax())
+        if seen[first].mean() > SEEN:
+            return [views[first]]
+        eyes = np.array([view.camera.T_world_camera[:3, 2] for view in views])
+        across = np.linalg.norm(np.cross(eyes, eyes[first]), axis=1)
+        more = (seen & ~seen[first]).mean(1) + DEPTH_WEIGHT * across * (seen.mean(1) + np.minimum(pixels / pixels.max(), 0.5))
+        more[first] = -1.0
+        return [views[k] for k in dict.fromkeys((first, int(more.argmax())))]
+
+    def _hidden(self, view: View, points: Float[np.ndarray, "k 3"]) -> Bool[np.ndarray, " k"]:
+        """Return which points [m] lie below a surface, as seen in a view."""
+        return hidden_points(self.scene, view.camera, points, UNDER * self._mesh.diagonal)
 
     def arrows(
         self,

@@ -154,13 +154,16 @@ class WhichPoints:
     tables: tuple[PointTable, ...]
     category: str = "object"
     kind: str = "points"
+    two_views: bool = False  # of some part, beside each other
 
     def text(self) -> str:
         each = [f"part {k}, a {t.part.label}, {t.listed}: {t.wanted}" for k, t in enumerate(self.tables, 1)]
+        sides = "Two views of a part share their numbers, and points of both can be combined. " if self.two_views else ""
         return (
             f"Object: {self.category}. Each picture shows one part (coloured) that turns about an axis, with "
-            "numbered points on it and round it; hollow dots are hidden under a surface. Think how such a part is mounted and "
-            f"which side its handle is on; the hinge of a door lies opposite its handle. Give for {'; for '.join(each)}."
+            f"numbered points on it and round it; hollow dots are hidden under a surface. {sides}Think how such a part is "
+            "mounted and which side its handle is on; the hinge of a door lies opposite its handle. "
+            f"Give for {'; for '.join(each)}."
         )
 
     def schema(self) -> dict[str, Any]:
