@@ -62,6 +62,12 @@ def test_blocked_reversed_and_lost_parts_are_found() -> None:
     assert faults(PAIR, [endless]) == {}
 
 
+def test_a_slide_through_the_ground_is_found() -> None:
+    assert faults(PAIR, [slide("left", -Z, 0.4)]) == {"left": "it slides through the ground"}  # .3 m below the body
+    assert faults(PAIR, [slide("left", -Z, 0.15)]) == {}  # .05 m, 2 % of the diagonal
+    assert faults(PAIR, [slide("left", Z, 0.4)]) == {}
+
+
 def test_short_motions_are_not_tested() -> None:
     motion = Motion(JointType.PRISMATIC, Y, np.zeros(3), "into the body")
     obstacles = Obstacles(PAIR["left"].part, PAIR["left"].rest, 0.01)

@@ -34,6 +34,7 @@ SAME_CONFIDENCE = 0.05  # difference of the confidences of two joints of which n
 STEPS = 24
 MIN_MOTION_RATIO = 0.02  # share of the object's diagonal or of a turn; shorter motions are not tested
 MAX_ADDED_GAP_RATIO = 0.04  # share of the object's diagonal: gap that a motion may add; true ones add .038 and less
+MAX_BELOW_RATIO = 0.05  # share of the object's diagonal: a slide below its lowest point; none of 371 true ones goes deeper
 POSES = 7  # of a range, whose bounds tell which other parts are near
 MAX_ROUNDS = 3  # motions of a part that are tried after the chosen one
 MAX_MOTION_LOSS = 1.5  # [log-odds] a motion that is worse than the best by more is not tried; an estimate
@@ -93,6 +94,12 @@ def _fault_alone(context: PartContext, joint: Joint) -> str:
     for stop in stops(obstacles, joint_motion(joint), joint.limits, context.diagonal, context.link):
         reached = f"{100 * stop.free / stop.most:.0f} % of its way"
         return f"it is stopped at {reached}" + (", the other way is free" if stop.reversed else "")
+    lowest = float(min(context.part.bounds[0, 2], context.without_part.bounds[0, 2]))
+    if (
+        joint.type is JointType.PRISMATIC
+        and _swept_bounds(context.part, joint)[0][2] < lowest - MAX_BELOW_RATIO * context.diagonal
+    ):
+        return "it slides through the ground"
     return "it comes off all other parts" if _comes_off(context, joint) else ""
 
 
