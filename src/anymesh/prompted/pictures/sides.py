@@ -11,6 +11,7 @@ from PIL import Image, ImageDraw
 from anymesh.rendering.marks import draw_arrow, font
 from anymesh.rendering.viewpoints import away
 from anymesh.types import JointType, Motion
+from anymesh.types.brief import Brief
 from anymesh.types.camera import Camera
 
 ALONG = 0.94  # cosine of 20 degrees: a line nearer to the vertical, or to the level, is called so
@@ -131,7 +132,7 @@ UNNAMED = Sides()
 
 
 @dataclass(frozen=True, eq=False)
-class SeenFrom:
+class SeenFrom(Brief):
     """Where pictures are taken from.
 
     facing: direction to the side that the camera is on, None for any; sides: of the object.
