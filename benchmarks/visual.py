@@ -53,7 +53,7 @@ drawers are pulled out, knobs turn about their own middle, a handle is opposite 
 the same way when their surfaces, and with them regions and pictures, were found otherwise; for nine of them the kinds of some
 joints were answered before the picture was seen.
 Since the points of a hinge are drawn in two views, those of 018, 022 and 065 (end to end) were answered anew, by an answerer
-that knows the examples; the other recordings with two views have yet to be, and do not replay until then.
+who had seen the examples before; the other recordings with two views have yet to be, and do not replay until then.
 
 Recall: true movable parts found with an IoU of .5 or more. mIoU: over the true parts, 0 for a part that was not found. For
 joints that were found: type (turns or slides, as the true joint does), exact type (revolute and continuous distinguished),
