@@ -12,7 +12,7 @@ import argparse
 import json
 import random
 import tempfile
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -105,6 +105,8 @@ def report(joints: list[Measured]) -> Iterator[str]:
 
     yield f"joints right: {share([j.right for j in joints])}; after the tests: {share([j.after for j in joints])}"
     yield f"true joints that fail: {share([bool(j.true_failed) for j in joints])}"
+    for why, count in Counter(" ".join(j.true_failed.split()[:3]) for j in joints if j.true_failed).most_common():
+        yield f"  {why} ...: {count}"
     for right in (True, False):
         yield f"{'right' if right else 'wrong'} joints that fail: {share([bool(j.failed) for j in joints if j.right is right])}"
     yield f"of those that fail, right with the next motion: {share([j.after for j in joints if j.failed])}"

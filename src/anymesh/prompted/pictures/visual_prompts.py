@@ -189,9 +189,8 @@ class Shot(Brief):
         hidden, panels = np.array([self.hidden_in(view, points) for view in self.views]), []
         inside = self._drawn(points)
         drawn = inside & (~hidden | (hidden | ~inside).all(0))
-        for view, mask, here in zip(self.views, self.masks, drawn, strict=True):
+        for view, mask, here, under in zip(self.views, self.masks, drawn, hidden, strict=True):
             k = np.flatnonzero(here)
-            under = self.hidden_in(view, points)
             image = np.where((mask & under[k].any())[..., None], self._glass(view), view.color) if len(k) else view.color
             tinted = highlight(image.astype(np.uint8), mask, alpha=0.15 if under[k].any() else 0.3)
             panels.append(draw_points(tinted, view.camera.project(points[k])[0], (k + 1).tolist(), under[k]))
