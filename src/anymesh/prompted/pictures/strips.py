@@ -42,7 +42,7 @@ BOX_MARGIN = 2.0  # [px] margin around the part's box within which rays are cast
 ONWARD = 1e-5  # share of the diagonal by which a ray continues behind a moving face
 MAX_LAYERS = 24  # maximum number of moving faces that a ray passes before it counts as lost
 GHOST = 0.3  # opacity of the part where it is hidden
-TITLE, WORD = 24, 15  # [px] font size of a panel's number, and of its motion label
+TITLE, WORD, SMALL_WORD = 24, 15, 12  # [px] font size of a panel's number, of its motion's words, and of these in a small one
 BLOCKED = (250, 200, 120)  # background of the label of a blocked motion
 STILL_LINE, PART_LINE, LINE = (120, 120, 120), (8, 30, 90), 0.55  # colours of lines along creases, and their opacity
 CREASE = 0.82  # cosine (of 35 degrees) between normals below which a line is drawn
@@ -165,10 +165,10 @@ def _titled(panel: UInt8[np.ndarray, "H W 3"], title: str, word: str = "") -> UI
     draw.rectangle([0, 0, panel.shape[1] - 1, panel.shape[0] - 1], outline=(150, 150, 150))
     width, height = plate_size(title, TITLE)
     draw_plate(draw, Plate(title, (4, 4, 4 + width + 2 * PAD, 4 + height), (4 + PAD, 4 + PAD), TITLE), (20, 20, 20))
-    left, top = 12 + width + 2 * PAD, 4
+    left, top, font = 12 + width + 2 * PAD, 4, WORD if panel.shape[1] >= PANEL else SMALL_WORD
     for line in word.split(", ") if word else ():
-        wide, high = plate_size(line, WORD)
-        plate = Plate(line, (left, top, left + wide + 2 * PAD, top + high), (left + PAD, top + PAD), WORD)
+        wide, high = plate_size(line, font)
+        plate = Plate(line, (left, top, left + wide + 2 * PAD, top + high), (left + PAD, top + PAD), font)
         draw_plate(draw, plate, BLOCKED if "blocked" in word else WHITE)
         top += high + 1
     return np.asarray(drawn)
