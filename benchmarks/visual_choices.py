@@ -8,10 +8,13 @@ from __future__ import annotations
 
 import itertools
 import json
+import re
 import tempfile
-from collections.abc import Sequence
+from collections import defaultdict
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -21,10 +24,21 @@ from anymesh.evaluation.evaluate_sample import EvalConfig, evaluate_sample
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import ObjectScore
 from anymesh.pipeline.solving import solve
-from anymesh.prompted.answerers.question_files import CHECK, QuestionFolder
+from anymesh.prompted.answerers.question_files import CHECK, QuestionFolder, find_questions, is_left_to_geometry
 from anymesh.prompted.answerers.recordings import Replay
 from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer
-from anymesh.prompted.questions.prompting import MotionPick, MotionTable, PartFit, WhichMotions
+from anymesh.prompted.questions.prompting import (
+    OTHER,
+    JointAppearance,
+    KindAnswer,
+    MotionPick,
+    MotionTable,
+    PartFit,
+    WhichArrows,
+    WhichMotions,
+    WhichPoints,
+)
+from anymesh.prompted.questions.recognition import Recognize
 from anymesh.prompted.questions.saved_question import unpack_question
 from anymesh.types import Exchange, JointType, Motion
 from anymesh.types.questions import Answer, Question, VisualAnswerer
@@ -36,6 +50,8 @@ NEAR, LEAST = 0.15, 0.02  # share of the way, and of the part's diagonal: motion
 KINDS = {"turn": JointType.REVOLUTE, "slide": JointType.PRISMATIC}  # words of the file
 NAMES = {kind: name for name, kind in KINDS.items()}
 DIGITS = 5  # of the numbers in the file
+PART = re.compile(r"part (\d+): an? ([^,.]+)")  # in a question about kinds of joint
+EMPTY: Mapping[str, Sequence[KindAnswer]] = {}
 
 
 @dataclass(frozen=True)
@@ -81,16 +97,45 @@ def read_choices(path: Path) -> list[Choice]:
     return [Choice(**{**row, "motion": row["motion"] and tuple(row["motion"])}) for row in json.loads(path.read_text())]
 
 
-def pick_again(question: WhichMotions, choices: Sequence[Choice]) -> tuple[MotionPick, ...] | None:
+def recorded_kinds(folder: Path) -> dict[str, list[KindAnswer]]:
+    """Return the kinds of joint that were answered in questions of their own, by the label of their parts."""
+    kinds = defaultdict[str, list[KindAnswer]](list)
+    for question in find_questions(folder):
+        text = question.answer()
+        if question.kind == "kinds" and text is not None and not is_left_to_geometry(text):
+            labels = dict(PART.findall(str(question.record["text"])))
+            for part in json.loads(text)["parts"]:
+                label = part.get("label", OTHER)
+                named = labels[str(part["part"])] if label == OTHER else label
+                answer = KindAnswer(JointAppearance(part["joint"]), part["endless"], None if label == OTHER else label)
+                kinds[named].append(answer)
+    return kinds
+
+
+def _attached(table: MotionTable, row: int | None, kinds: Mapping[str, Sequence[KindAnswer]]) -> KindAnswer:
+    """Return the kind of joint that was answered for parts of this label, one that the picked motion has if there is one."""
+    told = kinds.get(table.part.label, ())
+    if row is None:
+        return told[0] if told else KindAnswer(JointAppearance.FIXED)
+    slides = table.motions[row].kind is JointType.PRISMATIC
+    usual = KindAnswer(JointAppearance.SLIDE_OUT if slides else JointAppearance.HINGE_ALONG)
+    return next((k for k in told if k.kind is not JointAppearance.FIXED and k.kind.is_rotation != slides), usual)
+
+
+def pick_again(
+    question: WhichMotions, choices: Sequence[Choice], kinds: Mapping[str, Sequence[KindAnswer]] = EMPTY
+) -> tuple[MotionPick, ...] | None:
     """Answer a question as recorded: "none of these" for a part whose motion is not shown, or that was not asked about then.
 
-    Returns None where nothing was recorded.
+    kinds: as `recorded_kinds`, for a question that asks for them too. Returns None where nothing was recorded.
     """
     picks = []
     for table in question.tables:
         mine = [c for c in choices if _is_part(table, c)]
         rows = [row for c in mine if c.motion is not None and (row := same_motion(c, table)) is not None]
-        picks.append(MotionPick(rows[0] if rows else None, PartFit(mine[0].fit) if mine else PartFit.RIGHT))
+        row = rows[0] if rows else None
+        attached = _attached(table, row, kinds) if question.ask_kind else None
+        picks.append(MotionPick(row, PartFit(mine[0].fit) if mine else PartFit.RIGHT, attached))
     return tuple(picks) if choices else None
 
 
@@ -138,11 +183,16 @@ def _rounded(values: np.ndarray) -> list[float]:
 
 
 class WithChoices:
-    """An answerer from a recording; a question about motions that was asked otherwise then is answered by the choices."""
+    """An answerer from a recording, for questions that were asked otherwise then.
 
-    def __init__(self, recorded: VisualAnswerer, choices: Sequence[Choice]) -> None:
-        self.inner, self._choices = recorded, choices
-        self.again = 0  # questions that were answered by the choices
+    What the object is, is answered as recorded; motions by the choices, with the kinds of joint that were answered; points and
+    arrows that were not asked for then, by the fallback. Each counts as a question.
+    """
+
+    def __init__(self, recorded: VisualAnswerer, folder: Path, fallback: VisualAnswerer) -> None:
+        self.inner, self._folder, self._fallback = recorded, folder, fallback
+        self._choices, self._kinds = read_choices(folder / FILE), recorded_kinds(folder)
+        self.again = 0  # questions that were not asked in the same words and pictures then
 
     @property
     def name(self) -> str:
@@ -161,11 +211,19 @@ class WithChoices:
         try:
             return self.inner.ask(question)
         except ModelError:
-            picks = pick_again(question, self._choices) if isinstance(question, WhichMotions) else None
-            if picks is None:
-                raise
             self.again += 1
-            return picks  # ty: ignore[invalid-return-type]
+            answer: Any = None
+            match question:
+                case Recognize():
+                    told = [q.answer() for q in find_questions(self._folder) if q.kind == question.kind]
+                    answer = question.parse(json.loads(told[0])) if told and told[0] else None
+                case WhichMotions():
+                    answer = pick_again(question, self._choices, self._kinds)
+                case WhichPoints() | WhichArrows():
+                    answer = self._fallback.ask(question)
+            if answer is None:
+                raise
+            return answer
 
 
 def replayed(folder: Path, setting: EvalConfig, dataset: Dataset, name: str) -> tuple[Record, int]:
@@ -174,10 +232,10 @@ def replayed(folder: Path, setting: EvalConfig, dataset: Dataset, name: str) -> 
     The record has an error where nothing was recorded for a question.
     """
     made: list[WithChoices] = []
-    replay, choices = Replay(folder), read_choices(folder / FILE)
+    replay = Replay(folder)
 
     def recorded(fallback: VisualAnswerer) -> VisualAnswerer:
-        made.append(WithChoices(VlmAnswerer(replay, fallback), choices))
+        made.append(WithChoices(VlmAnswerer(replay, fallback), folder, fallback))
         return made[-1]
 
     with tempfile.TemporaryDirectory() as report:

@@ -14,8 +14,6 @@ LEVEL_COSINE = 0.8  # 37 degrees: minimum cosine between the vertical and the no
 ACROSS_COSINE = 0.3  # 73 degrees: maximum cosine between two directions that are across each other
 SAME_AXIS_COSINE = 0.97  # 14 degrees: minimum cosine between axes that a user sees as one
 SAME_SIZE = 0.02  # maximum relative difference of the diagonals, or of the spreads, of copies
-
-
 REFERENCE_PX = 640  # [px] height of a picture that sizes in pixels refer to
 PAPER_VIEWS = "8@15"
 # At 15 degrees elevation the camera is below the top of anything taller than about half its diagonal. Therefore more views look
@@ -23,7 +21,7 @@ PAPER_VIEWS = "8@15"
 DEFAULT_VIEWS = f"{PAPER_VIEWS},2@50+30,1@-35+30"
 MAX_VIEWS = 32
 RING = re.compile(r"(?P<count>[1-9]\d?)@(?P<elevation>-?\d{1,2}(\.\d+)?)(\+(?P<azimuth>\d{1,3}(\.\d+)?))?")
-VERIFY = ("motion", "free", "off")
+VERIFY, ASK = ("motion", "free", "off"), ("unsure", "all")
 PROPOSERS = r"exact|(exact\+)?sam:.+"
 
 
@@ -36,6 +34,7 @@ class Config:
     parts_list: tuple[str, ...] = ()  # labels of movable parts, given by a user; a model is then not asked for them
     proposer: str = "exact"  # of masks, see `segmentation.propose`
     verify: str = "motion"  # "free": answers are used, except for slides that are blocked; "off": the paper's method unchanged
+    ask: str = "unsure"  # a model about joints that geometry and recognition do not agree on, or about "all"
     at_least: int = 0  # minimum number of parts, even with weak evidence, for objects that are known to move
     viewpoints: str = DEFAULT_VIEWS  # shown to a model: COUNT@ELEVATION or COUNT@ELEVATION+AZIMUTH [deg], separated by commas
 
@@ -43,8 +42,9 @@ class Config:
         for option, number in (("seed", self.seed), ("at-least", self.at_least)):
             if number < 0:
                 raise OptionError(f"--{option}: found {number}; valid are integers from 0 up")
-        if self.verify not in VERIFY:
-            raise OptionError(f"--verify: found {self.verify!r}; valid are {', '.join(VERIFY)}")
+        for option, word, valid in (("verify", self.verify, VERIFY), ("ask", self.ask, ASK)):
+            if word not in valid:
+                raise OptionError(f"--{option}: found {word!r}; valid are {', '.join(valid)}")
         if not re.fullmatch(PROPOSERS, self.proposer):
             raise OptionError(f"--proposer: found {self.proposer!r}; valid are exact, sam:WEIGHTS and exact+sam:WEIGHTS")
         rings = [RING.fullmatch(ring) for ring in self.viewpoints.split(",")]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -21,7 +22,15 @@ from anymesh.prompted.answerers.recordings import Replay
 from anymesh.prompted.answerers.reference import ReferenceAnswerer
 from anymesh.prompted.answerers.vlm_answerer import SYSTEM
 from anymesh.prompted.models.vision import Request
-from anymesh.prompted.questions.prompting import MotionPick, MotionTable, PartFit, PartShown, WhichMotions
+from anymesh.prompted.questions.prompting import (
+    JointAppearance,
+    KindAnswer,
+    MotionPick,
+    MotionTable,
+    PartFit,
+    PartShown,
+    WhichMotions,
+)
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.rendering.render import encode
 from anymesh.types import JointType, Motion
@@ -100,6 +109,14 @@ def test_a_choice_is_found_again_in_another_order_or_the_other_way() -> None:
     elsewhere = Choice([[1.0, 0.0, 0.0], [1.4, 0.02, 0.6]], about_z.motion, "right")
     assert pick_again(motions_shown(0.8, X, Z), [elsewhere])[0].motion is None
     assert pick_again(motions_shown(0.8, X, Z), []) is None
+
+
+def test_kinds_that_were_answered_by_themselves_are_given_with_motions() -> None:
+    asked = replace(motions_shown(0.8, X, Z), ask_kind=True)
+    about_z = Choice([[0.0, 0.0, 0.0], [0.4, 0.02, 0.6]], ("turn", [0.0, 0.0, 1.0], [0.0, 0.0, 0.1], 1.0), "right")
+    slide, endless = KindAnswer(JointAppearance.SLIDE_OUT), KindAnswer(JointAppearance.HINGE_INTO, True)
+    assert pick_again(asked, [about_z], {"door": [slide, endless]}) == (MotionPick(1, attached=endless),)
+    assert pick_again(asked, [about_z]) == (MotionPick(1, attached=KindAnswer(JointAppearance.HINGE_ALONG)),)
 
 
 @pytest.mark.parametrize("shown", [0.0, 0.1])

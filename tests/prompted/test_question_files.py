@@ -218,7 +218,7 @@ def test_an_evaluation_asks_about_each_object_in_a_folder_of_its_name(
     with pytest.raises(OpenQuestionError, match="2 of 2 objects wait") as stopped:
         evaluate("examples", tmp_path / "eval", only=("storage_box", "bucket"), jobs=1, answerer=f"files:{tmp_path / 'q'}")
     places = [(f.parent.name, f.name) for f in stopped.value.folders]
-    assert places == [("bucket", "01-kinds"), ("storage_box", "01-kinds")]
+    assert places == [("bucket", "01-motions"), ("storage_box", "01-motions")]
 
 
 @pytest.mark.slow

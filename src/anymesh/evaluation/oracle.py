@@ -21,6 +21,7 @@ from anymesh.prompted.questions.prompting import (
     JointAppearance,
     KindAnswer,
     MotionPick,
+    MotionTable,
     PartShown,
     PointTable,
     WhichArrows,
@@ -29,11 +30,12 @@ from anymesh.prompted.questions.prompting import (
     WhichPoints,
 )
 from anymesh.prompted.questions.saved_question import answer_object
-from anymesh.types import Exchange, KnownJoint
+from anymesh.types import Exchange, JointType, KnownJoint
 from anymesh.types.questions import Answer, Question, VisualAnswerer
 from anymesh.vocabulary import recognize
 
 Item = TypeVar("Item")
+MOVING_KINDS = tuple(kind for kind in JointAppearance if kind is not JointAppearance.FIXED)
 LETTERS = 4  # approximate letters per token of English and JSON
 
 
@@ -81,8 +83,7 @@ class Noisy:
                 )
                 answer = replace(answer, parts=wrong)
             case WhichKinds():
-                moving = [kind for kind in JointAppearance if kind is not JointAppearance.FIXED]
-                answer = tuple(replace(k, kind=self._other(k.kind, moving)) for k in answer)
+                answer = tuple(replace(k, kind=self._other(k.kind, MOVING_KINDS)) for k in answer)
             case WhichPoints():
                 answer = tuple(
                     self._others(rows, range(len(t.points))) for rows, t in zip(answer, question.tables, strict=True)
@@ -90,13 +91,22 @@ class Noisy:
             case WhichArrows():
                 answer = tuple(self._other(n, range(len(t.directions))) for n, t in zip(answer, question.tables, strict=True))
             case WhichMotions():
-                answer = tuple(
-                    replace(a, motion=self._other(a.motion, range(len(t.motions))))
-                    for a, t in zip(answer, question.tables, strict=True)
-                )
+                answer = tuple(self._pick(a, t) for a, t in zip(answer, question.tables, strict=True))
             case _:
                 pass
         return cast(Answer, answer)
+
+    def _pick(self, right: MotionPick, table: MotionTable) -> MotionPick:
+        """Replace the motion and, independently, the kind of joint; a wrong motion comes with a kind that agrees with it."""
+        motion, attached = self._other(right.motion, range(len(table.motions))), right.attached
+        if attached is not None and motion != right.motion and motion is not None:
+            slides = table.motions[motion].kind is JointType.PRISMATIC
+            fitting = [k for k in MOVING_KINDS if k.is_rotation != slides]
+            kind = attached.kind if attached.kind in fitting else fitting[int(self._rng.integers(len(fitting)))]
+            attached = replace(attached, kind=kind)
+        elif attached is not None:
+            attached = replace(attached, kind=self._other(attached.kind, MOVING_KINDS))
+        return replace(right, motion=motion, attached=attached)
 
     def _other(self, right: Item, among: Sequence[Item]) -> Item:
         """Return the right item, or with the error probability another one."""
@@ -124,14 +134,17 @@ class Random:
         answer: Any
         match question:
             case WhichKinds():
-                answer = tuple(KindAnswer(kind, self._coin() and kind.is_rotation) for kind in map(self._kind, question.parts))
+                answer = tuple(self._attached(part) for part in question.parts)
             case WhichPoints():
                 answer = tuple(self._points(t) for t in question.tables)
             case WhichArrows():
                 answer = tuple(int(self._rng.integers(len(t.directions))) for t in question.tables)
             case WhichMotions():
                 rows = [int(self._rng.integers(-1, len(t.motions))) for t in question.tables]
-                answer = tuple(MotionPick(None if row < 0 else row) for row in rows)
+                kinds = [self._attached(t.part) if question.ask_kind else None for t in question.tables]
+                answer = tuple(
+                    MotionPick(None if row < 0 else row, attached=kind) for row, kind in zip(rows, kinds, strict=True)
+                )
             case _:
                 answer = self._answerer.ask(question)
         return cast(Answer, answer)
@@ -139,8 +152,9 @@ class Random:
     def _coin(self) -> bool:
         return bool(self._rng.random() < 0.5)
 
-    def _kind(self, _: PartShown) -> JointAppearance:
-        return list(JointAppearance)[int(self._rng.integers(len(JointAppearance)))]
+    def _attached(self, _: PartShown) -> KindAnswer:
+        kind = list(JointAppearance)[int(self._rng.integers(len(JointAppearance)))]
+        return KindAnswer(kind, self._coin() and kind.is_rotation)
 
     def _points(self, table: PointTable) -> tuple[int, ...]:
         count = int(self._rng.integers(table.min_points, table.max_points + 1))

@@ -65,13 +65,9 @@ def choose_answerer(
         raise OptionError(f"found the options {unknown}; valid are {', '.join(Answering.__annotations__)}")
     chosen = AnswererOptions(**options)
     config = Config(
-        seed=chosen.seed,
-        category=chosen.category,
-        proposer=chosen.proposer,
-        verify=chosen.verify,
-        viewpoints=chosen.viewpoints,
-        at_least=chosen.at_least,
-    )
+        seed=chosen.seed, category=chosen.category, proposer=chosen.proposer, verify=chosen.verify, ask=chosen.ask,
+        viewpoints=chosen.viewpoints, at_least=chosen.at_least,
+    )  # fmt: skip
     if chosen.answerer != GEOMETRY:
         return resolve(OPEN_ANSWERER)(chosen, config, about, deadline or Deadline(), stop)
     if chosen.parts_list:

@@ -137,6 +137,7 @@ class AnswererOptions:
     verify: str = _option(
         "motion", "motion: a model chooses among motions; free: its picks are used unless blocked; off: the paper's method."
     )
+    ask: str = _option("unsure", "unsure: a model is not asked about joints that geometry is sure of; all: about each.")
     category: str | None = _option(None, "Kind of object, such as fridge; for models and for --scale auto.", kind=str)
     timeout: float = _option(CALL_SECONDS, "Time-out of one model call.", metavar="SECONDS")
     wait: bool = _option(False, "With files:FOLDER, wait for missing answers.", "--wait")
@@ -162,6 +163,7 @@ class Answering(TypedDict, total=False):
     proposer: str
     viewpoints: str
     verify: str
+    ask: str
     max_calls: int | None
     max_cost: float | None
     cache: Path | str | None

@@ -94,7 +94,7 @@ def recognize(run: Run, loaded: Keyed[LoadResult], parts: str, *, sized: bool) -
     if not solver.answers.recognizes:
         return solver, Keyed(solver.answers.recognize(), loaded.key)
     metric = loaded.result.metric
-    settings = {**who.settings("verify", "proposer"), "sized": sized, "metric": metric}
+    settings = {**who.settings("verify", "ask", "proposer"), "sized": sized, "metric": metric}
     key = stage_key(RECOGNITION, previous=loaded.key, config=settings)
     recognized = run.answered(RECOGNITION, key, "recognize", lambda: solver.answers.recognize(sized=sized, metric=metric))
     final = recognized.sized(loaded.result)
@@ -103,7 +103,8 @@ def recognize(run: Run, loaded: Keyed[LoadResult], parts: str, *, sized: bool) -
 
 def find_parts(run: Run, solver: Solver, recognized: Keyed[RecognitionResult], parts: str) -> Keyed[SegmentationResult]:
     """Find the movable parts (paper, 3.2)."""
-    settings = {**run.who.settings("verify"), "parts": parts, "labels": _bytes_of_labels(parts), "limit": run.deadline.limit}
+    settings = run.who.settings("verify", "ask") | {"parts": parts, "labels": _bytes_of_labels(parts)}
+    settings["limit"] = run.deadline.limit
     key = stage_key(SEGMENTATION, previous=recognized.key, config=settings)
     recognition = recognized.result.recognition
     return Keyed(run.answered(SEGMENTATION, key, "segment", lambda: solver.parts(parts, recognition, run.progress)), key)

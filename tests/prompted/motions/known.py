@@ -18,6 +18,7 @@ from anymesh.prompted.motions.cases import PartCase, make_cases
 from anymesh.prompted.motions.joints import Questions, prompt_joints
 from anymesh.prompted.motions.offers import scored_motions
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
+from anymesh.prompted.questions.prompting import KindAnswer
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Exchange, Joint, JointType, KnownJoint, Mesh, Segmentation
 from anymesh.types.motion import Recognition
@@ -25,7 +26,7 @@ from anymesh.types.questions import VisualAnswerer
 
 X, Y, Z = np.eye(3)
 # half the resolution
-QUICK = Config()
+QUICK = Config(ask="all")
 
 
 def known(kind: str, axis, origin=(0.0, 0, 0), limits: tuple[float, float] | None = (0.0, 1.9)) -> KnownJoint:
@@ -134,11 +135,13 @@ def true_answers(mesh: Mesh, segmentation: Segmentation, joints: tuple[KnownJoin
 class Watched:
     """Wrapper that records the questions to another answerer.
 
-    changed: functions that replace its answers, by the kind of question.
+    changed: functions that replace its answers, by the kind of question; attached: kind of joint that replaces the one given
+    with a motion.
     """
 
     answerer: VisualAnswerer
     changed: dict[str, Callable[[Any], Any]] = field(default_factory=dict)
+    attached: KindAnswer | None = None
     asked: list[Any] = field(default_factory=list)
     name: str = "watched"
     exchanges: tuple[Exchange, ...] = ()
@@ -146,13 +149,16 @@ class Watched:
 
     def ask(self, question: Any) -> Any:
         self.asked.append(question)
-        return self.changed[question.kind](question) if question.kind in self.changed else self.answerer.ask(question)
+        found = self.changed[question.kind](question) if question.kind in self.changed else self.answerer.ask(question)
+        if self.attached is None or question.kind != "motions":
+            return found
+        return tuple(replace(pick, attached=self.attached) for pick in found)
 
 
 def prompted(scene: Scene, joints: tuple[KnownJoint, ...], **options: Any) -> tuple[tuple[Joint, ...], Watched]:
-    """Return the joints of a scene as estimated with its reference answerer; options: of Watched, verify, or recognition."""
+    """Return the joints of a scene as estimated with its reference answerer; options: of Watched, Config, or recognition."""
     mesh, whole, segmentation = ready(scene)
-    config = replace(QUICK, verify=options.pop("verify", "motion"))
+    config = replace(QUICK, verify=options.pop("verify", "motion"), ask=options.pop("ask", "all"))
     recognition = options.pop("recognition", None)
     watched = Watched(true_answers(mesh, segmentation, joints), **options)
     questions = Questions(visual_prompts(mesh), watched, config, recognition)

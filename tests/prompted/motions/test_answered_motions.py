@@ -18,7 +18,7 @@ from anymesh.articulation.evidence import sweep_candidates
 from anymesh.prompted.grounding.faces import stays_free
 from anymesh.prompted.motions import lines
 from anymesh.prompted.motions.cases import PartCase, labels_by_name, make_cases, relabelled, unlabelled
-from anymesh.prompted.motions.joints import _joint, as_answered, normal_outwards
+from anymesh.prompted.motions.joints import _joint, normal_outwards
 from anymesh.prompted.motions.lines import (
     axis_points,
     cluster_points,
@@ -30,7 +30,7 @@ from anymesh.prompted.motions.lines import (
     with_more,
 )
 from anymesh.prompted.motions.offers import MAX_SHOWN_ANGLE_RAD, make_offers, scored_motions, shown_amount
-from anymesh.prompted.motions.verify import Choice, answered_confidence
+from anymesh.prompted.motions.verify import Choice, answered_confidence, as_answered
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.runtime import Deadline
 from anymesh.types import JointType, Part, Segmentation
@@ -173,7 +173,7 @@ def test_the_answered_parent_of_a_label_is_used_where_parts_touch(over: str | No
     assert (low.parent, low.carried) == ("base", (2,))
     assert high.parent == "low"  # also if the base is answered, which it does not touch
     assert (high.recognized is not None) == (over is not None)
-    assert (high.number, high.label, high.kind) == (2, "knob", FIXED)
+    assert (high.number, high.label, high.kind) == (2, "knob", None)
     assert set(segmentation.face_part[high.shown.faces]) == {2}
 
 
@@ -316,7 +316,7 @@ def test_shares_of_the_offers_sum_to_one_and_the_answer_is_among_them() -> None:
     case = replace(case_of("left"), answer=KindAnswer(ALONG), asked=turn(Z, (0.598, -0.012, 0)))
     found = make_offers(case, 7, 0)
     assert sum(found.shares) == pytest.approx(1)
-    assert found.answered in found.first
+    assert found.answered in found.shown
     assert len(found.amounts) == len(found.motions) == len(found.shares)
     motions = scored_motions(case).candidates
     assert motions[0].role == "asked"

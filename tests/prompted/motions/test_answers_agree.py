@@ -34,7 +34,7 @@ def asked(
     mesh, whole, segmentation = ready(scene)
     segmentation = replace(segmentation, parts=(segmentation.parts[0], Part(name, "part")))
     config = replace(QUICK, verify=verify)
-    watched = Watched(true_answers(mesh, segmentation, (LEFT.joint,)), changed=changed)
+    watched = Watched(true_answers(mesh, segmentation, (LEFT.joint,)), changed, changed.pop("attached", None))
     return prompt_joints(Questions(visual_prompts(mesh), watched, config, told), lambda _: whole, segmentation), watched
 
 
@@ -60,11 +60,9 @@ def test_a_name_brings_the_recognized_limits_and_nothing_more_is_asked() -> None
 
 
 def test_a_part_without_a_telling_name_is_asked_for_its_label() -> None:
-    def kinds(question) -> tuple[KindAnswer, ...]:
-        assert question.labels == ("door", "tray")
-        return question.parse({"parts": [{"part": 1, "joint": "hinge_along_edge", "endless": False, "label": "door"}]})
-
-    found, _ = asked(LEFT.scene, recognition(DOOR, TRAY), "mesh_17", kinds=kinds)
+    door = KindAnswer(JointAppearance.HINGE_ALONG, label="door")
+    found, answerer = asked(LEFT.scene, recognition(DOOR, TRAY), "mesh_17", attached=door)
+    assert [q.labels for q in answerer.asked] == [("door", "tray")]
     assert found.joints[0].limits == (0, pytest.approx(1.2, abs=0.02))
     assert found.segmentation.parts[1].label == "door"
 
@@ -79,9 +77,9 @@ def test_answers_that_contradict_each_other_are_a_warning_and_lower_the_confiden
 
 
 def test_what_is_recognized_as_moving_is_not_fixed_by_one_answer() -> None:
-    fixed = {"kinds": lambda q: (KindAnswer(JointAppearance.FIXED),)}
+    fixed = {"attached": KindAnswer(JointAppearance.FIXED)}
     found, answerer = asked(LEFT.scene, recognition(DOOR), "door", **fixed)
-    assert [q.kind for q in answerer.asked] == ["kinds", "motions"]
+    assert [q.kind for q in answerer.asked] == ["motions"]
     assert found.joints[0].type is JointType.REVOLUTE
     assert "then fixed" in found.warnings[0]
     right, _ = asked(LEFT.scene, recognition(DOOR), "door")
@@ -138,7 +136,7 @@ def test_only_points_that_are_drawn_are_listed_and_hidden_ones_are_told() -> Non
     knob = box((0.2, -0.05, 0.2), (0.4, -0.001, 0.4))
     scene = {"base": [box((0, 0, 0), (0.6, 0.4, 0.6))], "knob": [knob]}
     _, answerer = prompted(
-        scene, (KNOWN["left"].joint,), changed={"kinds": lambda q: (KindAnswer(JointAppearance.HINGE_INTO),)}
+        scene, (KNOWN["left"].joint,), verify="free", changed={"kinds": lambda q: (KindAnswer(JointAppearance.HINGE_INTO),)}
     )
     (table,) = answerer.asked[1].tables
     assert table.hidden is not None

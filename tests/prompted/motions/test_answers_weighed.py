@@ -14,8 +14,8 @@ from scenes import door
 
 from anymesh.articulation.candidate_motions import Candidate
 from anymesh.prompted.motions.cases import PartCase, contradictions
-from anymesh.prompted.motions.offers import MotionOffers, _crowding, _pages, fits, moves_as
-from anymesh.prompted.motions.verify import MotionQuestioner, choose_motions
+from anymesh.prompted.motions.offers import MotionOffers, _crowding, _picture, fits, moves_as, nearest_motion
+from anymesh.prompted.motions.verify import MotionQuestioner, ShownPick, _of_copy, ask_motions
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, MotionPick, PartFit, WhichMotions
 from anymesh.types import Exchange, Joint, JointType
@@ -87,13 +87,15 @@ def test_of_similar_motions_two_good_ones_are_in_the_first_picture() -> None:
     assert _crowding([0, 1, 0, 1], [1.0, 1.0, 1.0, 1.0]) == [False] * 4
 
 
-def test_the_first_picture_has_the_answer_three_central_axes_and_the_likeliest_others() -> None:
+def test_a_picture_has_the_answer_three_central_axes_the_likeliest_others_and_as_many_more_as_make_seven() -> None:
     middle = candidate("center", JointType.REVOLUTE, Z)
     motions, likely = [EDGE, PULL, middle, middle, middle, middle, FAR_EDGE], [True, True, False, False, False, False, True]
-    assert _pages(motions, ALONG, likely, 6, 7) == ([6, 2, 3, 4, 0, 1], [5])
-    assert _pages(motions, ALONG, likely, 3, 7)[0] == [3, 2, 4, 0, 1, 6]
-    assert _pages(motions, ALONG, likely, None, 2) == ([2, 3], [4, 5])  # own axes are never left out for others
-    assert _pages(motions, OUT, likely, None, 7) == ([0, 1, 6], [2, 3, 4, 5])
+    assert _picture(case(), motions, likely, 6, 6) == [6, 2, 3, 4, 0, 1]
+    assert _picture(case(), motions, likely, 3, 7) == [3, 2, 4, 0, 1, 6, 5]
+    assert _picture(case(kind=OUT), motions, likely, None, 7) == [0, 1, 6, 2, 3, 4, 5]
+    assert _picture(replace(case(), answer=None), motions, likely, None, 7)[:3] == [2, 3, 4]  # of a kind that is not known
+    slides = RecognizedLabel("part", JointType.PRISMATIC, None, None)
+    assert _picture(replace(case(), answer=None, recognized=slides), motions, likely, None, 7)[:3] == [0, 1, 6]
 
 
 @dataclass
@@ -125,7 +127,7 @@ def chosen(monkeypatch: pytest.MonkeyPatch, offers: MotionOffers, *picks: int | 
     who = Picks(list(picks), offers, fit)
     monkeypatch.setattr("anymesh.prompted.motions.verify.make_offers", lambda *_: offers)
     asking = MotionQuestioner(VisualPrompts(CUBE, QUICK), np.array([0, 1] * 6), who, "object", ask_fit=True)
-    (found,) = choose_motions([offers.case], asking, 0).values()
+    (found,) = ask_motions([offers.case], asking, QUICK).chosen().values()
     assert [q.ask_fit for q in who.asked] == [True, False, False][: len(who.asked)]
     assert all(q.tables[0].moving.tolist() == [1, 3, 5, 7, 9, 11] for q in who.asked)
     return found, who.shown
@@ -133,7 +135,7 @@ def chosen(monkeypatch: pytest.MonkeyPatch, offers: MotionOffers, *picks: int | 
 
 def offered(kind: JointAppearance = ALONG, answered: int | None = None, moves: JointType | None = None) -> MotionOffers:
     motions = (EDGE, FAR_EDGE, PULL, replace(ROUND, opening=0.0, closing=0.0))
-    return MotionOffers(case(1, kind, moves), PLATE, motions, (0.6, 0.2, 0.15, 0.05), (1.0,) * 4, (1, 0, 2), (3,), answered)
+    return MotionOffers(case(1, kind, moves), PLATE, motions, (0.6, 0.2, 0.15, 0.05), (1.0,) * 4, (1, 0, 2), answered)
 
 
 def test_a_picked_motion_is_chosen_and_agreeing_answers_make_it_sure(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -157,24 +159,44 @@ def test_a_pick_of_another_kind_than_answered_needs_the_geometry(monkeypatch: py
     assert overruled.reason.startswith("the likeliest of 3 motions: ")
 
 
-def test_none_of_the_first_picture_leads_to_the_second(monkeypatch: pytest.MonkeyPatch) -> None:
-    found, asked = chosen(monkeypatch, offered(), None, 3)
-    assert asked == [(1, 0, 2), (3,)]
-    assert found.best.role == "round"
-    nothing, _ = chosen(monkeypatch, offered(OUT), None, None)
-    assert nothing.best is PULL  # the likeliest of the answered kind
-    assert nothing.reason.startswith("none recognized of 4 motions")
+def test_without_a_right_motion_the_likeliest_of_the_answered_kind_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
+    nothing, asked = chosen(monkeypatch, offered(OUT), None)
+    assert (nothing.best, asked) == (PULL, [(1, 0, 2)])
+    assert nothing.reason.startswith("none recognized of 3 motions")
     assert nothing.confidence < 0.6
-    still, _ = chosen(monkeypatch, offered(FIXED, moves=JointType.REVOLUTE), None, None)
+    still, _ = chosen(monkeypatch, offered(FIXED, moves=JointType.REVOLUTE), None)
     assert (still.moves, still.reason) == (False, "answered: it does not move")
 
 
-@pytest.mark.parametrize(("again", "best"), [(2, PULL), (1, FAR_EDGE), (None, EDGE)])
-def test_a_pick_against_geometry_and_the_answer_must_be_repeated(monkeypatch, again: int | None, best: Candidate) -> None:
-    found, asked = chosen(monkeypatch, offered(answered=0), 2, again)
+SURELY = (0.9998, 1e-4, 5e-5, 5e-5)  # shares that leave no doubt where the recognized motion agrees
+
+
+@pytest.mark.parametrize(("again", "best"), [(2, EDGE), (1, EDGE), (None, EDGE)])
+def test_a_pick_against_geometry_and_recognition_must_be_repeated(monkeypatch, again: int | None, best: Candidate) -> None:
+    found, asked = chosen(monkeypatch, replace(offered(moves=JointType.REVOLUTE), shares=SURELY), 2, again)
     assert asked == [(1, 0, 2), (2, 0, 1)]  # in another order
     assert found.best is best
     assert "asked twice" in found.reason
+
+
+def test_a_joint_that_geometry_and_recognition_agree_on_is_not_asked_about(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("anymesh.prompted.motions.verify.RELIABILITIES", (0.999,))
+    monkeypatch.setattr("anymesh.prompted.motions.verify.SHARES", (1.0,))
+    monkeypatch.setattr("test_answers_weighed.QUICK", replace(QUICK, ask="unsure"))
+    told = replace(offered(moves=JointType.REVOLUTE), shares=SURELY)
+    found, asked = chosen(monkeypatch, replace(told, case=replace(told.case, answer=None)))
+    assert (found.best, asked) == (EDGE, [])
+    assert found.reason.startswith("not asked, as geometry and recognition agree: ")
+    against = offered(moves=JointType.PRISMATIC)
+    assert chosen(monkeypatch, replace(against, shares=SURELY), 2)[1] == [(1, 0, 2)]
+
+
+def test_a_copy_makes_the_motion_of_the_part_that_was_asked_about_moved_or_mirrored() -> None:
+    one = offered()
+    assert _of_copy(one, one, ShownPick(one.shown, 2)) == ShownPick((0, 1, 2), 2)
+    assert _of_copy(one, one, ShownPick(one.shown, None)).picked is None
+    assert nearest_motion(one, PULL.opening_motion) == 2
+    assert nearest_motion(replace(one, motions=one.motions[:2], amounts=(1.0, 1.0)), PULL.opening_motion) is None
 
 
 @pytest.mark.parametrize("same", [replace(EDGE, opening_sign=-1), replace(EDGE, motion=turn(Z, (0.06, 0, 0)))])
@@ -183,14 +205,3 @@ def test_a_pick_of_the_agreed_line_is_not_repeated_whichever_side_opens(monkeypa
     found, asked = chosen(monkeypatch, replace(offers, motions=(EDGE, same, *offers.motions[2:])), 1)
     assert (found.best, asked) == (same, [(1, 0, 2)])
     assert "asked twice" not in found.reason
-
-
-def test_a_part_with_one_motion_or_that_two_answers_call_fixed_is_not_asked_about(monkeypatch: pytest.MonkeyPatch) -> None:
-    one = replace(offered(), first=(0,), second=())
-    found, asked = chosen(monkeypatch, one)
-    assert (found.best, asked) == (EDGE, [])
-    assert found.reason.startswith("the likeliest motion: ")
-    stuck, _ = chosen(monkeypatch, replace(one, motions=(replace(EDGE, opening=0.0), *one.motions[1:])))
-    assert "no motion is free; as answered" in stuck.reason
-    fixed, asked = chosen(monkeypatch, offered(FIXED))
-    assert (fixed.moves, fixed.reason, asked) == (False, "answered: it does not move", [])

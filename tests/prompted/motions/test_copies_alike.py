@@ -65,7 +65,7 @@ def test_hinged_copies_open_to_the_side_that_is_likelier_for_both_with_a_warning
     chosen, answers, shares = {}, {}, {}
     for number, best, ahead in zip((1, 2), (first, second), odds, strict=True):
         one = replace(case(number), copies=(3 - number,))
-        offers = MotionOffers(one, PLATE, (FRONT, BACK), (0.5, 0.5), (1.0, 1.0), (0, 1), (), None)
+        offers = MotionOffers(one, PLATE, (FRONT, BACK), (0.5, 0.5), (1.0, 1.0), (0, 1), None)
         chosen[number], answers[number] = Choice(best, "so", 0.9), PartAnswers(offers)
         shares[number] = np.array([ahead, 1 - ahead, 0.0, 0.0])
     found = _to_one_side(chosen, answers, shares)

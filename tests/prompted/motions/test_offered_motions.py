@@ -45,6 +45,7 @@ def offered(
     """Return the offers of candidates with these scores; `part` has no typical motion, so that nothing is added."""
     scored = CandidateMotions(PLATE, tuple(motions), np.array(scores, float))
     monkeypatch.setattr(offers, "scored_motions", lambda _: scored)
+    monkeypatch.setattr(offers, "FEW", 0)
     told = RecognizedLabel("part", moves, None, None) if moves else None
     return make_offers(replace(door_case(), answer=KindAnswer(kind), recognized=told), most, 0)
 
@@ -80,21 +81,19 @@ def test_a_picked_line_ranks_behind_one_of_the_parts_own(monkeypatch: pytest.Mon
 
 
 @pytest.mark.parametrize(("loss", "shown"), [(7.9, True), (8.1, False)])
-def test_much_less_plausible_motions_are_in_the_second_picture(monkeypatch, loss: float, shown: bool) -> None:
+def test_much_less_plausible_motions_are_not_shown(monkeypatch, loss: float, shown: bool) -> None:
     found = offered(monkeypatch, SPREAD[:4], [0.0, -0.1, -0.2, -loss])
-    assert set(found.first) == ({0, 1, 2, 3} if shown else {0, 1, 2})
-    assert found.second == (() if shown else (3,))
+    assert set(found.shown) == ({0, 1, 2, 3} if shown else {0, 1, 2})
 
 
-def test_three_free_motions_are_in_the_first_picture_even_if_implausible(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_three_free_motions_are_in_the_picture_even_if_implausible(monkeypatch: pytest.MonkeyPatch) -> None:
     found = offered(monkeypatch, SPREAD[:4], [0.0, -20.0, -30.0, -40.0])
-    assert (sorted(found.first), found.second) == ([0, 1, 2], (3,))
+    assert sorted(found.shown) == [0, 1, 2]
 
 
 def test_pictures_have_up_to_a_number_of_motions(monkeypatch: pytest.MonkeyPatch) -> None:
     found = offered(monkeypatch, [*SPREAD, *LEVEL], [0.0] * 7, most=3)
-    assert (len(found.first), len(found.second)) == (3, 3)
-    assert set(found.first).isdisjoint(found.second)
+    assert len(found.shown) == 3
 
 
 def test_only_an_answered_or_central_line_is_shown_if_it_is_blocked(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -103,24 +102,16 @@ def test_only_an_answered_or_central_line_is_shown_if_it_is_blocked(monkeypatch:
     assert {c.role for c in found.motions} == {"asked", "center"}
     assert found.answered is not None
     assert found.motions[found.answered].role == "asked"
-    assert found.table(found.first).blocked == (True, True)
+    assert found.table(found.shown).blocked == (True, True)
 
 
-def test_a_blocked_axis_of_the_surfaces_in_contact_is_in_the_first_picture(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_blocked_axis_of_the_surfaces_in_contact_is_in_the_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     """As of a hook that is tight on its pin, among many free motions."""
     free = [at(x) for x in np.linspace(0, 0.6, 8)]
     held = replace(EDGE, motion=turn(X, (0, -0.012, 0.4)), opening=0.0, role="surface")
     found = offered(monkeypatch, [*free, held], [*np.linspace(9, 2, 8), -20.0], most=5)
-    (place,) = (k for k in found.first if found.motions[k] is held)
-    assert found.table(found.first).blocked[found.first.index(place)]
-
-
-def test_blocked_axes_of_the_part_come_before_others_in_the_second_picture(monkeypatch: pytest.MonkeyPatch) -> None:
-    free = [at(x) for x in np.linspace(0, 0.6, 7)]
-    own = [at(x, opening=0.0, role="center") for x in (0.05, 0.15, 0.25, 0.35, 0.45)]
-    found = offered(monkeypatch, [*free, *own], [*np.linspace(9, 3, 7), *np.linspace(-10, -14, 5)], most=4)
-    shown = [found.motions[k] for k in (*found.first, *found.second)]
-    assert all(any(c is one for one in shown) for c in own)
+    (place,) = (k for k in found.shown if found.motions[k] is held)
+    assert found.table(found.shown).blocked[found.shown.index(place)]
 
 
 @pytest.mark.parametrize(("off", "count"), [(0.003, 1), (0.03, 2)])
@@ -132,19 +123,18 @@ def test_of_lines_that_look_alike_the_likeliest_is_shown(monkeypatch: pytest.Mon
     assert found.answered == count - 1  # the likelier line stands for the answered one
 
 
-def test_of_three_similar_lines_two_are_in_the_first_picture(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_of_three_similar_lines_two_are_in_the_picture(monkeypatch: pytest.MonkeyPatch) -> None:
     motions = [at(0.0), at(0.03), at(0.06), at(0.6)]
-    assert sorted(offered(monkeypatch, motions, [3.0, 2.9, 2.8, 2.7]).first) == [0, 1, 3]
-    assert sorted(offered(monkeypatch, motions[:2], [3.0, 1.9]).first) == [0]  # clearly less plausible than the similar one
-    assert sorted(offered(monkeypatch, motions[:2], [3.0, 2.1]).first) == [0, 1]
+    assert sorted(offered(monkeypatch, motions, [3.0, 2.9, 2.8, 2.7]).shown) == [0, 1, 3]
+    assert sorted(offered(monkeypatch, motions[:2], [3.0, 1.9]).shown) == [0]  # clearly less plausible than the similar one
+    assert sorted(offered(monkeypatch, motions[:2], [3.0, 2.1]).shown) == [0, 1]
 
 
 @pytest.mark.parametrize(("off", "role", "shown"), [(0.02, "edge", True), (0.03, "edge", False), (0.03, "contact", True)])
-def test_an_edge_away_from_the_part_is_in_the_second_picture(monkeypatch, off: float, role: str, shown: bool) -> None:
+def test_an_edge_away_from_the_part_is_not_shown(monkeypatch, off: float, role: str, shown: bool) -> None:
     """The diagonal is 1.1 m, and the limit 2 % of it."""
     found = offered(monkeypatch, [at(0.6), at(-off + 0.002, role=role)], [1.0, 0.0])
-    assert (1 in found.first) == shown
-    assert (1 in found.second) == (not shown)
+    assert (1 in found.shown) == shown
 
 
 def test_lines_are_compared_by_where_they_take_the_part() -> None:

@@ -54,9 +54,9 @@ def offers(
 
 
 def shown(name: str, asked: Motion | None, kind: JointAppearance, most: int = MOST) -> list[Candidate]:
-    """Return the motions of the first picture, likeliest first."""
+    """Return the motions of the picture, likeliest first."""
     found = offers(name, asked, kind, most)
-    return [found.motions[k] for k in sorted(found.first)]
+    return [found.motions[k] for k in sorted(found.shown)]
 
 
 def moved(c: Candidate, case: PartCase, amount: float) -> np.ndarray:
@@ -79,9 +79,7 @@ def apart(a: Candidate, b: Candidate, case: PartCase) -> float:
 @pytest.mark.parametrize("name", NAMES)
 def test_the_motions_shown_are_few_and_look_different(name: str) -> None:
     found = offers(name)
-    assert 1 <= len(found.first) <= MOST
-    assert len(found.second) <= MOST
-    assert not set(found.first) & set(found.second)
+    assert 1 <= len(found.shown) <= MOST
     for k, c in enumerate(found.motions):
         assert all(apart(c, other, case_of(name)) > 0.8 for other in found.motions[:k])
 
@@ -91,8 +89,7 @@ def test_what_is_blocked_is_shown_only_where_it_was_answered_or_is_an_axis_of_th
     found = offers(name)
     stuck = [c for c in found.motions if not c.is_free]
     assert all(c.role in OWN for c in stuck)
-    for page in (found.first, found.second):
-        assert found.table(page).blocked == tuple(not found.motions[k].is_free for k in page)
+    assert found.table(found.shown).blocked == tuple(not found.motions[k].is_free for k in found.shown)
 
 
 @pytest.mark.parametrize("kind", JointAppearance)
@@ -140,14 +137,14 @@ def test_an_answer_that_is_blocked_is_shown_and_marked_so(name: str, asked: Moti
     assert not first.is_free
     found = offers(name, asked, kind)
     assert found.answered is not None
-    assert found.answered in found.first
+    assert found.answered in found.shown
     assert found.table((found.answered,)).blocked == (True,)
     visible = np.deg2rad(30) * (asked.kind is JointType.REVOLUTE)
     assert found.table((found.answered,)).amounts[0] > visible
 
 
 @pytest.mark.parametrize("name", ["wheel", "left"])
-def test_the_middle_lines_of_what_turns_into_the_surface_are_in_the_first_picture(name: str) -> None:
+def test_the_middle_lines_of_what_turns_into_the_surface_are_in_the_picture(name: str) -> None:
     context, motions = case_of(name).context, shown(name, None, JointAppearance.HINGE_INTO)
     found = [c for c in motions if c.role in CENTRAL]
     through = [c for c in found if np.linalg.norm(np.cross(context.body_obb.center - c.motion.origin, c.motion.axis)) < 0.02]
@@ -161,15 +158,15 @@ def test_the_axis_of_a_pin_on_a_part_that_is_not_round_is_offered() -> None:
     case = the_case({"base": [box((0, 0, 0), (1, 0.2, 0.3)), pin], "blade": [blade]})
     assert [c.source for c in case.circles] == ["axis of a round patch"]
     found = make_offers(replace(case, answer=KindAnswer(JointAppearance.HINGE_INTO)), MOST, 0)
-    motions = [found.motions[k] for k in found.first]
+    motions = [found.motions[k] for k in found.shown]
     assert any(abs(c.motion.axis @ Y) > 0.999 and abs(c.motion.origin[0] - 0.1) < 0.002 for c in motions)
 
 
 @pytest.mark.slow
 def test_the_order_in_the_picture_follows_the_seed_and_not_the_likelihood() -> None:
     case = replace(case_of("left"), answer=KindAnswer(JointAppearance.HINGE_ALONG))
-    orders = [make_offers(case, MOST, seed).first for seed in range(8)]
-    assert orders[0] == make_offers(case, MOST, 0).first
+    orders = [make_offers(case, MOST, seed).shown for seed in range(8)]
+    assert orders[0] == make_offers(case, MOST, 0).shown
     assert len({order[0] for order in orders}) > 2  # the likeliest motion is not always number 1
     assert {frozenset(order) for order in orders} == {frozenset(orders[0])}
 

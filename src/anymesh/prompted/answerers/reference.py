@@ -20,6 +20,7 @@ from anymesh.prompted.questions.prompting import (
     JointAppearance,
     KindAnswer,
     MotionPick,
+    MotionTable,
     PartShown,
     PointTable,
     WhichArrows,
@@ -117,7 +118,7 @@ class ReferenceAnswerer:
             case WhichArrows():
                 answer = tuple(self._arrow(t.part, t.directions) for t in question.tables)
             case WhichMotions():
-                answer = tuple(MotionPick(self._motion(t.part, t.motions, t.amounts)) for t in question.tables)
+                answer = tuple(self._pick(question, t) for t in question.tables)
             case _:
                 raise TypeError(f"no answer is known to {type(question).__name__}")
         return cast(Answer, answer)
@@ -245,6 +246,10 @@ class ReferenceAnswerer:
     def _arrow(self, part: PartShown, directions: np.ndarray) -> int:
         joint = self._joint(part)
         return 0 if joint is None else int((directions @ joint.opening_motion.axis).argmax())
+
+    def _pick(self, question: WhichMotions, table: MotionTable) -> MotionPick:
+        attached = self._kind(table.part, question.labels) if question.ask_kind else None
+        return MotionPick(self._motion(table.part, table.motions, table.amounts), attached=attached)
 
     def _motion(self, part: PartShown, motions: tuple[Motion, ...], amounts: tuple[float, ...]) -> int | None:
         joint = self._joint(part)

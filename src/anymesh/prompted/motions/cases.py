@@ -32,7 +32,9 @@ from anymesh.types.questions import Answer, Question, VisualAnswerer
 from anymesh.vocabulary import words_of
 
 PLANE_RATIO = 0.001  # of the diagonal: tolerance of the connecting area's plane; 0.002 for a diagonal of 2
-MAX_PART_PICTURES = 8  # pictures per call
+MAX_PART_PICTURES = 16  # pictures per call
+MAX_ASKED_EACH = 4  # copies that turn within limits are asked about each, as doors are, unless there are more: keys
+COPY_RATIO = 0.01  # of the part's diagonal: mean distance of the surfaces of two copies, shifted onto each other
 TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 
 
@@ -41,8 +43,9 @@ class PartCase(Brief):
     """A part whose joint is being estimated.
 
     number: index in the segmentation; carried: parts that depend on it; circles: axes of its largest round patches; recognized:
-    recognition of its label; asked: the answered motion; pins: axes of round patches in contact; frame: rows are the object's
-    axes; copies: indices of its copies beside it, which open to the same side.
+    recognition of its label; answer: its kind of joint, None if it was not asked for; asked: the answered motion; pins: axes of
+    round patches in contact; frame: rows are the object's axes; copies: indices of its copies beside it, which open to the same
+    side; shape: indices of the parts that one answer holds for, the part among them.
     """
 
     number: int
@@ -53,11 +56,12 @@ class PartCase(Brief):
     shown: PartShown
     circles: tuple[Motion, ...] = ()
     recognized: RecognizedLabel | None = None
-    answer: KindAnswer = KindAnswer(JointAppearance.FIXED)  # noqa: RUF009 - frozen
+    answer: KindAnswer | None = None
     asked: Motion | None = None
     pins: tuple[Motion, ...] = ()
     frame: np.ndarray | None = None
     copies: tuple[int, ...] = ()
+    shape: tuple[int, ...] = ()
 
     @property
     def drawn_alike(self) -> Facing | None:
@@ -65,8 +69,18 @@ class PartCase(Brief):
         return ((self.number, *self.copies), self.context.opening_direction) if self.copies else None
 
     @property
-    def kind(self) -> JointAppearance:
-        return self.answer.kind
+    def kind(self) -> JointAppearance | None:
+        return self.answer.kind if self.answer else None
+
+    @property
+    def moves(self) -> JointType | None:
+        """Return how it was recognized to move."""
+        return self.recognized.moves if self.recognized else None
+
+    @property
+    def endless(self) -> bool:
+        """Return whether it was answered that it turns endlessly, by its kind of joint or else by what its label does."""
+        return self.answer.endless if self.answer else self.moves is JointType.CONTINUOUS
 
     @property
     def label(self) -> str:
@@ -83,10 +97,12 @@ def make_cases(
     parent = parents_as_answered(shapes, whole.diagonal, _possible_parents(segmentation, recognized))
     contexts: dict[int, PartContext] = {}
     copies: dict[int, tuple[int, ...]] = {}
+    shape: dict[int, tuple[int, ...]] = {}
     for numbers in same_size(shapes, parent):
         some = [part_context(whole, label, shapes, parent, i) for i in numbers]
         contexts |= zip(numbers, share_opening_directions(some), strict=True)
         copies |= {i: tuple(k for k in numbers if k != i and _are_alike(contexts[i], contexts[k])) for i in numbers}
+        shape |= _asked_once(numbers, shapes, [p.label for p in segmentation.parts], recognized)
     frame = straightening(whole.shape.normals, whole.shape.areas)[:3, :3]
     cases = []
     for i, part in enumerate(segmentation.parts[1:], start=1):
@@ -106,10 +122,32 @@ def make_cases(
         over, told = segmentation.parts[parent[i]].name, recognized.get(part.label)
         cases.append(
             PartCase(
-                i, part.name, over, carried, context, shown, circles, told, pins=pins, frame=frame, copies=copies[i]
+                i, part.name, over, carried, context, shown, circles, told,
+                pins=pins, frame=frame, copies=copies[i], shape=shape.get(i, (i,)),
             )
         )  # fmt: skip
     return cases
+
+
+def _asked_once(
+    numbers: Sequence[int], shapes: Sequence[TriangleSet], labels: Sequence[str], recognized: Mapping[str, RecognizedLabel]
+) -> dict[int, tuple[int, ...]]:
+    """Return, for parts of one size, those of the same label and shape whose motions one answer names.
+
+    Doors of one shape may turn about either side, so few of them are asked about each; drawers, wheels and keys are not.
+    """
+    groups: list[list[int]] = []
+    for i in numbers:
+        alike = [g for g in groups if labels[g[0]] == labels[i] and _is_copy(shapes[g[0]], shapes[i])]
+        (alike[0] if alike else groups.append([]) or groups[-1]).append(i)
+    told = {i: recognized[labels[i]].moves if labels[i] in recognized else None for i in numbers}
+    each = {i: told[i] in (None, JointType.REVOLUTE) for i in numbers}
+    return {i: tuple(g) for g in groups if len(g) > MAX_ASKED_EACH or not each[g[0]] for i in g}
+
+
+def _is_copy(a: TriangleSet, b: TriangleSet) -> bool:
+    shift = b.box.center - a.box.center
+    return float(b.tree.distance(a.samples.points[::4] + shift).mean()) < COPY_RATIO * a.box.diagonal
 
 
 def _are_alike(a: PartContext, b: PartContext) -> bool:
@@ -223,11 +261,11 @@ def contradictions(cases: Sequence[PartCase], joints: Sequence[Joint]) -> tuple[
 
 
 def _answered_motion(case: PartCase) -> Iterator[tuple[str, str]]:
-    moves = case.recognized.moves if case.recognized else None
-    if moves is not None:
-        yield ("slides" if moves is JointType.PRISMATIC else "turns"), f"recognized as {moves}"
+    if case.moves is not None:
+        yield ("slides" if case.moves is JointType.PRISMATIC else "turns"), f"recognized as {case.moves}"
     kind = case.kind
-    yield "fixed" if kind is JointAppearance.FIXED else "turns" if kind.is_rotation else "slides", kind.words
+    if kind is not None:
+        yield "fixed" if kind is JointAppearance.FIXED else "turns" if kind.is_rotation else "slides", kind.words
 
 
 def _motion(kind: JointType) -> str:

@@ -21,7 +21,6 @@ from anymesh.articulation.limits import (
     opening_as_answered,
     pressed,
 )
-from anymesh.articulation.rank_motions import PartMotionScores
 from anymesh.articulation.vetting import faults
 from anymesh.config import ALONG_COSINE, FACING_COSINE, Config
 from anymesh.geometry.surface import ObjectShape
@@ -49,14 +48,12 @@ from anymesh.prompted.motions.lines import (
     surface_directions,
     with_more,
 )
-from anymesh.prompted.motions.offers import moves_as
 from anymesh.prompted.motions.verify import (
     BLOCKED_RATIO,
     Choice,
     MotionQuestioner,
-    answered_confidence,
-    answers_a_line,
-    choose_motions,
+    as_answered,
+    ask_motions,
 )
 from anymesh.prompted.pictures.sides import Sides
 from anymesh.prompted.pictures.visual_prompts import Shot, VisualPrompts
@@ -83,9 +80,8 @@ INTO_POINTS = 8  # candidates for an axis into the surface, half of which stand 
 
 def normal_outwards(case: PartCase) -> Motion:
     """Return the slide along the normal of the connecting area's plane, outwards (paper, 3.3)."""
-    normal = case.shown.normal
-    outward = normal if normal @ case.context.opening_direction >= 0 else -normal
-    return prismatic(outward, case.context, "normal of the connecting area's plane")
+    sign = 1.0 if case.shown.normal @ case.context.opening_direction >= 0 else -1.0
+    return prismatic(sign * case.shown.normal, case.context, "normal of the connecting area's plane")
 
 
 def opening_slide(case: PartCase) -> Motion:
@@ -93,8 +89,7 @@ def opening_slide(case: PartCase) -> Motion:
 
     On real drawers the connecting area consists of rim and sides, and its plane's normal may be off by 80 degrees and more.
     """
-    context = case.context
-    outward = context.opening_direction
+    context, outward = case.context, case.context.opening_direction
     directions = [s * a for a in context.body_obb.axes for s in (1.0, -1.0) if s * a @ outward > FACING_COSINE] + [outward]
     ways = [normal_outwards(case)] + [prismatic(d, context, "free way out") for d in directions]
     candidates = sweep_candidates(context, [("asked", way) for way in ways])[::2]
@@ -102,20 +97,6 @@ def opening_slide(case: PartCase) -> Motion:
     if normal.is_free and normal.slide_direction is SlideDirection.OUTWARDS and normal.guided > MIN_GUIDED_SHARE:
         return ways[0]
     return ways[max(range(1, len(ways)), key=lambda k: (candidates[k].guided, candidates[k].opening, -k))]
-
-
-def as_answered(case: PartCase) -> Choice:
-    """Return the answered motion unchanged."""
-    motion = case.asked or prismatic(case.context.opening_direction, case.context, "nothing moves")
-    both = sweep_candidates(case.context, [("asked", motion)])
-    scores = PartMotionScores(case.context, case.label, both).alone.score
-    best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is JointType.REVOLUTE else both[0]
-    moves = case.recognized.moves if case.recognized else None
-    answer = f"answered: {case.kind.words}; {motion.source}"
-    if case.kind is JointAppearance.FIXED:
-        return Choice(best, answer, answered_confidence(None if moves is None else False, line=False), moves=False)
-    as_recognized = None if moves is None else moves_as(best, moves)
-    return Choice(best, answer, answered_confidence(as_recognized, line=answers_a_line(case), free=best.is_free))
 
 
 ShapeOf = Callable[[Segmentation], ObjectShape]
@@ -214,18 +195,42 @@ def _ask(
     whole, config, progress = shape_of(segmentation), questions.config, questions.progress
     cases = [c for c in make_cases(whole, segmentation, questions.recognition, config) if only is None or c.name in only]
     progress("joints", "kinds", 0, 4)
+    if config.verify == "motion":
+        return _ask_motions(questions, cases, whole, segmentation, fits=fits)
     cases, segmentation = _with_kinds(questions, cases, whole, segmentation)
     progress("joints", "points and arrows", 1, 4)
+    cases = _with_lines(questions, cases, whole, segmentation)
+    return _ChosenMotions(cases, {c.number: as_answered(c) for c in cases}, segmentation)
+
+
+def _ask_motions(
+    questions: Questions, cases: list[PartCase], whole: ObjectShape, segmentation: Segmentation, *, fits: bool
+) -> _ChosenMotions:
+    """Ask for kinds of joint and motions together, then for the lines of parts with none of the motions shown."""
+    choices = questions.labels if unlabelled(segmentation, questions.labels) else ()
+    labels, config = segmentation.face_part, questions.config
+    sides = Sides(questions.recognition.front if questions.recognition else None)
+    asking = MotionQuestioner(questions.visual_prompts, labels, questions.answerer, questions.category, fits, sides, choices)
+    asked = ask_motions(cases, asking, config)
+    questions.progress("joints", "motions", 1, 4)
+    told = {n: a.offers.case.answer for n, a in asked.answers.items()}
+    named = {n: answer.label for n, answer in told.items() if answer is not None and answer.label is not None}
+    if named:
+        segmentation = relabelled(segmentation, named, questions.labels)
+        made = {c.number: c for c in make_cases(whole, segmentation, questions.recognition, config)}
+        asked = asked.renewed([replace(made[n], answer=told[n]) for n in told], config.seed)
+    questions.progress("joints", "points and arrows", 2, 4)
+    lines = _with_lines(questions, asked.lost(), whole, segmentation)
+    asked = asked.renewed([c for c in lines if c.asked is not None], config.seed)
+    return _ChosenMotions([asked.answers[c.number].offers.case for c in cases], asked.chosen(), segmentation)
+
+
+def _with_lines(questions: Questions, cases: list[PartCase], whole: ObjectShape, segmentation: Segmentation) -> list[PartCase]:
+    """Return the cases with the motions that picked points, arrows and the way out stand for."""
     asked = {**_hinges(questions, cases, whole, segmentation), **_surface_directions(questions, cases, segmentation)}
-    out = normal_outwards if config.verify == "off" else opening_slide
+    out = normal_outwards if questions.config.verify == "off" else opening_slide
     asked |= {c.number: out(c) for c in cases if c.kind is JointAppearance.SLIDE_OUT}
-    cases = [replace(c, asked=asked.get(c.number)) for c in cases]
-    progress("joints", "motions", 2, 4)
-    if config.verify != "motion":
-        return _ChosenMotions(cases, {c.number: as_answered(c) for c in cases}, segmentation)
-    labels, sides = segmentation.face_part, Sides(questions.recognition.front if questions.recognition else None)
-    asking = MotionQuestioner(questions.visual_prompts, labels, questions.answerer, questions.category, fits, sides)
-    return _ChosenMotions(cases, choose_motions(cases, asking, config.seed), segmentation)
+    return [replace(c, asked=asked.get(c.number)) for c in cases]
 
 
 def _with_kinds(
@@ -251,7 +256,7 @@ def _with_kinds(
 def _hinges(questions: Questions, cases: list[PartCase], whole: ObjectShape, segmentation: Segmentation) -> dict[int, Motion]:
     """Return the hinges by part number: points are shown and picked, and give a line."""
     labels, pictures = segmentation.face_part, questions.visual_prompts
-    turning = [c for c in cases if c.kind.is_rotation]
+    turning = [c for c in cases if c.kind is not None and c.kind.is_rotation]
     paper = questions.config.verify == "off"
     candidates = {c.number: None if paper else hinge_candidates(c.context, c.pins) for c in turning}
     shots = {c.number: pictures.shot(labels, c.number, c.drawn_alike, candidates[c.number]) for c in turning}
@@ -277,6 +282,7 @@ def _hinges(questions: Questions, cases: list[PartCase], whole: ObjectShape, seg
 
 def _points(questions: Questions, case: PartCase, shot: Shot, whole: ObjectShape) -> PointTable:
     """Return the candidate points of a rotating part; the paper's method has clusters and superpoints only."""
+    assert case.kind is not None  # asked for before
     config, pictures = questions.config, questions.visual_prompts
     shaped = case.kind is JointAppearance.HINGE_INTO and config.verify != "off"
     project, most = shot.project, INTO_POINTS if shaped else MAX_POINTS
@@ -327,8 +333,8 @@ def _joint(case: PartCase, choice: Choice, verify: str) -> tuple[Joint, str]:
     kind, twice = JointType.FIXED, False
     if choice.moves:
         turns = choice.best.motion.kind is JointType.REVOLUTE
-        twice = case.answer.endless and case.recognized is not None and case.recognized.moves is JointType.CONTINUOUS
-        endless = case.answer.endless and (twice or verify != "motion" or choice.best.is_endless)
+        twice = case.answer is not None and case.endless and case.moves is JointType.CONTINUOUS
+        endless = case.endless and (twice or verify != "motion" or choice.best.is_endless)
         kind = JointType.PRISMATIC if not turns else JointType.CONTINUOUS if endless else JointType.REVOLUTE
     answered = answered_range(case.recognized, kind)
     best = away_from_closed(case.context, choice.best) if answered is None else opening_as_answered(choice.best, answered)
@@ -343,7 +349,7 @@ def _joint(case: PartCase, choice: Choice, verify: str) -> tuple[Joint, str]:
 
 def _endless_words(case: PartCase, best: Candidate, kind: JointType, *, twice: bool) -> str:
     """Return in words what became of the answer that a part turns endlessly, if another or geometry is against it, else ""."""
-    recognized = case.recognized is not None and case.recognized.moves is JointType.CONTINUOUS
+    recognized = case.moves is JointType.CONTINUOUS
     if best.is_endless or kind not in TURNING:
         return (
             "endless was recognized, but a joint with limits was answered" if recognized and kind is JointType.REVOLUTE else ""
@@ -351,7 +357,7 @@ def _endless_words(case: PartCase, best: Candidate, kind: JointType, *, twice: b
     stop = f"geometry stops it after {np.degrees(best.closing):.0f} degrees back and {np.degrees(best.opening):.0f} ahead"
     if kind is JointType.CONTINUOUS:
         return f"endless was answered twice and is kept, though {stop}" if twice else ""
-    return f"endless was answered, but {stop}" if recognized or case.answer.endless else ""
+    return f"endless was answered, but {stop}" if recognized or case.endless else ""
 
 
 def _unused(joint: Joint, recognized: RecognizedLabel | None) -> str:
@@ -384,6 +390,5 @@ def _as_answered(case: PartCase, best: Candidate, joint: Joint, answered: tuple[
 
 
 def _range_words(kind: JointType, limits: tuple[float, float]) -> str:
-    slides = kind is JointType.PRISMATIC
-    low, high = (100 * v if slides else float(np.degrees(v)) for v in limits)
-    return f"{low:.3g} to {high:.3g} {'cm' if slides else 'degrees'}"
+    factor, unit = (100.0, "cm") if kind is JointType.PRISMATIC else (180 / np.pi, "degrees")
+    return f"{factor * limits[0]:.3g} to {factor * limits[1]:.3g} {unit}"

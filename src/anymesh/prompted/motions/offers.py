@@ -28,7 +28,8 @@ from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.cases import PartCase
 from anymesh.prompted.motions.lines import CENTRAL, pivots
 from anymesh.prompted.questions.prompting import JointAppearance, MotionTable
-from anymesh.types import JointType
+from anymesh.types import JointType, Motion
+from anymesh.types.triangles import transformed
 
 # Set by hand, not fitted. They decide which motions are shown and in which picture, not how answers are weighed (`verify`).
 # How far motions are drawn:
@@ -40,13 +41,14 @@ DUPLICATE_PART_RATIO = 0.01  # of the part's diagonal: near-duplicates; about tw
 DUPLICATE_OBJECT_RATIO = 0.02  # of the tolerance length: near-duplicates, too
 DUPLICATE_MOTION_RATIO = 0.15  # of the travel: upper limit of the object-based distance, for small parts
 SIMILAR_RATIO = 0.2  # of the travel: similar
-# What is in the first picture; the others are in the second:
+# What is in the picture:
+FEW = 7  # number of motions up to which others are shown beside those below
 MAX_SIMILAR, MAX_SIMILAR_LOSS = 2, 1.0  # number of similar motions; their loss to the best of them [log-odds]
 OFF_PART = 0.02  # of the tolerance length: hinge lines farther from the part's surface are not
 MAX_LOSS = 8.0  # [log-odds] motions that are worse than the best one by more are not, unless few are left
 MIN_FREE_MOTIONS = 3  # minimum number of free motions, even if implausible
 SHAPE_AXES = 3  # number of axes of the part's own shape that always are; with the best blocked one of the surfaces in contact
-OWN = (*CENTRAL, "surface")  # roles of axes of the part's own shape, which come first in the second picture
+OWN = (*CENTRAL, "surface")  # roles of axes of the part's own shape, which come first among the others
 # Which motion stands for its near-duplicates, and comes first:
 PICKED_POINT_PENALTY = 2.0  # [log-odds] of a line through picked points, less exact than a similar one of the part's own
 ANSWERED_BONUS = 2.0  # [log-odds] of a motion of the answered kind
@@ -57,9 +59,8 @@ ENOUGH_POINTS = 200  # sample points of the part for comparing motions
 class MotionOffers:
     """Motions of a part that look different, likeliest first.
 
-    shares: (k,) share of each by geometry alone; amounts: displacement of each in a picture [rad or m]; first, second: indices
-    of the motions in the first and the second picture, in drawing order; answered: index of the motion that is, or looks like,
-    the answered one.
+    shares: (k,) share of each by geometry alone; amounts: displacement of each in a picture [rad or m]; shown: indices of the
+    motions in the picture, in drawing order; answered: index of the motion that is, or looks like, the answered one.
     """
 
     case: PartCase
@@ -67,8 +68,7 @@ class MotionOffers:
     motions: tuple[Candidate, ...]
     shares: tuple[float, ...]
     amounts: tuple[float, ...]
-    first: tuple[int, ...]
-    second: tuple[int, ...]
+    shown: tuple[int, ...]
     answered: int | None
 
     def table(self, shown: tuple[int, ...]) -> MotionTable:
@@ -99,12 +99,12 @@ def make_offers(case: PartCase, max_motions: int, seed: int) -> MotionOffers:
         c.is_free and not (crowding[rank] or _off_part(case, c)) and (values[k] > best - MAX_LOSS or rank < MIN_FREE_MOTIONS)
         for rank, (k, c) in enumerate(zip(kept, motions, strict=True))
     ]
-    first, second = _pages(motions, case.kind, likely, answered, max_motions)
+    shown = _picture(case, motions, likely, answered, max_motions)
     rng = np.random.default_rng([seed, case.number])
     shares = np.exp(np.array([plain[k] for k in kept]) - max((plain[k] for k in kept), default=0.0))
     return MotionOffers(
         case, facts, tuple(motions), tuple((shares / max(shares.sum(), 1e-12)).tolist()), tuple(amounts),
-        tuple(rng.permutation(first).tolist()), tuple(rng.permutation(second).tolist()), answered,
+        tuple(rng.permutation(shown).tolist()), answered,
     )  # fmt: skip
 
 
@@ -129,8 +129,10 @@ def scored_motions(case: PartCase) -> CandidateMotions:
     return CandidateMotions(scored.part, tuple(scored.candidates[k] for k in chosen), scored.scores[chosen])
 
 
-def fits(c: Candidate, kind: JointAppearance) -> bool:
-    """Return whether a motion is of the answered kind."""
+def fits(c: Candidate, kind: JointAppearance | None) -> bool:
+    """Return whether a motion is of the answered kind, as all are without an answer."""
+    if kind is None:
+        return True
     if kind is JointAppearance.FIXED:
         return False
     if kind.is_rotation or c.motion.kind is JointType.REVOLUTE:
@@ -159,8 +161,7 @@ def shown_amount(c: Candidate, case: PartCase) -> float:
 
 def _agrees(c: Candidate, case: PartCase) -> float:
     """Return the bonus of a motion that agrees with the answers about the part and its label."""
-    recognized = case.recognized.moves if case.recognized else None
-    return ANSWERED_BONUS * fits(c, case.kind) + ANSWERED_BONUS * (recognized is not None and moves_as(c, recognized))
+    return ANSWERED_BONUS * fits(c, case.kind) + ANSWERED_BONUS * (case.moves is not None and moves_as(c, case.moves))
 
 
 def _shown(c: Candidate) -> bool:
@@ -202,7 +203,7 @@ def _unlike(
 
 
 def _crowding(first: list[int], values: list[float]) -> list[bool]:
-    """Return which motions are too similar to others for the first picture.
+    """Return which motions are too similar to others for the picture.
 
     They are clearly less plausible than the best of their similar motions, or the third or later of them.
 
@@ -224,17 +225,27 @@ def _off_part(case: PartCase, c: Candidate) -> bool:
     return bool(off.min() > OFF_PART * case.context.tolerance_length)
 
 
-def _pages(
-    motions: list[Candidate], kind: JointAppearance, likely: list[bool], answered: int | None, max_motions: int
-) -> tuple[list[int], list[int]]:
-    """Return the indices of the motions in the first picture and in the second."""
-    own = [k for k, c in enumerate(motions) if c.role in CENTRAL and fits(c, kind)][:SHAPE_AXES]
-    own += [k for k, c in enumerate(motions) if c.role == "surface" and not c.is_free and fits(c, kind)][:1]
+def _picture(case: PartCase, motions: list[Candidate], likely: list[bool], answered: int | None, max_motions: int) -> list[int]:
+    """Return the indices of the motions that are shown: the answered one, own axes, likely ones, and others up to FEW."""
+    fitting = [fits(c, case.kind) and (case.moves is None or moves_as(c, case.moves)) for c in motions]
+    own = [k for k, c in enumerate(motions) if c.role in CENTRAL and fitting[k]][:SHAPE_AXES]
+    own += [k for k, c in enumerate(motions) if c.role == "surface" and not c.is_free and fitting[k]][:1]
     must = ([] if answered is None else [answered]) + [k for k in own if k != answered]
-    first = must[:max_motions]
-    first += [k for k, good in enumerate(likely) if good and k not in first][: max_motions - len(first)]
-    rest = [k for k in range(len(motions)) if k not in first]
-    return first, sorted(sorted(rest, key=lambda k: motions[k].role not in OWN)[:max_motions])
+    shown = must[:max_motions]
+    shown += [k for k, good in enumerate(likely) if good and k not in shown][: max_motions - len(shown)]
+    rest = [k for k in range(len(motions)) if k not in shown]
+    return shown + sorted(rest, key=lambda k: (motions[k].role not in OWN, k))[: max(min(FEW, max_motions) - len(shown), 0)]
+
+
+def nearest_motion(offers: MotionOffers, motion: Motion) -> int | None:
+    """Return the index of the offered motion that takes the part to nearly the same place, None if there is none."""
+    points, best, least = offers.case.context.part.samples.points[::8], None, SIMILAR_RATIO
+    for k, (c, amount) in enumerate(zip(offers.motions, offers.amounts, strict=True)):
+        if c.motion.kind is motion.kind:
+            there, here = (transformed(points, m.transform(abs(amount))) for m in (motion, c.opening_motion))
+            off = _mean_distance(there, here) / max(_mean_distance(there, points), 1e-12)
+            best, least = (k, off) if off < least else (best, least)
+    return best
 
 
 class MovedPoints:

@@ -8,24 +8,35 @@ how well the answers agree with each other and with the geometry.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.articulation.candidate_motions import Candidate
-from anymesh.articulation.rank_motions import NO_MOTION_CONFIDENCE, reason, same_joints, same_lines, shipped_classifier
-from anymesh.config import FACING_COSINE
+from anymesh.articulation.evidence import sweep_candidates
+from anymesh.articulation.rank_motions import (
+    NO_MOTION_CONFIDENCE,
+    PartMotionScores,
+    reason,
+    same_joints,
+    same_lines,
+    shipped_classifier,
+)
+from anymesh.config import FACING_COSINE, Config
 from anymesh.prompted.motions.cases import PartCase, ask_each
-from anymesh.prompted.motions.offers import MotionOffers, fits, make_offers, moves_as
+from anymesh.prompted.motions.lines import prismatic
+from anymesh.prompted.motions.offers import MotionOffers, fits, make_offers, moves_as, nearest_motion
 from anymesh.prompted.pictures.sides import UNNAMED, SeenFrom, Sides
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.prompting import JointAppearance, MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.types import Brief, JointType, Picture
 from anymesh.types.questions import VisualAnswerer
 
-MOTIONS_IN_PICTURE = 7  # two rows of four with the pose at rest
+MOTIONS_IN_PICTURE = 14  # three rows of five with the pose at rest
+SURE = 0.8  # probability by geometry and recognition from which a joint is not asked about, or again if a pick contradicts it:
+# of 43 parts of 16 kinds of object that no classifier was trained on, it is reached by 14, all of them right
 RELIABILITIES = (0.97, 0.9, 0.7, 0.4, 0.1)
 SHARES = (0.55, 0.27, 0.1, 0.05, 0.03)  # of answerers with each reliability, before any of their answers is known
 MISLED_SHARE = 0.1  # share of the parts about whose motion geometry says nothing
@@ -68,16 +79,23 @@ class PartAnswers:
         case, motions, answered = self.offers.case, self.offers.motions, self.offers.answered
         fixed = case.kind is JointAppearance.FIXED
         by_kind = np.array([*(float(fits(c, case.kind)) for c in motions), 0.0 if fixed else 1 / (KINDS - 1), float(fixed)])
-        total = np.log(_answered(by_kind, reliability, KINDS))
-        moves = case.recognized.moves if case.recognized else None
-        if moves is not None:
-            as_recognized = np.array([*(float(moves_as(c, moves)) for c in motions), 0.5, 0.0])
+        total = np.zeros(len(by_kind))
+        if case.kind is not None and not self._picked_its_kind:
+            total += np.log(_answered(by_kind, reliability, KINDS))
+        if case.moves is not None:
+            as_recognized = np.array([*(float(moves_as(c, case.moves)) for c in motions), 0.5, 0.0])
             total += np.log(_answered(as_recognized, reliability, 2))
         if answered is not None and answers_a_line(case) and by_kind[answered]:
             total += np.log(self._line(by_kind == 1, answered, reliability))
         for pick in self.picks:
             total += np.log(self._pick(pick, reliability))
         return total
+
+    @property
+    def _picked_its_kind(self) -> bool:
+        """Whether a picked motion is of the answered kind, which then says nothing more: both are one answer."""
+        motions, kind = self.offers.motions, self.offers.case.kind
+        return any(pick.picked is not None and fits(motions[pick.picked], kind) for pick in self.picks)
 
     def _line(self, by_kind: Bool[np.ndarray, " m"], answered: int, reliability: float) -> Float[np.ndarray, " m"]:
         """Return the probability of the answered line; after a wrong kind of joint, all motions of this kind are equal."""
@@ -102,7 +120,7 @@ def _answered(right: Float[np.ndarray, " n"], reliability: float, choices: int) 
 
 def answers_a_line(case: PartCase) -> bool:
     """Return whether a model answered the line or direction of a part; the way out is found by geometry."""
-    return case.kind not in (JointAppearance.SLIDE_OUT, JointAppearance.FIXED)
+    return case.kind not in (None, JointAppearance.SLIDE_OUT, JointAppearance.FIXED)
 
 
 def posteriors(parts: Mapping[int, PartAnswers]) -> dict[int, Float[np.ndarray, " m"]]:
@@ -140,11 +158,25 @@ class Choice:
     warning: str = ""  # warning about it, in words
 
 
+def as_answered(case: PartCase) -> Choice:
+    """Return the answered motion unchanged."""
+    motion = case.asked or prismatic(case.context.opening_direction, case.context, "nothing moves")
+    both = sweep_candidates(case.context, [("asked", motion)])
+    scores = PartMotionScores(case.context, case.label, both).alone.score
+    best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is JointType.REVOLUTE else both[0]
+    moves, answer = case.moves, f"answered: {case.kind and case.kind.words}; {motion.source}"
+    if case.kind is JointAppearance.FIXED:
+        return Choice(best, answer, answered_confidence(None if moves is None else False, line=False), moves=False)
+    as_recognized = None if moves is None else moves_as(best, moves)
+    return Choice(best, answer, answered_confidence(as_recognized, line=answers_a_line(case), free=best.is_free))
+
+
 @dataclass(frozen=True, eq=False)
 class MotionQuestioner(Brief):
     """Settings of the motion question.
 
-    labels: (F,) part of each face; category: of the object; sides: of the object, as answered.
+    labels: (F,) part of each face; category: of the object; sides: of the object, as answered; names: labels to choose from, if
+    parts lack a recognized one.
     """
 
     visual_prompts: VisualPrompts
@@ -153,6 +185,7 @@ class MotionQuestioner(Brief):
     category: str
     ask_fit: bool = False
     sides: Sides = UNNAMED
+    names: tuple[str, ...] = ()
 
     def picks(self, offers: Mapping[int, MotionOffers], shown: Mapping[int, tuple[int, ...]]) -> dict[int, MotionPick]:
         """Ask which motion each part makes; return the picked indices of its offers, by part.
@@ -164,9 +197,11 @@ class MotionQuestioner(Brief):
             self.answerer,
             [offers[n].case for n in shown],
             lambda c, title: self._strip(c, title, tables[c.number]),
-            lambda p, some: WhichMotions(p, tuple(tables[c.number] for c in some), self.category, self.ask_fit),
+            lambda p, some: WhichMotions(
+                p, tuple(tables[c.number] for c in some), self.category, self.ask_fit, ask_kind=True, labels=self.names
+            ),
         )
-        return {n: MotionPick(None if a.motion is None else shown[n][a.motion], a.part) for n, a in picked.items()}
+        return {n: replace(a, motion=None if a.motion is None else shown[n][a.motion]) for n, a in picked.items()}
 
     def _table(self, offers: MotionOffers, shown: tuple[int, ...]) -> MotionTable:
         """Return the motions with these indices, and the faces of the part with its carried parts."""
@@ -174,7 +209,7 @@ class MotionQuestioner(Brief):
         table = offers.table(shown)
         shown_as = zip(table.motions, table.amounts, strict=True)
         words = tuple(self.sides.words(motion, amount, offers.case.shown.points) for motion, amount in shown_as)
-        return replace(table, moving=np.flatnonzero(moving), words=words)
+        return replace(table, moving=np.flatnonzero(moving), words=words, alike=len(offers.case.shape))
 
     def _strip(self, case: PartCase, title: str, table: MotionTable) -> Picture:
         """Draw the part with its carried parts, at rest and in each motion."""
@@ -185,31 +220,93 @@ class MotionQuestioner(Brief):
         return self.visual_prompts.strip(moving, title, table.motions, table.amounts, table.described, seen_from)
 
 
-def choose_motions(cases: list[PartCase], asking: MotionQuestioner, seed: int) -> dict[int, Choice]:
-    """Show the motions of each part and return the likeliest one by all answers and the geometry, by part number.
+@dataclass(frozen=True, eq=False)
+class AskedMotions:
+    """All answers about the motions of some parts, and the picks among those that were asked about, both by part number."""
 
-    If none of those shown is right, the next ones are shown, once. If the answer contradicts what geometry and the earlier
-    answers agree on, it is asked for again in another order.
+    answers: Mapping[int, PartAnswers]
+    picks: Mapping[int, MotionPick]
 
-    seed: of the order in the pictures.
+    def lost(self) -> list[PartCase]:
+        """Return the parts that move by the answers, but by no motion that was shown."""
+        without = [self.answers[n].offers.case for n, pick in self.picks.items() if pick.motion is None]
+        return [case for case in without if case.kind is not JointAppearance.FIXED]
+
+    def renewed(self, cases: Collection[PartCase], seed: int) -> AskedMotions:
+        """Return the answers with other cases of some parts: with answered lines, labels or parents."""
+        return replace(self, answers={**self.answers, **{c.number: _renewed(self.answers[c.number], c, seed) for c in cases}})
+
+    def chosen(self) -> dict[int, Choice]:
+        """Return the likeliest motion of each part by all answers and the geometry."""
+        probabilities = posteriors(self.answers)
+        fits = {n: pick.part for n, pick in self.picks.items()}
+        chosen = {n: _chosen(a, probabilities[n], fits.get(n, PartFit.RIGHT)) for n, a in self.answers.items()}
+        return _to_one_side(chosen, self.answers, probabilities)
+
+
+def ask_motions(cases: Sequence[PartCase], asking: MotionQuestioner, config: Config) -> AskedMotions:
+    """Show the motions of each part, in one call where possible, and ask for its kind of joint with them.
+
+    Parts of one shape are asked about once. With `config.ask` "unsure", parts are not asked about whose joint geometry and
+    recognition agree on. If a pick contradicts what these agree on, it is asked for again in another order.
     """
-    offers = {c.number: make_offers(c, MOTIONS_IN_PICTURE, seed) for c in cases}
-    shown = {n: o.first for n, o in offers.items() if _needs_question(o)}
+    offers = {c.number: make_offers(c, MOTIONS_IN_PICTURE, config.seed) for c in cases}
+    first = {n: next(k for k in o.case.shape if k in offers) for n, o in offers.items()}
+    probabilities = posteriors({n: PartAnswers(o) for n, o in offers.items()})
+    agreed = {n: _joint_probability(o, probabilities[n]) for n, o in offers.items()}
+    unsure = [n for n in offers if config.ask == "all" or asking.names or agreed[n] < SURE]
+    shown = {n: offers[n].shown for n in dict.fromkeys(first[n] for n in unsure)}
     picks = asking.picks(offers, shown)
-    asking_again = replace(asking, ask_fit=False)  # ask about the fit only once
-    later = {n: offers[n].second for n, pick in picks.items() if pick.motion is None and offers[n].second}
-    more = asking_again.picks(offers, later)
-    last = {**picks, **more}
-    doubted = {n: shown[n][::-1] for n, pick in last.items() if n not in later and _against_all(offers[n], pick.motion)}
-    again = asking_again.picks(offers, doubted)
-    rounds = ((shown, picks), (later, more), (doubted, again))
-    answers = {
-        n: PartAnswers(o, tuple(ShownPick(shown[n], picked[n].motion) for shown, picked in rounds if n in picked))
-        for n, o in offers.items()
-    }
-    probabilities = posteriors(answers)
-    chosen = {n: _chosen(a, probabilities[n], picks[n].part if n in picks else PartFit.RIGHT) for n, a in answers.items()}
-    return _to_one_side(chosen, answers, probabilities)
+    doubted = {n: shown[n][::-1] for n, p in picks.items() if agreed[n] >= SURE and _against(offers[n], probabilities[n], p)}
+    again = replace(asking, ask_fit=False).picks(offers, doubted)
+    answers = {}
+    for n, o in offers.items():
+        leader = first[n]
+        if leader not in picks:
+            answers[n] = PartAnswers(o)
+            continue
+        o = replace(o, case=replace(o.case, answer=picks[leader].attached or o.case.answer))
+        made = [(shown, picks), (doubted, again)]
+        own = tuple(ShownPick(s[leader], p[leader].motion) for s, p in made if leader in p)
+        answers[n] = PartAnswers(o, own if leader == n else tuple(_of_copy(offers[leader], o, pick) for pick in own))
+    return AskedMotions(answers, picks)
+
+
+def _renewed(answers: PartAnswers, case: PartCase, seed: int) -> PartAnswers:
+    """Return the answers about a part whose motions are proposed anew, with the same pick among them."""
+    before, picks = answers.offers, answers.picks
+    picked = picks[0].picked if picks else None
+    line = case.asked if picked is None else before.motions[picked].opening_motion
+    offers = make_offers(replace(case, asked=line), MOTIONS_IN_PICTURE, seed)
+    rest = tuple(k for k in range(len(offers.motions)) if picked is not None or k != offers.answered)
+    own = (ShownPick(rest, None if picked is None else offers.answered),) if picks else ()
+    return PartAnswers(offers if picked is None else replace(offers, answered=None), own)
+
+
+def _of_copy(first: MotionOffers, copy: MotionOffers, pick: ShownPick) -> ShownPick:
+    """Return a pick among the motions of a part for those of its copy: moved along with it or, as likely, mirrored."""
+    if pick.picked is None:
+        return ShownPick(copy.shown, None)
+    motion = first.motions[pick.picked].opening_motion
+    middle, there = (o.case.context.part.box.center for o in (first, copy))
+    shift = there - middle
+    across = shift / max(float(np.linalg.norm(shift)), 1e-12)
+    sign = -1.0 if motion.kind is JointType.REVOLUTE else 1.0  # a turn is mirrored the other way round
+    mirrored = replace(
+        motion,
+        axis=sign * (motion.axis - 2 * (motion.axis @ across) * across),
+        origin=motion.origin - 2 * ((motion.origin - middle) @ across) * across + shift,
+    )
+    ways = (replace(motion, origin=motion.origin + shift), mirrored)
+    offered = {k for way in ways if (k := nearest_motion(copy, way)) is not None}
+    best = max(offered, key=lambda k: copy.shares[k], default=None)
+    return ShownPick(copy.shown if best is None else tuple({*copy.shown, best}), best)
+
+
+def _joint_probability(o: MotionOffers, probability: Float[np.ndarray, " m"]) -> float:
+    """Return the probability of the likeliest joint, and 0 if it is not free. probability: as in `_chosen`."""
+    k = int(np.argmax(probability[:-2]))
+    return float(probability[:-2][same_joints(o.facts, o.motions, k)].sum()) if o.motions[k].is_free else 0.0
 
 
 def _to_one_side(
@@ -240,19 +337,9 @@ def _side_odds(answers: PartAnswers, probability: Float[np.ndarray, " m"]) -> fl
     return float(np.log(ahead + 1e-6) - np.log(back + 1e-6))
 
 
-def _needs_question(o: MotionOffers) -> bool:
-    """Return whether there is a choice to ask about; a part that is answered fixed only if it was recognized as moving."""
-    fixed = o.case.kind is JointAppearance.FIXED and (o.case.recognized is None or o.case.recognized.moves is None)
-    return len(o.first) > 1 and not fixed
-
-
-def _against_all(o: MotionOffers, picked: int | None) -> bool:
-    """Return whether the picked motion contradicts what geometry and the earlier answers agree on.
-
-    The earlier answers name a line or a direction, not the side to which the part opens.
-    """
-    agreed = o.answered == 0 and o.motions[0].is_free
-    return agreed and picked is not None and not same_lines(o.facts, o.motions, 0)[picked]
+def _against(o: MotionOffers, probability: Float[np.ndarray, " m"], pick: MotionPick) -> bool:
+    """Return whether the picked motion has another line than the likeliest one before. probability: as in `_chosen`."""
+    return pick.motion is not None and not same_lines(o.facts, o.motions, int(np.argmax(probability[:-2])))[pick.motion]
 
 
 def _chosen(answers: PartAnswers, probability: Float[np.ndarray, " m"], fit: PartFit) -> Choice:
@@ -272,7 +359,9 @@ def _chosen(answers: PartAnswers, probability: Float[np.ndarray, " m"], fit: Par
 def _basis(answers: PartAnswers, chosen: int) -> str:
     """Describe in words what a motion was chosen from, and which answers contradict it."""
     o, picked = answers.offers, [pick.picked for pick in answers.picks]
-    against = "" if fits(o.motions[chosen], o.case.kind) else f", though {o.case.kind.words} was answered"
+    against = "" if fits(o.motions[chosen], o.case.kind) else f", though {o.case.kind and o.case.kind.words} was answered"
+    if not picked and answers.offers.case.kind is None:
+        return f"not asked, as geometry and recognition agree{against}"
     if not picked:
         free = [c.is_free for c in o.motions]
         only = "the only free motion" if sum(free) == 1 else "the likeliest motion"

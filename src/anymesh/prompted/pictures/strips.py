@@ -25,7 +25,8 @@ from anymesh.types import Brief, JointType, Mesh, Motion
 from anymesh.types.camera import Camera
 from anymesh.types.triangles import bounds_of, box_corners, transformed, unshared
 
-PANEL = 400  # [px] size of a panel
+PANEL, SMALL_PANEL = 400, 320  # [px] size of a panel, and of one of many
+FEW_PANELS = 8  # two rows of four; more are three rows of five
 MARGIN = 0.35  # margin around the moving part, as a share of its diagonal, so that its neighbours are visible
 AIR = 0.04  # further margin on each side, as a share of the picture
 AXIS_SCALE, RING = 3.0, 0.1  # shares of the part's diagonal: diagonal passed to `axis_line`; radius of the ring
@@ -40,9 +41,8 @@ LIGHTEN = 0.5  # share by which the colours of static faces are moved towards wh
 BOX_MARGIN = 2.0  # [px] margin around the part's box within which rays are cast
 ONWARD = 1e-5  # share of the diagonal by which a ray continues behind a moving face
 MAX_LAYERS = 24  # maximum number of moving faces that a ray passes before it counts as lost
-COLUMNS = 4  # number of panels side by side (1600 px at most)
 GHOST = 0.3  # opacity of the part where it is hidden
-TITLE, WORD = 24, 15  # [px] font size of a panel's number, and of its motion label
+TITLE, WORD, SMALL_WORD = 24, 15, 12  # [px] font size of a panel's number, of its motion's words, and of these in a small one
 BLOCKED = (250, 200, 120)  # background of the label of a blocked motion
 STILL_LINE, PART_LINE, LINE = (120, 120, 120), (8, 30, 90), 0.55  # colours of lines along creases, and their opacity
 CREASE = 0.82  # cosine (of 35 degrees) between normals below which a line is drawn
@@ -73,7 +73,7 @@ def motion_strip(
     the mesh's ray scene, if it already exists. Raise ValueError if nothing moves.
     """
     posed, poses = strip_poses(mesh, moving, motions, scene)
-    camera = camera or best_camera(posed, poses, motions, PANEL, seen_from)
+    camera = camera or best_camera(posed, poses, motions, PANEL if len(poses) <= FEW_PANELS else SMALL_PANEL, seen_from)
     fine = replace(camera, width=2 * camera.width, height=2 * camera.height)
     rays = fine.rays()
     still = posed.still_picture(rays)
@@ -165,18 +165,18 @@ def _titled(panel: UInt8[np.ndarray, "H W 3"], title: str, word: str = "") -> UI
     draw.rectangle([0, 0, panel.shape[1] - 1, panel.shape[0] - 1], outline=(150, 150, 150))
     width, height = plate_size(title, TITLE)
     draw_plate(draw, Plate(title, (4, 4, 4 + width + 2 * PAD, 4 + height), (4 + PAD, 4 + PAD), TITLE), (20, 20, 20))
-    left, top = 12 + width + 2 * PAD, 4
+    left, top, font = 12 + width + 2 * PAD, 4, WORD if panel.shape[1] >= PANEL else SMALL_WORD
     for line in word.split(", ") if word else ():
-        wide, high = plate_size(line, WORD)
-        plate = Plate(line, (left, top, left + wide + 2 * PAD, top + high), (left + PAD, top + PAD), WORD)
+        wide, high = plate_size(line, font)
+        plate = Plate(line, (left, top, left + wide + 2 * PAD, top + high), (left + PAD, top + PAD), font)
         draw_plate(draw, plate, BLOCKED if "blocked" in word else WHITE)
         top += high + 1
     return np.asarray(drawn)
 
 
 def grid(panels: Sequence[UInt8[np.ndarray, "h w 3"]]) -> UInt8[np.ndarray, "H W 3"]:
-    """Arrange panels of one size in at most `COLUMNS` columns, with rows as even as possible; empty cells are white."""
-    rows = -(-len(panels) // COLUMNS)
+    """Arrange panels of one size in at most four or five columns, with rows as even as possible; empty cells are white."""
+    rows = -(-len(panels) // (4 if len(panels) <= FEW_PANELS else 5))
     columns = -(-len(panels) // rows)
     cells = [*panels, *[np.full_like(panels[0], 255)] * (rows * columns - len(panels))]
     return np.concatenate([np.concatenate(cells[r * columns : (r + 1) * columns], 1) for r in range(rows)])

@@ -64,6 +64,26 @@ class KindAnswer:
     label: str | None = None
 
 
+KINDS_IN_WORDS = (
+    "hinge_along_edge: it turns about a line that runs along an edge where it meets the rest, as doors, lids and flaps "
+    "do; hinge_into_surface: it turns about a line that sticks into the surface it sits on, as knobs and wheels do; "
+    "hinge_hidden: it turns, but the hinge is under the surface; slide_in_or_out: it moves out of the object or into "
+    "it, as drawers and push buttons do; slide_along_surface: it slides along the surface, as sliding windows "
+    "and toaster levers do; fixed: it does not move. endless: it can turn round and round."
+)
+
+
+def kind_schema(labels: Sequence[str]) -> dict[str, Any]:
+    """Return the properties of an answer about a part's kind of joint, and its label among these if there are any."""
+    label = {"label": one_of((*labels, OTHER))} if labels else {}
+    return {"joint": one_of(tuple(JointAppearance)), "endless": BOOLEAN, **label}
+
+
+def _kind_of(part: Mapping[str, Any]) -> KindAnswer:
+    kind, label = JointAppearance(part["joint"]), part.get("label")
+    return KindAnswer(kind, part["endless"] and kind.is_rotation, None if label == OTHER else label)
+
+
 @dataclass(frozen=True, eq=False)
 class WhichKinds:
     """What kind of joint has each part? One picture per part.
@@ -81,27 +101,17 @@ class WhichKinds:
         labels = f" label: which of these it is: {', '.join(self.labels)}; else {OTHER!r}." if self.labels else ""
         return (
             f"Object: {self.category}. {_listed(self.parts)} How is each attached to the object that it belongs to? "
-            "hinge_along_edge: it turns about a line that runs along an edge where it meets the rest, as doors, lids and flaps "
-            "do; hinge_into_surface: it turns about a line that sticks into the surface it sits on, as knobs and wheels do; "
-            "hinge_hidden: it turns, but the hinge is under the surface; slide_in_or_out: it moves out of the object or into "
-            "it, as drawers and push buttons do; slide_along_surface: it slides along the surface, as sliding windows "
-            "and toaster levers do; fixed: it does not move. endless: it can turn round and round. The part is coloured."
-            f"{labels}"
+            f"{KINDS_IN_WORDS} The part is coloured.{labels}"
         )
 
     def schema(self) -> dict[str, Any]:
-        label = {"label": one_of((*self.labels, OTHER))} if self.labels else {}
-        return an_answer(parts=a_list(an_object(part=INTEGER, joint=one_of(tuple(JointAppearance)), endless=BOOLEAN, **label)))
+        return an_answer(parts=a_list(an_object(part=INTEGER, **kind_schema(self.labels))))
 
     def parse(self, answer: Mapping[str, Any]) -> tuple[KindAnswer, ...]:
         """Return the answers in the order of the parts."""
         one_each([p["part"] for p in answer["parts"]], len(self.parts), "part")
         by_part = {p["part"]: p for p in answer["parts"]}
-        return tuple(self._answer(p) for _, p in sorted(by_part.items()))
-
-    def _answer(self, part: Mapping[str, Any]) -> KindAnswer:
-        kind, label = JointAppearance(part["joint"]), part.get("label")
-        return KindAnswer(kind, part["endless"] and kind.is_rotation, None if label == OTHER else label)
+        return tuple(_kind_of(p) for _, p in sorted(by_part.items()))
 
 
 @dataclass(frozen=True, eq=False)
@@ -237,7 +247,8 @@ class MotionTable(Brief):
     """Numbered motions of one part, as drawn, and the displacement of each [rad or m]: number k is row k - 1.
 
     blocked: motions in which the part would hit something as modelled; moving: faces of the mesh that move, including those of
-    carried parts, None for the part's own alone; words: of each motion, () for whether it turns or slides.
+    carried parts, None for the part's own alone; words: of each motion, () for whether it turns or slides; alike: number of
+    parts of this shape, which the answer holds for.
     """
 
     part: PartShown
@@ -246,6 +257,7 @@ class MotionTable(Brief):
     blocked: tuple[bool, ...] = ()
     moving: Int[np.ndarray, " f"] | None = None
     words: tuple[str, ...] = ()
+    alike: int = 1
 
     @property
     def described(self) -> tuple[str, ...]:
@@ -272,11 +284,13 @@ class PartFit(StrEnum):
 class MotionPick:
     """Picked motion of a part.
 
-    motion: a row of the table, None for none of them; part: whether the region shown is right.
+    motion: a row of the table, None for none of them; part: whether the region shown is right; attached: the kind of joint,
+    None if it was not asked for.
     """
 
     motion: int | None
     part: PartFit = PartFit.RIGHT
+    attached: KindAnswer | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -285,7 +299,8 @@ class WhichMotions:
 
     One strip of pictures per part: at rest, then moved by each motion.
 
-    ask_fit: the answer also says whether the coloured region is the whole part and nothing else.
+    ask_fit: the answer also says whether the coloured region is the whole part and nothing else; ask_kind: it also says what
+    kind of joint the part has, and which of the labels, if parts are given without a recognized one.
     """
 
     pictures: Pictures
@@ -293,27 +308,40 @@ class WhichMotions:
     category: str = "object"
     ask_fit: bool = False
     kind: str = "motions"
+    ask_kind: bool = False
+    labels: tuple[str, ...] = ()
 
     def text(self) -> str:
-        each = "; ".join(f"part {k}, a {t.part.label}, motions {t.listed}" for k, t in enumerate(self.tables, 1))
+        alike = [f" (one of {t.alike} of its shape that move alike)" if t.alike > 1 else "" for t in self.tables]
+        each = "; ".join(f"part {k}, a {t.part.label}{alike[k - 1]}, motions {t.listed}" for k, t in enumerate(self.tables, 1))
         fit = (
             f" part_is: {PartFit.TOO_MUCH} where things are coloured that do not move with it, {PartFit.TOO_LITTLE} where some "
             f"of it stays behind, else {PartFit.RIGHT}."
         )
+        label = f" label: which of these it is: {', '.join(self.labels)}; else {OTHER!r}." if self.labels else ""
         return (
             f"Object: {self.category}. Each picture shows one part (coloured) at rest and then moved in several "
             "numbered ways, in no particular order; grey outlines show where it was. Which is the way that it moves in the "
             "real object, 0 if none of them is? Look at where its hinge would be, which side its handle is on, and what it "
             "would hit. Blocked ways run into something; choose one all the same where only the model is in the way. "
-            f"{each}.{fit if self.ask_fit else ''}"
+            f"{each}.{f' joint: how it is attached. {KINDS_IN_WORDS}' if self.ask_kind else ''}{label}"
+            f"{fit if self.ask_fit else ''}"
         )
 
     def schema(self) -> dict[str, Any]:
+        kind = kind_schema(self.labels) if self.ask_kind else {}
         fit = {"part_is": one_of(tuple(PartFit))} if self.ask_fit else {}
-        return an_answer(parts=a_list(an_object(part=INTEGER, motion=INTEGER, **fit)))
+        return an_answer(parts=a_list(an_object(part=INTEGER, motion=INTEGER, **kind, **fit)))
 
     def parse(self, answer: Mapping[str, Any]) -> tuple[MotionPick, ...]:
         """Return a pick for each table, in the order of the tables."""
         rows = picked_rows(answer["parts"], "motion", [len(t.motions) for t in self.tables], 0)
-        fits = {p["part"]: PartFit(p.get("part_is", PartFit.RIGHT)) for p in answer["parts"]}
-        return tuple(MotionPick(None if row < 0 else row, fits[k]) for k, row in enumerate(rows, 1))
+        told = {p["part"]: p for p in answer["parts"]}
+        return tuple(
+            MotionPick(
+                None if row < 0 else row,
+                PartFit(told[k].get("part_is", PartFit.RIGHT)),
+                _kind_of(told[k]) if self.ask_kind else None,
+            )
+            for k, row in enumerate(rows, 1)
+        )

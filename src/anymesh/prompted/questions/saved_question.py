@@ -18,7 +18,16 @@ import numpy as np
 
 from anymesh.errors import InputError
 from anymesh.prompted.questions.grounding import MarksAnswer, WhichMarks, WhichViews
-from anymesh.prompted.questions.prompting import OTHER, KindAnswer, WhichArrows, WhichKinds, WhichMotions, WhichPoints
+from anymesh.prompted.questions.prompting import (
+    OTHER,
+    JointAppearance,
+    KindAnswer,
+    MotionPick,
+    WhichArrows,
+    WhichKinds,
+    WhichMotions,
+    WhichPoints,
+)
 from anymesh.prompted.questions.recognition import Recognize
 from anymesh.types import JointType, Picture
 from anymesh.types.motion import Recognition, RecognizedLabel
@@ -142,9 +151,7 @@ def answer_object(question: Question[Any], answer: Any) -> dict[str, Any]:
         case WhichArrows():
             return _parts([{"part": k, "arrow": row + 1} for k, row in enumerate(answer, 1)])
         case WhichMotions():
-            rows = [{"part": k, "motion": 0 if a.motion is None else a.motion + 1} for k, a in enumerate(answer, 1)]
-            fits = [{"part_is": a.part.value} if question.ask_fit else {} for a in answer]
-            return _parts([row | fit for row, fit in zip(rows, fits, strict=True)])
+            return _parts([_motion(question, k, a) for k, a in enumerate(answer, 1)])
     raise TypeError(type(question).__name__)
 
 
@@ -164,6 +171,12 @@ def _marks(question: WhichMarks, answer: MarksAnswer) -> dict[str, Any]:
 def _kind(number: int, answer: KindAnswer, labelled: bool) -> dict[str, Any]:
     label = {"label": answer.label or OTHER} if labelled else {}
     return {"part": number, "joint": answer.kind.value, "endless": answer.endless, **label}
+
+
+def _motion(question: WhichMotions, number: int, pick: MotionPick) -> dict[str, Any]:
+    kind = _kind(number, pick.attached or KindAnswer(JointAppearance.FIXED), bool(question.labels)) if question.ask_kind else {}
+    fit = {"part_is": pick.part.value} if question.ask_fit else {}
+    return {"part": number, "motion": 0 if pick.motion is None else pick.motion + 1, **kind, **fit}
 
 
 def _recognition(question: Recognize, answer: Recognition) -> dict[str, Any]:

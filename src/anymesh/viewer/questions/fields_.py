@@ -220,7 +220,7 @@ class Fields:
         hide.on_update(lambda event: self._act(lambda: set_hidden(hide.value)) if event.client is not None else None)
         more.on_click(lambda event: self._act(lambda: add(event.target.value)))
 
-    def _kinds(self, form: KindsForm) -> None:
+    def _kinds(self, form: KindsForm | MotionsForm) -> None:
         gui, row, words = self._gui, form.rows[form.step], {v.value: k for k, v in KINDS.items()}
         joint = gui.add_dropdown("Joint", tuple(KINDS), initial_value=words[row.joint])
         self._bound(form, joint, lambda v: setattr(row, "joint", KINDS[v].value))
@@ -241,6 +241,8 @@ class Fields:
         table = form.table
         names = [*(str(k + 1) for k in range(len(table.motions))), NONE_OF_THESE]
         self._numbers(form, "Motion", names)
+        if form.rows:
+            self._kinds(form)
         if form.ask_fit:
             words = {v.value: k for k, v in FITS.items()}
             fit = self._gui.add_dropdown("The coloured part", tuple(FITS), initial_value=words[form.fits[form.step]])

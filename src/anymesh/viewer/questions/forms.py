@@ -239,6 +239,15 @@ class KindRow:
     endless: bool = False
     label: str = OTHER
 
+    @classmethod
+    def of(cls, part: Mapping[str, Any]) -> KindRow:
+        """Return the row of an answer about a part."""
+        return cls(part["joint"], part["endless"], part.get("label", OTHER))
+
+    def answer(self, labels: Sequence[str]) -> dict[str, Any]:
+        """Return the answer; labels: as in `KindsForm`."""
+        return {"joint": self.joint, "endless": self.endless, **({"label": self.label} if labels else {})}
+
 
 class KindsForm(PartsForm):
     """Attachment of each part. labels: options, empty if labels are not asked for."""
@@ -253,15 +262,10 @@ class KindsForm(PartsForm):
 
     def fill(self, answer: Mapping[str, Any]) -> None:
         for p in answer["parts"]:
-            self.rows[p["part"] - 1] = KindRow(p["joint"], p["endless"], p.get("label", OTHER))
+            self.rows[p["part"] - 1] = KindRow.of(p)
 
     def answer(self) -> dict[str, Any]:
-        return {
-            "parts": [
-                {"part": k, "joint": row.joint, "endless": row.endless, **({"label": row.label} if self.labels else {})}
-                for k, row in enumerate(self.rows, 1)
-            ]
-        }
+        return {"parts": [{"part": k, **row.answer(self.labels)} for k, row in enumerate(self.rows, 1)]}
 
 
 class TableForm(PartsForm):
@@ -342,6 +346,8 @@ class MotionsForm(TableForm):
     def __init__(self, question: WhichMotions) -> None:
         super().__init__(question.tables, 1)
         self.ask_fit = question.ask_fit
+        self.labels: tuple[str, ...] = (*question.labels, OTHER) if question.labels else ()
+        self.rows = [KindRow() for _ in question.tables] if question.ask_kind else []
         self.fits = [PartFit.RIGHT.value] * len(question.tables)
 
     @property
@@ -349,11 +355,18 @@ class MotionsForm(TableForm):
         """Description of the chosen motion of the part that is shown."""
         number, table = self.chosen[self.step], self.table
         if number == 0:
-            return "None of these: the next ones are shown, if there are any."
+            return "None of these."
         return f"Motion {number} of {len(table.motions)}: it {table.described[number - 1]}."
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        super().fill(answer)
+        if self.rows:
+            self.rows = [KindRow.of(p) for p in sorted(answer["parts"], key=lambda p: p["part"])]
 
     def answer(self) -> dict[str, Any]:
         answer = super().answer()
+        for row, kind in zip(answer["parts"], self.rows, strict=False):
+            row |= kind.answer(self.labels)
         if self.ask_fit:
             for row, fit in zip(answer["parts"], self.fits, strict=True):
                 row["part_is"] = fit
