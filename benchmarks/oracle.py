@@ -4,24 +4,39 @@ python -m benchmarks.oracle                     parts given and end to end, with
 python -m benchmarks.oracle --noise             also how a wrong answer with probability p shows
 python -m benchmarks.oracle --markdown FILE --plot FILE.svg
 python -m benchmarks.oracle --cost [--like openai:gpt-4o] [--change fused] [NAME ...]
+python -m benchmarks.oracle --between [--against CHECKOUT/src] [NAME ...]
 
 --cost: what a vision-language model is asked for the shipped examples: calls, tokens, dollars, seconds. No model is called:
 ground truth says the answers through the road of a model (pictures, schema, JSON, checks, cache). Tokens are estimates by the
 provider's formula for pictures and 4 letters a token for words; seconds are this program's own. --change fused takes each
 object as one surface of about 50,000 faces, as generators make them.
+
+--between: seconds from an answer in files to the next question or the asset, of a run that waits (the tool `articulate` of
+`anymesh mcp`), and of `anymesh articulate` started again after each answer, of this build or of another. The two take turns
+question by question, so that both see the same load of the machine.
 """
 
 from __future__ import annotations
 
+import json
+import os
+import shutil
+import subprocess
+import sys
 import tempfile
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
+from itertools import zip_longest
 from pathlib import Path
+from statistics import median
+from typing import Any
 
 import numpy as np
 
+from anymesh.agents.tools import AgentTools, Places
 from anymesh.config import Config
+from anymesh.errors import OpenQuestionError
 from anymesh.evaluation.changes import CHANGES, changed
 from anymesh.evaluation.datasets.urdf_ import CLASSES, synthesize
 from anymesh.evaluation.ground_truth import GroundTruth, example_truths, prepared
@@ -32,6 +47,10 @@ from anymesh.evaluation.score import JointScore, ObjectScore, score
 from anymesh.evaluation.summary import group_table
 from anymesh.export.asset_json import usage
 from anymesh.pipeline.solving import Solver, solve
+from anymesh.prompted.answerers.file_answerer import open_in
+from anymesh.prompted.answerers.question_files import CHECK, find_questions
+from anymesh.prompted.questions.saved_question import answer_object, unpack_question
+from anymesh.types.questions import VisualAnswerer
 from benchmarks import EXAMPLES, parser_of, table_head, table_row
 
 HEAD = """# The oracle
@@ -51,7 +70,16 @@ without calls or cost.
 COST_COLUMNS = (
     "object", "faces", "parts", "calls", "pictures", "tokens in", "tokens out", "USD", "s", "processor s", "s cached",
 )  # fmt: skip
+BETWEEN_HEAD = """# From an answer to the next question
+
+`python -m benchmarks.oracle --between --against {against} {names}`. Answers are the oracle's. Seconds from an answer to the
+next question, or to the asset: of `anymesh articulate` started again, and of a run that waits; at last the
+median of each column.
+"""
+BETWEEN_COLUMNS = ("object", "to", "s, started again", "s, waiting", "ratio")
 VERIFY = ("motion", "free", "off")
+SOURCE = Path(__file__).parents[1] / "src"
+Step = tuple[str, float]  # what came next, and the seconds that it took
 WRONG = (0.0, 0.1, 0.2, 0.35, 0.5)
 COLORS = {"motion": "#0a6", "free": "#26c", "off": "#c33"}
 
@@ -158,6 +186,71 @@ def cost(truths: Sequence[GroundTruth], change: str, like: str) -> list[str]:
     return [*lines, ""]
 
 
+def started_again(mesh: Path, folder: Path, source: Path, answer: Callable[[Path], dict[str, Any]]) -> Iterator[Step]:
+    """Answer all questions with a new process after each."""
+    out, asked = folder / "out", folder / "questions"
+    command = ["-m", "anymesh", "articulate", str(mesh), "-o", str(out), "--answerer", f"files:{asked}", "-q"]
+    while True:
+        begin = time.perf_counter()
+        done = subprocess.run([sys.executable, *command], env={**os.environ, "PYTHONPATH": str(source)}, check=False)
+        seconds = time.perf_counter() - begin
+        if done.returncode == 0:
+            yield "asset", seconds
+            return
+        if done.returncode != OpenQuestionError.exit_code:
+            raise SystemExit(f"{mesh.stem}: anymesh articulate ended with {done.returncode}")
+        (question,) = open_in(asked)
+        yield question.kind, seconds
+        question.write_answer(json.dumps(answer(question.path)))
+
+
+def waiting(mesh: Path, folder: Path, answer: Callable[[Path], dict[str, Any]]) -> Iterator[Step]:
+    """Answer all questions of a run that waits."""
+    copied = Path(shutil.copy(mesh, folder / mesh.name))
+    tools, answers = AgentTools(Places([folder])), []
+    try:
+        while True:
+            begin = time.perf_counter()
+            told = tools.articulate(copied.name, "out", answers=answers).record
+            yield told.get("kind", "asset"), time.perf_counter() - begin
+            if told["state"] == "done":
+                return
+            answers = [{"question": told["question"], "answer": answer(folder / told["question"])}]
+    finally:
+        tools.close()
+
+
+def known_answer(answerer: VisualAnswerer, folder: Path) -> dict[str, Any]:
+    """Return the answer to the question in a folder."""
+    (asked,) = (q for q in find_questions(folder) if q.path == folder)
+    question = unpack_question((folder / CHECK).read_bytes(), asked.pictures())
+    return answer_object(question, answerer.ask(question))
+
+
+def between(truths: Sequence[GroundTruth], source: Path) -> list[str]:
+    """Return the page about the time between questions. source: of the build that is started again after each answer."""
+    lines = [
+        BETWEEN_HEAD.format(against=source.parent.name, names=" ".join(t.name for t in truths)),
+        *table_head(BETWEEN_COLUMNS),
+    ]
+    pairs = []
+    for truth in truths:
+        answer = partial(known_answer, oracle(prepared(truth)))
+        with tempfile.TemporaryDirectory() as one, tempfile.TemporaryDirectory() as two:
+            steps = zip_longest(
+                started_again(truth.mesh, Path(one), source, answer), waiting(truth.mesh, Path(two), answer), fillvalue=None
+            )
+            for k, (before, now) in enumerate(steps):
+                if k and before and now:  # the first question follows no answer
+                    pairs.append((before[1], now[1], now[1] / before[1]))
+                    cells = (f"{before[1]:.1f}", f"{now[1]:.2f}", f"{now[1] / before[1]:.2f}")
+                    lines.append(table_row((truth.name, now[0], *cells)))
+                    print(lines[-1], flush=True)
+    lines.append(table_row(("median", "", *(f"{median(column):.2f}" for column in zip(*pairs, strict=True)))))
+    print(lines[-1], flush=True)
+    return [*lines, ""]
+
+
 def loss(examples: Sequence[GroundTruth], with_noise: bool, plot_file: Path | None) -> list[str]:
     """Return the page about what is lost, without errors and with."""
     with tempfile.TemporaryDirectory() as folder:
@@ -181,6 +274,8 @@ def main() -> None:
     parser.add_argument("names", nargs="*", help="with --cost: examples; all when none is named")
     parser.add_argument("--noise", action="store_true", help="also with wrong answers")
     parser.add_argument("--cost", action="store_true", help="what a model is asked, instead of what is lost")
+    parser.add_argument("--between", action="store_true", help="seconds from an answer to the next question")
+    parser.add_argument("--against", type=Path, default=SOURCE, help="with --between: src of the build that starts again")
     parser.add_argument("--like", default="openai:gpt-4o", help="with --cost: whose tokens and prices")
     parser.add_argument(
         "--change", default="none", choices=list(CHANGES), help="with --cost: of each mesh, as in `anymesh eval`"
@@ -189,7 +284,10 @@ def main() -> None:
     parser.add_argument("--plot", type=Path, help="file to write the plot of --noise to")
     options = parser.parse_args()
     truths = [t for t in example_truths(EXAMPLES) if not options.names or t.name in options.names]
-    page = cost(truths, options.change, options.like) if options.cost else loss(truths, options.noise, options.plot)
+    if options.between:
+        page = between(truths, options.against.resolve())
+    else:
+        page = cost(truths, options.change, options.like) if options.cost else loss(truths, options.noise, options.plot)
     if options.markdown:
         options.markdown.write_text("\n".join(page), encoding="utf-8")
 

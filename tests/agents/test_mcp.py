@@ -145,14 +145,14 @@ def test_an_agent_takes_a_mesh_to_a_checked_asset_over_stdio(work: Path) -> None
 @pytest.mark.slow
 def test_an_agent_answers_all_questions_over_stdio(work: Path) -> None:
     async def script(agent: Agent) -> None:
+        answers: list[dict[str, Any]] = []
         for _ in range(12):
-            told, pictures = await agent.call("articulate", mesh="box.glb", out="out", formats="urdf")
+            told, pictures = await agent.call("articulate", mesh="box.glb", out="out", formats="urdf", answers=answers)
             if told.get("state") != "open":
                 break
             assert pictures
             assert all(Image.open(io.BytesIO(png)).size[0] > 100 for png in pictures)
-            answered, _ = await agent.call("answer", question=told["question"], answer=known_answer(work / told["question"]))
-            assert answered["checked_whole"]
+            answers = [{"question": told["question"], "answer": known_answer(work / told["question"])}]
         await finish(agent, work, told, pictures)
 
     anyio.run(over_stdio, work, script)
@@ -204,6 +204,8 @@ FAULTS: dict[str, tuple[str, dict[str, Any], str]] = {
     "no such mesh": ("articulate", {"mesh": "none.glb", "out": "out"}, "none.glb"),
     "a null byte": ("inspect", {"asset": "a\x00b"}, "not a path"),
     "no asset": ("inspect", {"asset": "box"}, "holds no asset"),
+    "no answer in answers": ("articulate", {"mesh": "box.glb", "out": "out", "answers": [{"question": "."}]}, "an answer is"),
+    "answers to no question": ("articulate", {"mesh": "box.glb", "out": "out", "answers": [{"answer": "x"}]}, "no questions"),
     "no question": ("answer", {"question": ".", "answer": "geometry"}, "is not a question"),
     "a question outside": ("answer", {"question": "../..", "answer": "geometry"}, "lies outside"),
     "corrections of nothing": ("correct", {"asset": "out", "corrections": []}, "not an output of anymesh"),

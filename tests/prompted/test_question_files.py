@@ -20,8 +20,7 @@ from anymesh.errors import InputError, OpenQuestionError, OptionError
 from anymesh.evaluation.evaluating import evaluate
 from anymesh.evaluation.ground_truth import example_truths, prepared
 from anymesh.evaluation.oracle import oracle
-from anymesh.prompted.answerers import file_answerer as files
-from anymesh.prompted.answerers.file_answerer import answer_text, open_in, record_answer
+from anymesh.prompted.answerers.file_answerer import answer_text, open_in, record_answers
 from anymesh.prompted.answerers.question_files import example_answer, explain_schema, find_questions
 from anymesh.prompted.answerers.recordings import Replay
 from anymesh.prompted.questions.asking import BadAnswerError, a_list, an_object, check_schema, one_of
@@ -98,12 +97,12 @@ def test_a_refused_answer_says_why_and_stays_open(work: Path, known, capsys) -> 
     assert waiting(capsys)["questions"] == [str(folder)]
     assert "must lie in 0.002..200" in (folder / "refused.md").read_text()
     with pytest.raises(OptionError, match="longest_side_m"):
-        record_answer(Path("q"), wrong)
+        record_answers([(Path("q"), wrong)])
     for bad in ("{", "no", "[]", '{"category": "box"}'):
         with pytest.raises(OptionError, match="not a valid answer"):
-            record_answer(Path("q"), bad)
+            record_answers([(Path("q"), bad)])
     assert [q.path for q in open_in(Path("q"))] == [folder]
-    record_answer(Path("q"), right)
+    record_answers([(Path("q"), right)])
     assert not (folder / "refused.md").exists()
     assert open_in(Path("q")) == []
 
@@ -111,7 +110,7 @@ def test_a_refused_answer_says_why_and_stays_open(work: Path, known, capsys) -> 
 @pytest.mark.slow
 def test_a_changed_mesh_asks_anew_and_an_other_object_is_refused(work: Path, known, capsys) -> None:
     (folder,) = map(Path, waiting(capsys)["questions"])
-    record_answer(folder, known(folder))
+    record_answers([(folder, known(folder))])
     shutil.copy(EXAMPLES / "meshes" / "laptop.glb", "box.glb")
     (other,) = map(Path, waiting(capsys)["questions"])
     assert (other.name, other != folder) == ("02-recognize", True)
@@ -134,7 +133,7 @@ def segment_until_done(known) -> list[str]:
         except OpenQuestionError as error:
             (folder,) = error.folders
             asked.append(folder.name)
-            record_answer(folder, known(folder))
+            record_answers([(folder, known(folder))])
 
 
 @pytest.mark.slow
@@ -143,7 +142,7 @@ def test_another_answer_to_a_finished_stage_makes_it_and_what_follows_anew(work:
     assert segment_until_done(known) == []  # nothing has changed
     found = json.loads(Path("q", asked[0], "answer.json").read_text())
     found["parts"][0]["label"] = "hatch"
-    record_answer(Path("q", asked[0]), json.dumps(found))
+    record_answers([(Path("q", asked[0]), json.dumps(found))])
     with pytest.raises(OpenQuestionError) as stopped:
         pipeline.segment("box.glb", "out", answerer="files:q", force=True)
     assert "hatch" in (stopped.value.folders[0] / "question.md").read_text()
@@ -157,7 +156,6 @@ def test_a_question_is_left_to_geometry(work: Path, capsys) -> None:
 
 
 def test_waiting_goes_on_when_the_answer_comes(work: Path, known, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(files, "POLL", 0.05)
     done = threading.Event()
 
     def answers() -> None:
@@ -192,7 +190,7 @@ def test_a_batch_leaves_the_questions_of_all_open(work: Path, known, capsys) -> 
     assert run(["answer", "q", "geometry", "--json"]) == 2  # which one?
     assert "name the one to answer" in json.loads(capsys.readouterr().out)["error"]
     for question in open_in(Path("q")):
-        record_answer(question.path, known(question.path))
+        record_answers([(question.path, known(question.path))])
     Path("meshes/broken.glb").unlink()
     assert run(command) == 9
     again = json.loads(capsys.readouterr().out)["questions"]

@@ -29,6 +29,10 @@ Precision = Annotated[
     float,
     Field(description="Write only joints that are right with this probability, such as 0.9; others are proposals.", ge=0, le=1),
 ]
+ANSWERS = (
+    "Answers to open questions, recorded first, all or none: objects with `question` (its folder; not needed for the only open "
+    "question) and `answer` (an object by the schema, or 'geometry' to leave it to geometry)."
+)
 CORRECTIONS = (
     "Each is an object with `part` (a part or joint) and operations, as of `anymesh correct`, such as "
     '{"part": "door_1", "motion": 3, "limits": "0,110", "copies": true}; operations, in the order in which they apply:\n'
@@ -106,11 +110,13 @@ def _making(work: ToolRunner) -> tuple[Callable[..., Any], ...]:
         formats: Formats | None = None,
         force: Annotated[bool, Field(description="Replace an existing output.")] = False,
         time_limit: Annotated[float, Field(description="Seconds.", gt=0)] = 600.0,
+        answers: Annotated[list[dict[str, Any]] | None, Field(description=ANSWERS)] = None,
     ) -> Content:
-        """Turn a rigid mesh into an articulated asset. Stops at each open question: answer it, then call again as before."""
+        """Turn a rigid mesh into an articulated asset. Stops at each open question: call again as before, with its answer."""
         return await work.run(
             ctx, work.tools.articulate, mesh, out, answerer=answerer, parts=parts, category=category, up=up, scale=scale,
-            mass=mass, precision=precision, at_least=at_least, formats=formats, force=force, time_limit=time_limit, long=True,
+            mass=mass, precision=precision, at_least=at_least, formats=formats, force=force, time_limit=time_limit,
+            answers=answers or (), long=True,
         )  # fmt: skip
 
     async def answer(

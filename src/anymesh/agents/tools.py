@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
+import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
@@ -14,16 +16,27 @@ from anymesh.correcting import CorrectionError, EditableAsset, History, correcti
 from anymesh.correcting.editable import now
 from anymesh.correcting.history import pack_entry, unpack_log
 from anymesh.correcting.listing import motion_rows, named_part, region_rows
-from anymesh.errors import InputError, OpenQuestionError, OptionError, OutputError
+from anymesh.errors import InputError, OptionError, OutputError
+from anymesh.pipeline.atomic_folder import locks_known
 from anymesh.pipeline.options import FILES
-from anymesh.prompted.answerers.file_answerer import open_in, record_answer
-from anymesh.prompted.answerers.question_files import QuestionFolder, find_questions
+from anymesh.prompted.answerers.file_answerer import Recorded, open_in, open_questions, record_answers
+from anymesh.prompted.answerers.question_files import (
+    POLL,
+    QuestionFolder,
+    QuestionStore,
+    find_questions,
+    is_occupied,
+    read_question,
+)
 from anymesh.runtime import DEFAULT_SECONDS, Progress, read_json, silent
 from anymesh.types import Brief
+from anymesh.viewer.intake.work import ArticulationWork
 
 AUTHOR = "agent"  # in the log of corrections
 QUESTIONS = ".questions"  # suffix of the folder with an output's questions, beside the output
 ANSWERERS = ("files", "geometry")  # only answerers that cost nothing
+MAX_WAITING = 3  # runs that wait at a time; an estimate, of a few hundred megabytes each
+MAX_IDLE = 3600.0  # [s] after which a run that waits is ended; an estimate
 SHEET_FROM = 5  # number of pictures from which they are shown as one sheet by default
 
 
@@ -68,11 +81,104 @@ class ToolResult(Brief):
     pictures: tuple[tuple[str, bytes], ...] = ()
 
 
+@dataclass(eq=False)
+class _WaitingRun:
+    """A run in a child process. made_with: its options and the digest of its mesh; read: answers it has read, by question."""
+
+    work: ArticulationWork
+    made_with: Mapping[str, Any]
+    read: dict[Path, str | None]
+    timer: threading.Timer | None = None
+
+    def rest(self) -> None:
+        """End the run after MAX_IDLE."""
+        self.timer = threading.Timer(MAX_IDLE, self.work.cancel)
+        self.timer.daemon = True
+        self.timer.start()
+
+    def end(self) -> None:
+        if self.timer is not None:
+            self.timer.cancel()
+        self.work.cancel()
+
+
+class WaitingRuns:
+    """Runs that wait for an answer with all their state, each in a child process, by output folder.
+
+    A run ends when its mesh, its options or an answer that it has read changes, after MAX_IDLE, or if MAX_WAITING others were
+    used since; its finished stages stay for the next one.
+    """
+
+    def __init__(self) -> None:
+        self._waiting: dict[Path, _WaitingRun] = {}
+
+    def go_on(
+        self, mesh: Path, out: Path, questions: Path, options: Mapping[str, Any], progress: Progress
+    ) -> QuestionFolder | None:
+        """Start a run, or go on with the one that waits, until a question is open; return None when the asset is written.
+
+        Raise InputError for everything that ends the run early.
+        """
+        content = mesh.read_bytes() if mesh.is_file() else b""
+        made_with, run = {**options, "mesh": mesh, "sha256": sha256(content).hexdigest()}, self._waiting.pop(out, None)
+        if run is not None and run.timer is not None:
+            run.timer.cancel()
+        changed = run is not None and (run.made_with != made_with or any(_answer_in(q) != a for q, a in run.read.items()))
+        if run is not None and (changed or run.work.over):
+            run.end()
+            run = None
+        run = run or _WaitingRun(ArticulationWork(mesh, out, **options, wait=True), made_with, {})
+        try:
+            asked = _followed(run, questions, progress)
+        except BaseException:
+            run.end()
+            raise
+        if asked is not None:
+            self._waiting[out] = run
+            run.rest()
+            for path in list(self._waiting)[:-MAX_WAITING]:
+                self._waiting.pop(path).end()
+        return asked
+
+    def close(self) -> None:
+        """End all runs."""
+        while self._waiting:
+            self._waiting.popitem()[1].end()
+
+
+def _followed(run: _WaitingRun, questions: Path, progress: Progress) -> QuestionFolder | None:
+    told = ("", "")
+    while True:
+        over, waits = run.work.over, is_occupied(questions) or not locks_known()
+        asked = list(QuestionStore(questions).questions()) if waits else []
+        waiting = open_questions(asked)
+        if waiting and not over:
+            run.read = {q.path: q.answer() for q in asked if not q.outdated and q.path != waiting[0].path}
+            return waiting[0]
+        if over and not run.work.done:
+            raise InputError(run.work.error or "the run was ended; call `articulate` again to resume")
+        if over:
+            return None
+        if told != (run.work.stage, run.work.item):
+            told = (run.work.stage, run.work.item)
+            progress(*told, 0, 1)
+        run.work.wait(POLL)
+
+
+def _answer_in(question: Path) -> str | None:
+    asked = read_question(question)
+    return None if asked is None else asked.answer()
+
+
 class AgentTools:
     """The tools for some folders. Input paths are checked, and output paths are valid as input."""
 
     def __init__(self, places: Places) -> None:
-        self._places = places
+        self._places, self._runs = places, WaitingRuns()
+
+    def close(self) -> None:
+        """End the runs that wait for answers."""
+        self._runs.close()
 
     def articulate(
         self,
@@ -90,9 +196,13 @@ class AgentTools:
         formats: str | None = None,
         force: bool = False,
         time_limit: float = DEFAULT_SECONDS,
+        answers: Sequence[Mapping[str, Any]] = (),
         progress: Progress = silent,
     ) -> ToolResult:
-        """Articulate a mesh until its asset is written or a question is open."""
+        """Record answers, then articulate a mesh until its asset is written or a question is open.
+
+        answers: objects with `answer`, and with `question` unless it is the only open one about this mesh.
+        """
         source, target = self._places.inside(mesh), self._places.inside(out, below=True)
         if answerer not in ANSWERERS:
             raise OptionError(f"answerer must be one of {', '.join(ANSWERERS)}, found {answerer!r}")
@@ -100,18 +210,21 @@ class AgentTools:
             parts = str(self._places.inside(parts))
         questions = target.parent / f"{target.name}{QUESTIONS}"
         who = f"{FILES}{questions}" if answerer == ANSWERERS[0] else answerer
-        try:
-            asset = pipeline.articulate(
-                source, target, answerer=who, parts=parts, category=category, up=up, scale=scale, mass=mass,
-                precision=precision, at_least=at_least, formats=formats, force=force, time_limit=time_limit, progress=progress,
-            )  # fmt: skip
-        except OpenQuestionError as error:
-            (path,) = error.folders
-            shown = self._question(next(q for q in find_questions(path) if q.path == path))
-            next_step = "answer the question with the tool `answer`, then call `articulate` again with the same arguments"
+        options: dict[str, Any] = {
+            "answerer": who, "parts": parts, "category": category, "up": up, "scale": scale, "mass": mass,
+            "precision": precision, "at_least": at_least, "formats": formats, "force": force, "time_limit": time_limit,
+        }  # fmt: skip
+        if answers:
+            self._record(answers, questions)
+        if who == answerer:
+            pipeline.articulate(source, target, progress=progress, **options)
+        elif (asked := self._runs.go_on(source, target, questions, options, progress)) is not None:
+            shown = self._question(asked)
+            next_step = "call `articulate` again with the same arguments and answers=[{question, answer}]"
             return ToolResult({"state": "open", "next": next_step, **shown.record}, shown.pictures)
         shown = self.inspect(out)
-        return ToolResult({"state": "done", "answerer": asset.answerer, **shown.record}, shown.pictures)
+        made = (read_json(target / "asset.json") or {}).get("answerer")
+        return ToolResult({"state": "done", "answerer": made, **shown.record}, shown.pictures)
 
     def open_questions(self, folder: str | None = None, *, pictures: str = "auto") -> ToolResult:
         """List open questions, the first one with its pictures. pictures: auto, all (each at full size) or none."""
@@ -126,14 +239,23 @@ class AgentTools:
         return ToolResult({"open": len(questions), **first.record, "also_open": others}, first.pictures)
 
     def answer(self, question: str, answer: Mapping[str, Any] | str) -> ToolResult:
-        """Check and write an answer to an open question."""
-        folder = self._places.inside(question)
-        if not (folder / "question.json").is_file():
-            raise OptionError(f"{question!r} is not a question; `open_questions` lists them")
-        recorded = record_answer(folder, answer if isinstance(answer, str) else json.dumps(answer))
-        return ToolResult(
-            {"answered": self._places.shown(folder), "checked_whole": recorded.whole, "next": "call `articulate` again"}
-        )
+        """Check and write an answer to an open question; a run that waits for it goes on at once."""
+        (recorded,) = self._record([{"question": question, "answer": answer}], None)
+        answered = self._places.shown(recorded.question.path)
+        return ToolResult({"answered": answered, "checked_whole": recorded.whole, "next": "call `articulate` again"})
+
+    def _record(self, answers: Sequence[Mapping[str, Any]], folder: Path | None) -> list[Recorded]:
+        """Record all answers or none. folder: of the questions about the mesh, for an answer that names no question."""
+        pairs = []
+        for given in answers:
+            if not isinstance(given, Mapping) or "answer" not in given or not given.keys() <= {"question", "answer"}:
+                raise OptionError(f"an answer is an object with `question` and `answer`, found {str(given)[:60]!r}")
+            name, answer = given.get("question"), given["answer"]
+            place = folder if name is None else self._places.inside(str(name))
+            if place is None or (name is not None and not (place / "question.json").is_file()):
+                raise OptionError(f"{name!r} is not a question; `open_questions` lists them")
+            pairs.append((place, answer if isinstance(answer, str) else json.dumps(answer)))
+        return record_answers(pairs)
 
     def inspect(self, asset: str, *, motions_of: str | None = None, regions_of: str | None = None) -> ToolResult:
         """Return parts, joints, confidence and warnings of an asset, its preview, and a part's motions or regions if asked."""

@@ -15,35 +15,55 @@ from anymesh.cli.output import plain
 
 if TYPE_CHECKING:
     from anymesh.prompted.answerers.question_files import QuestionFolder
+NONE_OPEN = "no question is open; run the command that asks them again to resume"
+ENDED = "the run that waited has ended, or is still at work: look at its output"
 QuestionsPath = Annotated[
     Path, typer.Argument(metavar="FOLDER", help="The folder of --answerer files:FOLDER, or of one question in it.")
 ]
-Value = Annotated[
-    str | None,
+Values = Annotated[
+    list[str] | None,
     typer.Argument(
-        metavar="VALUE", help="JSON; short, such as '1=2 2=0'; geometry to leave it; @FILE; or - for standard input."
+        metavar="[VALUE [FOLDER VALUE]...]",
+        help="JSON; short, such as '1=2 2=0'; geometry to leave it; @FILE; or - for standard input. Several: FOLDER VALUE.",
     ),
 ]
 
 
-def answer(folder: QuestionsPath, value: Value = None, json_: Json = False, quiet: Quiet = False) -> None:
-    """Show the open question in FOLDER, or answer it with VALUE, which is checked immediately."""
-    from anymesh.prompted.answerers.file_answerer import open_in, record_answer
+def answer(folder: QuestionsPath, values: Values = None, json_: Json = False, quiet: Quiet = False) -> None:
+    """Show the open question in FOLDER, or answer it with VALUE, which is checked immediately.
 
-    if value is not None:
-        saved = record_answer(folder, _read(value))
-        if json_:
-            typer.echo(json.dumps({"answered": str(saved.question.path), "checked": saved.whole, "open": saved.left}, indent=2))
-        elif not quiet:
-            typer.echo(plain(saved.words()))
-        return
-    questions = open_in(folder)
+    If a run waits for the answer (--wait), the next question is shown as soon as it is there.
+    """
+    from anymesh.prompted.answerers.file_answerer import next_question, open_in, record_answers
+    from anymesh.prompted.answerers.question_files import is_occupied
+
+    saved = record_answers(_pairs(folder, values)) if values else []
+    places = list(dict.fromkeys(s.question.path.parent for s in saved)) or [folder]
+    waited = [place for place in places if is_occupied(place)]
+    followed = [] if quiet else [q for place in waited if (q := next_question(place)) is not None]
+    questions = followed if saved else open_in(folder) or followed
     if json_:
-        typer.echo(json.dumps({"open": [question_record(q) for q in questions]}, indent=2))
-    elif questions:
-        typer.echo(_shown(questions))
-    else:
-        typer.echo("no question is open; run the command that asks them again to resume")
+        answered = [{"answered": str(s.question.path), "checked": s.whole, "open": s.left} for s in saved]
+        shown = [question_record(q) for q in questions]
+        record: dict[str, Any] = answered[0] if len(answered) == 1 else {"answers": answered} if saved else {"open": shown}
+        record |= {"next": shown} if saved and waited else {}
+        typer.echo(json.dumps(record, indent=2))
+    elif not quiet:
+        lines = [s.words(waited=s.question.path.parent in waited) for s in saved]
+        lines += [_shown(questions)] if questions else [ENDED] if waited else [] if saved else [NONE_OPEN]
+        typer.echo("\n".join(plain(line) for text in lines for line in text.split("\n")))
+
+
+def _pairs(folder: Path, values: list[str]) -> list[tuple[Path, str]]:
+    """Return each answer with the folder of its question."""
+    from anymesh.errors import OptionError
+
+    if len(values) % 2 == 0:
+        raise OptionError(
+            f"found {len(values) + 1} arguments; valid are FOLDER VALUE, once or more (a VALUE with spaces stands in quotes)"
+        )
+    folders = [folder, *map(Path, values[1::2])]
+    return [(place, _read(value)) for place, value in zip(folders, values[::2], strict=True)]
 
 
 def question_record(question: QuestionFolder) -> dict[str, Any]:
@@ -75,7 +95,7 @@ def _shown(questions: list[QuestionFolder]) -> str:
     lines.append(f"for example, in form only: {json.dumps(example_answer(first.schema))}")
     lines += [first.refusal() or ""] * (first.refusal() is not None)
     lines += [f"also open: {q.path}" for q in questions[1:]]
-    return "\n".join(plain(line) for text in lines for line in text.split("\n"))
+    return "\n".join(lines)
 
 
 def _read(value: str) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from copy import copy
 from dataclasses import replace
 from functools import cached_property, partial
 
@@ -47,11 +48,13 @@ class PromptedStages:
 
     @cached_property
     def _reference_parts(self) -> Reference:
-        return self._reference(self._geometry.parts())
+        return self._reference()
 
-    def _reference(self, segmentation: Segmentation) -> Reference:
+    def _reference(self, segmentation: Segmentation | None = None) -> Reference:
         """Return the reference made of geometry's answers, the fallback of a model."""
-        joints = self._geometry.estimate_joints(segmentation, None).joints
+        geometry = copy(self._geometry)  # a suggestion is made by a thread, while the stages may go on
+        segmentation = segmentation or geometry.parts()
+        joints = geometry.estimate_joints(segmentation, None).joints
         return reference_of(self.mesh, segmentation, joints, self.config.category or "object")
 
     @cached_property

@@ -76,11 +76,13 @@ def _from_files(
     config: Config, name: str, options: AnswererOptions, about: str | None, deadline: Deadline, stop: Event | None
 ) -> AnswererSetup:
     from anymesh.prompted.answerers.file_answerer import FileAnswerer, still_answered
-    from anymesh.prompted.answerers.question_files import QuestionStore
+    from anymesh.prompted.answerers.question_files import OCCUPIED, QuestionStore, is_occupied
 
     folder = name.removeprefix(FILES)
     if not folder.strip():
         raise OptionError("answers from files need a folder: --answerer files:FOLDER")
+    if is_occupied(Path(folder)):
+        raise OptionError(OCCUPIED.format(name))
     store = QuestionStore(Path(folder), about)
     return AnswererSetup(
         config,

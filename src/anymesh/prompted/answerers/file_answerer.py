@@ -15,15 +15,16 @@ from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from threading import Event
+from threading import Event, Thread
 from typing import Any
 
-from anymesh.errors import InputError, OpenQuestionError, OptionError
+from anymesh.errors import InputError, OpenQuestionError, OptionError, OutputError
 from anymesh.prompted.answerers.question_files import (
     ANSWER,
     CHECK,
     LEFT,
     NAME,
+    POLL,
     REFUSED,
     SHEET,
     WORDS,
@@ -31,6 +32,7 @@ from anymesh.prompted.answerers.question_files import (
     QuestionStore,
     find_questions,
     is_left_to_geometry,
+    is_occupied,
     question_page,
     wait_for_answer,
 )
@@ -44,8 +46,8 @@ from anymesh.types.questions import Answer, Question, VisualAnswerer
 
 ASSIGNMENT = re.compile(r"([^=\s#][^=#]*?)(?:#(-?\d+))?=([^=\s]*)(?=\s|$)")
 Schema = Mapping[str, Any]
+FOLLOW = 120.0  # [s] to wait for the next question of a run; an estimate
 USUAL = {"instance": 1, "part_is": "right"}  # values of properties that need not be given
-POLL = 1.0  # [s] interval between checks for an answer
 
 
 def answer_text(text: str, schema: Schema) -> str:
@@ -146,9 +148,9 @@ def _blank(name: str, schema: Schema) -> Any:
 class FileAnswerer:
     """Answerer that reads answers from folders of files.
 
-    wait: wait for a missing answer instead of raising OpenQuestionError; paused: context entered while waiting, so that a time
-    limit does not count it; stop: ends all waiting; suggest: write the fallback's answer beside each question that is waited
-    for.
+    wait: wait for a missing answer, with all state in memory, instead of raising OpenQuestionError; paused: context entered
+    while waiting, so that a time limit does not count it; stop: ends all waiting; suggest: write the fallback's answer beside
+    each question that is waited for, by a thread, so that the run goes on at once when the answer comes first.
     """
 
     warnings: tuple[str, ...] = ()
@@ -186,12 +188,20 @@ class FileAnswerer:
                     return self._accept(question, request, folder, text, time.monotonic() - begin)
                 except BadAnswerError as error:
                     folder.refuse(str(error))
-            if not self._wait or self._stop.is_set():
+            if not self._wait:
                 raise _open(folder)
+            self._store.occupy()
+            if self._suggest and folder.suggestion() is None:
+                Thread(target=self._suggested, args=(question, folder), daemon=True).start()
             with self._paused():
-                if self._suggest and folder.suggestion() is None:
-                    folder.write_suggestion(json.dumps(answer_object(question, self._fallback.ask(question))))
-                text = wait_for_answer(folder, text, POLL, self._stop)
+                text = wait_for_answer(folder, text, self._stop)
+            if text is None:
+                raise _open(folder)
+
+    def _suggested(self, question: Question[Answer], folder: QuestionFolder) -> None:
+        text = json.dumps(answer_object(question, self._fallback.ask(question)))
+        with suppress(OutputError):  # the folder was removed
+            folder.write_suggestion(text)
 
     def _accept(
         self, question: Question[Answer], request: Request, folder: QuestionFolder, text: str, seconds: float
@@ -277,10 +287,11 @@ class Recorded:
     whole: bool
     left: int
 
-    def words(self) -> str:
-        """Return the message for the user."""
+    def words(self, *, waited: bool = False) -> str:
+        """Return the message for the user. waited: whether a run waits for it."""
         rest = "" if self.whole else " (by its schema; the run checks the rest)"
-        more = f"; {self.left} more open" if self.left else "; run the command that asked again to resume"
+        resume = "" if waited else "; run the command that asked again to resume"
+        more = f"; {self.left} more open" if self.left else resume
         return f"{self.question.path.name}: the answer is valid{rest}{more}"
 
 
@@ -295,12 +306,23 @@ def open_in(folder: Path) -> list[QuestionFolder]:
     return open_questions(questions)
 
 
-def record_answer(folder: Path, answer: str) -> Recorded:
-    """Check an answer (JSON, the short form, or the word geometry) to the open question in a folder, and write it.
+def record_answers(answers: Sequence[tuple[Path, str]]) -> list[Recorded]:
+    """Check answers (JSON, the short form, or the word geometry), each to the open question in its folder, and write them.
 
-    In the folder of a single answered question, the answer is replaced. Raise OptionError if the answer is not valid, and is
-    then not written, or if no question or several are open.
+    In the folder of a single answered question, the answer is replaced. Raise OptionError if an answer is not valid, or if no
+    question or several are open in a folder; then nothing is written.
     """
+    checked = [_checked(folder, answer) for folder, answer in answers]
+    if len({question.path.resolve() for question, _, _ in checked}) < len(checked):
+        raise OptionError("found two answers to one question")
+    for question, text, _ in checked:
+        question.write_answer(text)
+    rest = [len(open_questions(find_questions(folder))) for folder, _ in answers]
+    return [Recorded(question, whole, left) for (question, _, whole), left in zip(checked, rest, strict=True)]
+
+
+def _checked(folder: Path, answer: str) -> tuple[QuestionFolder, str, bool]:
+    """Return the question that an answer is for, the answer as JSON, and whether it was checked by the question itself."""
     waiting = open_in(folder)
     here = [q for q in find_questions(folder) if q.path == folder]
     if len(waiting) > 1:
@@ -311,8 +333,20 @@ def record_answer(folder: Path, answer: str) -> Recorded:
     question = (waiting or here)[0]
     text = answer.strip() if is_left_to_geometry(answer) else answer_text(answer, question.schema)
     try:
-        whole = check_answer(question, text)
+        return question, text, check_answer(question, text)
     except BadAnswerError as error:
         raise OptionError(f"{question.path.name}: this is not a valid answer: {error}") from None
-    question.write_answer(text)
-    return Recorded(question, whole, len(open_questions(find_questions(folder))))
+
+
+def next_question(place: Path, seconds: float = FOLLOW) -> QuestionFolder | None:
+    """Return the open question of the object whose questions are in a folder; wait for it while a run waits for answers there.
+
+    Return None if no question is open and no run waits, or after `seconds` [s].
+    """
+    end = time.monotonic() + seconds
+    while True:
+        occupied = is_occupied(place)
+        waiting = open_questions(list(QuestionStore(place).questions()))
+        if waiting or not occupied or time.monotonic() > end:
+            return waiting[0] if waiting else None
+        time.sleep(POLL)

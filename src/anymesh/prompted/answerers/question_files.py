@@ -12,13 +12,17 @@ import os
 import re
 import shutil
 import tempfile
+import time
 from collections.abc import Iterator, Mapping
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from threading import Event
 from typing import Any
+from weakref import WeakValueDictionary, finalize
 
 from anymesh.errors import OptionError, OutputError
+from anymesh.pipeline.atomic_folder import locked
 from anymesh.prompted.models.vision import Request, request_key
 from anymesh.runtime import write_whole, writing
 from anymesh.types.exchange import Picture
@@ -30,6 +34,10 @@ SHEET, CHECK, OWNER, SUGGESTION, EARLIER = "sheet.png", "check.npz", "object.jso
 LEAVE = "geometry"  # an answer.json with this word leaves the question to geometry
 LEFT = f"left to {LEAVE}"  # verdict on such a question
 LARGEST_ANSWER = 1_000_000  # [bytes]
+POLL = 0.1  # [s] interval between checks for an answer
+TRIES = 5  # to occupy a folder
+MAX_WAIT = 12 * 3600.0  # [s] after which a run no longer waits, so that none is forgotten; an estimate
+OCCUPIED = "another run waits for answers in {}; answer its question there, or end that run first"
 TYPE_WORDS = {"integer": "a whole number", "number": "a number", "string": "text", "boolean": "true or false"}
 
 
@@ -163,14 +171,28 @@ def find_questions(folder: Path) -> list[QuestionFolder]:
     return [q for q in questions if q is not None and not q.path.name.startswith(".")]
 
 
-def wait_for_answer(question: QuestionFolder, seen: str | None, every: float, stop: Event | None = None) -> str | None:
-    """Wait for an answer.json that differs from `seen`, checking every `every` [s]; return None once `stop` is set."""
-    pause = stop or Event()
-    while not pause.wait(every):
+def wait_for_answer(question: QuestionFolder, seen: str | None, stop: Event) -> str | None:
+    """Wait for an answer.json that differs from `seen`.
+
+    Return None once `stop` is set, the question is removed, or MAX_WAIT has passed.
+    """
+    end = time.monotonic() + MAX_WAIT
+    while not stop.wait(POLL) and time.monotonic() < end and question.path.is_dir():
         answer = question.answer()
         if answer is not None and answer != seen:
             return answer
     return None
+
+
+_OCCUPIED: WeakValueDictionary[Path, QuestionStore] = WeakValueDictionary()  # folders in which this process waits
+
+
+def is_occupied(folder: Path) -> bool:
+    """Return whether another process waits for answers in the folder of an object's questions."""
+    if folder.resolve() in _OCCUPIED or not folder.is_dir():
+        return False
+    with locked(folder) as free:
+        return not free
 
 
 class QuestionStore:
@@ -192,6 +214,20 @@ class QuestionStore:
             )
         if owner is None and any(q.path.parent != self.folder for q in find_questions(self.folder)):
             raise OptionError(f"files:{folder} holds the questions of several objects (--batch); name another folder")
+
+    def occupy(self) -> None:
+        """Lock the folder until this store is gone: a run waits here. Raise OptionError if another process holds the lock."""
+        place, stack = self.folder.resolve(), ExitStack()
+        if place in _OCCUPIED:
+            return
+        for _ in range(TRIES):  # `is_occupied` of another process holds the lock for a moment
+            if stack.enter_context(locked(place)):
+                _OCCUPIED[place] = self
+                finalize(self, stack.close)
+                return
+            stack.close()
+            time.sleep(POLL)
+        raise OptionError(OCCUPIED.format(f"files:{self.folder}"))
 
     def owner(self) -> str | None:
         """Return the name of the object that the questions are about; None if it is not recorded."""

@@ -11,7 +11,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 from anymesh.isolation.pool import ChildError, ChildLimits, ChildPool, Failure
 from anymesh.types import Mesh
@@ -94,6 +94,10 @@ class ArticulationWork:
             states.append(StageState(words, seconds, begin is not None and (end is not None or self.done)))
         return states
 
+    def wait(self, seconds: float) -> None:
+        """Wait until the work is over, at most `seconds` [s]."""
+        self._thread.join(seconds)
+
     def cancel(self) -> None:
         """End the work immediately."""
         self.cancelled = True
@@ -135,13 +139,21 @@ def _reason(error: ChildError) -> str:
             return f"internal defect, {detail[:250]}"
 
 
-def articulated(report: Callable[..., None], *, mesh: Path, out: Path, **options: Any) -> None:
+def articulated(report: Callable[..., None], *, mesh: Path, out: Path, parts: str = "auto", **options: Any) -> None:
     """Articulate a mesh in this process and report its progress, and the placed mesh. options: of `articulate`."""
-    from anymesh import pipeline
-    from anymesh.loading import load_mesh, place_mesh
+    from anymesh.export import ExportOptions
+    from anymesh.isolation import AHEAD, shared_pool
+    from anymesh.pipeline.api import articulate_loaded, new_run
+    from anymesh.pipeline.options import MakingOptions, PlacementOptions, divided
+    from anymesh.pipeline.stages import load
+    from anymesh.runtime import DEFAULT_SECONDS
 
-    report("load", mesh.name, 0, 1)
-    placing = {name: options[name] for name in ("up", "scale") if name in options}
-    placed = place_mesh(load_mesh(mesh, root=options.get("root")), **placing)
-    report(placed.mesh)
-    pipeline.articulate(mesh, out, progress=report, **options)
+    placing = {name: options.pop(name) for name in ("up", "scale", "root", "animation") if name in options}
+    force, seconds = options.pop("force", False), options.pop("time_limit", DEFAULT_SECONDS)
+    answering, writing = divided(cast(MakingOptions, options))
+    how, placement = ExportOptions.parse(writing), PlacementOptions(**placing)
+    with new_run(mesh, out, answering, force, seconds, report) as run:
+        shared_pool().warm(*AHEAD)
+        loaded = load(run, mesh, placement)
+        report(loaded.result.mesh)
+        articulate_loaded(run, loaded, parts, how, sized=placement.scale == "auto")
