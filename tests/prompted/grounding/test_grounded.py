@@ -166,7 +166,7 @@ def test_where_nothing_moves_nothing_is_asked() -> None:
 CASE = [box((0, 0, 0), (0.6, 0.4, 0.6))]
 DOORS = [box((0.0, -0.03, 0.0), (0.29, 0.0, 0.6)), box((0.31, -0.03, 0.0), (0.6, 0.0, 0.6))]
 KNOBS = [box((0.24, -0.06, 0.28), (0.27, -0.03, 0.34)), box((0.33, -0.06, 0.28), (0.36, -0.03, 0.34))]
-QUICK = Config(viewpoints="4@15+30,1@50+30")
+QUICK = Config(viewpoints="4@15+30,1@50+30", ask="all")
 
 
 class Scripted:
