@@ -35,6 +35,7 @@ READERS = {
     ".dae": "formats.dae.document:read_dae",
     **dict.fromkeys((".usd", ".usda", ".usdc", ".usdz", ".fbx", ".3mf", ".step", ".stp"), "formats.reading:read_isolated"),
 }
+CREDITS = "formats.credits:credits_of"
 DAE_FRAME = "formats.dae.document:dae_frame"
 LOAD_ZIPPED = "formats.zipped:load_zipped"
 REMEDY = "formats.advice:remedy"

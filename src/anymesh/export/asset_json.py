@@ -54,7 +54,8 @@ def asset_record(model: Model) -> dict[str, Any]:
 def source_record(source: Source) -> dict[str, Any]:
     """Return where a mesh came from as plain values."""
     place = {"T_asset_source": source.T_asset_source.tolist(), "up": source.up}
-    return {"path": source.path, "sha256": source.sha256, **place, "notes": list(source.notes)}
+    notes = {"notes": list(source.notes)} | ({"credits": dict(source.credits)} if source.credits else {})
+    return {"path": source.path, "sha256": source.sha256, **place, **notes}
 
 
 def usage(exchanges: Sequence[Exchange]) -> dict[str, Any]:

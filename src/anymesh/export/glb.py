@@ -42,8 +42,10 @@ def glb_bytes(asset: Asset, links: Sequence[Link], config: ExportConfig, extend:
     buffer = GlbBuffer()
     looks = _Materials(asset, buffer)
     meshes = [{"name": link.name, "primitives": [looks.primitive(p) for p in link.primitives]} for link in links]
+    stated = asset.source.credits
+    credits = {"copyright": stated["credit"], "extras": dict(stated)} if stated else {}  # as Sketchfab has them
     document: dict[str, Any] = {
-        "asset": {"version": "2.0", "generator": f"articulate-anymesh {anymesh.__version__}"},
+        "asset": {"version": "2.0", "generator": f"articulate-anymesh {anymesh.__version__}", **credits},
         "scene": 0,
         "scenes": [{"name": asset.name, "nodes": [0]}],
         "nodes": _nodes(asset, links),

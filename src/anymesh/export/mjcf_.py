@@ -270,6 +270,10 @@ def with_digits(text: str, model: Model, motors: Mapping[str, Drive]) -> str:
     if actuators is not None:
         _actuators(actuators, model, motors)
         _catches(actuators, model)
+    if credits := model.asset.source.credits:  # by MuJoCo's spec, some texts would be written as XML that is broken
+        custom = ElementTree.SubElement(root, "custom")
+        for key, value in credits.items():
+            ElementTree.SubElement(custom, "text", name=f"credits_{key}", data=value)
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="unicode") + "\n"
 

@@ -31,6 +31,8 @@ def urdf_text(model: Model) -> str:
     robot = ElementTree.Element("robot", name=asset.name)
     seen = {} if model.how.visuals is Visuals.OBJ else {"discardvisual": "true"}  # MuJoCo does not read others
     ElementTree.SubElement(ElementTree.SubElement(robot, "mujoco"), "compiler", MUJOCO | seen)
+    if asset.source.credits:
+        ElementTree.SubElement(robot, "credits", dict(asset.source.credits))
     names = material_names(asset.mesh.materials)
     origins = {link.name: link.origin for link in model.links}
     for body in model.bodies:

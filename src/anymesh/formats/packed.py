@@ -50,7 +50,7 @@ def write_package(folder: Path, into: Path, *, base: Base) -> Path:
         if file.suffix in SUFFIXES:
             shutil.copyfile(file, package / FOLDER / file.name)
     texts = {
-        "package.xml": _manifest(name),
+        "package.xml": _manifest(name, ElementTree.parse(urdfs[0]).find("credits")),
         "CMakeLists.txt": CMAKE.format(name=name),
         f"urdf/{urdfs[0].name}": _packaged(urdfs[0].read_text(encoding="utf-8"), name, base),
     }
@@ -64,14 +64,17 @@ def package_name(name: str) -> str:
     return re.sub(r"_+", "_", name.lower()).strip("_")
 
 
-def _manifest(name: str) -> str:
+def _manifest(name: str, credits: ElementTree.Element | None) -> str:
     root = ElementTree.Element("package", format="3")
     sub = ElementTree.SubElement
     sub(root, "name").text = name
     sub(root, "version").text = ".".join(re.findall(r"\d+", anymesh.__version__)[:3])
     sub(root, "description").text = "An articulated object, made by Articulate AnyMesh"
     sub(root, "maintainer", email="unknown@example.com").text = "unknown"
-    sub(root, "license").text = "As the mesh that it was made from"
+    stated = {} if credits is None else credits.attrib
+    sub(root, "license").text = stated.get("license", "As the mesh that it was made from")
+    if "author" in stated:
+        sub(root, "author").text = stated["author"]
     sub(root, "buildtool_depend").text = "ament_cmake"
     sub(sub(root, "export"), "build_type").text = "ament_cmake"
     return document(root)

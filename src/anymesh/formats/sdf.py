@@ -19,6 +19,8 @@ from anymesh.types import Box, Cylinder, Hull, Joint, Mesh, Shape
 
 VERSION = "1.9"
 FILE, CONFIG_FILE = "model.sdf", "model.config"
+OWN = "{urn:articulate-anymesh}"  # elements of a namespace are kept and passed over by readers
+ElementTree.register_namespace("anymesh", OWN[1:-1])
 
 
 def write_sdf(model: Model, folder: Path, config: ExportConfig) -> None:
@@ -33,7 +35,10 @@ def config_text(model: Model) -> str:
     ElementTree.SubElement(root, "name").text = model.asset.name
     ElementTree.SubElement(root, "version").text = "1.0"
     ElementTree.SubElement(root, "sdf", version=VERSION).text = FILE
-    ElementTree.SubElement(root, "description").text = "An articulated object, made by Articulate AnyMesh"
+    source, text = model.asset.source, "An articulated object, made by Articulate AnyMesh"
+    if "author" in source.credits:
+        ElementTree.SubElement(ElementTree.SubElement(root, "author"), "name").text = source.credits["author"]
+    ElementTree.SubElement(root, "description").text = f"{text} from: {source.credits['credit']}" if source.credits else text
     return document(root)
 
 
@@ -49,6 +54,8 @@ def sdf_text(model: Model) -> str:
     root = ElementTree.Element("sdf", version=VERSION)
     element = ElementTree.SubElement(root, "model", name=asset.name, canonical_link=model.bodies[0].name)
     _leaf(element, "self_collide", "true" if _only_neighbours_excluded(model) else "false")
+    for key, text in asset.source.credits.items():
+        _leaf(element, f"{OWN}{key}", text)
     origins = {link.name: link.origin for link in model.links}
     for body in model.bodies:
         link = _add_link(element, body, origins)

@@ -13,6 +13,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.errors import InputError
+from anymesh.formats.credits import credits_in
 from anymesh.formats.packages import unpack
 from anymesh.loading.files import MAX_FACES, FileMesh, Folder, picture
 from anymesh.loading.join import join, rgba
@@ -71,6 +72,8 @@ class ThreeMf:
         self._left_out: Counter[str] = Counter()
         self._faces = 0
         self._first = self._main_part()
+        told = {str(e.get("name")): e.text for e in self._document(self._first).iter() if plain(e) == "metadata"}
+        folder.credits = credits_in("metadata", told)
         self.unit = UNITS.get(self._document(self._first).get("unit", "millimeter"), 1e-3)
 
     def read(self) -> Mesh:

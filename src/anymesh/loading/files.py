@@ -84,9 +84,10 @@ class Folder:
     def __init__(self, path: Path, root: str | Path | None = None, joints: bool = True) -> None:
         self.path, self.joints = path, joints
         self.warnings: list[str] = []
+        self.credits: dict[str, str] = {}  # what the file states of its licence and author
         self._digests: dict[str, str] = {}  # of the files that were read
         own = path.parent.resolve()
-        self._root = own if root is None else _checked(Path(root), path, own)
+        self.root = own if root is None else _checked(Path(root), path, own)
         self._bases: tuple[Path, ...] = (own,)
         beside = [own.parent / name for name in ASIDE] if root is None else []
         self._aside = tuple(folder for folder in beside if folder.is_dir() and not folder.is_symlink())
@@ -102,7 +103,7 @@ class Folder:
 
     def find(self, uri: str) -> Path | None:
         """Return the file that a reference means; None if none may be read."""
-        file = resolve_reference(uri, self._bases, self._root, self._aside)
+        file = resolve_reference(uri, self._bases, self.root, self._aside)
         return None if isinstance(file, Unresolved) else file
 
     def read(self, uri: str) -> bytes:
@@ -122,7 +123,7 @@ class Folder:
         return content
 
     def _bytes(self, uri: str) -> bytes | Unresolved:
-        file = resolve_reference(uri, self._bases, self._root, self._aside)
+        file = resolve_reference(uri, self._bases, self.root, self._aside)
         if isinstance(file, Unresolved):
             return file
         try:
@@ -141,7 +142,7 @@ class Folder:
 
     def take(self, other: Folder) -> None:
         """Take over what the same folder recorded in another process."""
-        self.warnings[:] = other.warnings
+        self.warnings[:], self.credits = other.warnings, other.credits
         self._digests.update(other._digests)
 
     def digest(self) -> str:

@@ -8,13 +8,14 @@ from __future__ import annotations
 
 import hashlib
 import math
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.entry_points import DAE_FRAME, LOAD_ZIPPED, READERS, TELLING_PIVOTS, USUAL_SIZE, resolve
+from anymesh.entry_points import CREDITS, DAE_FRAME, LOAD_ZIPPED, READERS, TELLING_PIVOTS, USUAL_SIZE, resolve
 from anymesh.errors import AnymeshError, InputError, OptionError
 from anymesh.loading.files import ARCHIVE, FORMATS, MAX_FACES, FileMesh, Folder, check_file
 from anymesh.loading.scene_graph import scene_of_objects
@@ -43,6 +44,7 @@ class LoadedMesh:
     unit_in_metres: float | None  # if the format states it
     warnings: tuple[str, ...]
     references: str = ""  # digest of the other files that were read, and of the warnings
+    credits: Mapping[str, str] = field(default_factory=dict)  # as of a `Source`
 
 
 def reads_joints(animation: str) -> bool:
@@ -67,8 +69,9 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: st
     suffix = path.suffix.lower()
     if suffix == ARCHIVE:
         inner, name, warnings = resolve(LOAD_ZIPPED)(path, FORMATS, lambda p, top: load_mesh(p, root=top, animation=animation))
-        sha256, warnings = hashlib.sha256(data).hexdigest(), (*warnings, *inner.warnings)
-        return replace(inner, path=str(path / name), sha256=sha256, warnings=warnings)
+        sha256, credits = hashlib.sha256(data).hexdigest(), inner.credits or resolve(CREDITS)(folder)
+        warnings = (*warnings, *folder.warnings, *inner.warnings)
+        return replace(inner, path=str(path / name), sha256=sha256, warnings=warnings, credits=credits)
     try:
         with np.errstate(over="ignore", invalid="ignore"):
             framed = read_framed(suffix, data, folder)
@@ -81,8 +84,8 @@ def load_mesh(path: str | Path, *, root: str | Path | None = None, animation: st
     if len(mesh.faces) > MAX_FACES:
         raise InputError(f"{path.name} has {len(mesh.faces)} faces; at most {MAX_FACES} are handled")
     _check_numbers(path.name, mesh)
-    sha256, notes = hashlib.sha256(data).hexdigest(), tuple(folder.warnings)
-    return LoadedMesh(mesh, str(path), sha256, framed.up, framed.unit, notes, folder.digest())
+    sha256, credits = hashlib.sha256(data).hexdigest(), resolve(CREDITS)(folder)
+    return LoadedMesh(mesh, str(path), sha256, framed.up, framed.unit, tuple(folder.warnings), folder.digest(), credits)
 
 
 def read_framed(suffix: str, data: bytes, folder: Folder) -> FileMesh:

@@ -152,7 +152,7 @@ def _metadata(pxr: Any, model: Model) -> dict[str, Any]:
     nested = {
         **known,
         "author": f"articulate-anymesh {anymesh.__version__}",
-        "asset_license": "as the mesh that it was made from",
+        "asset_license": asset.source.credits.get("license", "as the mesh that it was made from"),
         "category": kind,
         "qcode": code,
         "rigid_body_count": len(model.bodies),

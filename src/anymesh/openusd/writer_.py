@@ -91,6 +91,8 @@ def usd_stage(model: Model, config: ExportConfig, folder: Path, pictures: str) -
     pxr.UsdGeom.SetStageUpAxis(stage, pxr.UsdGeom.Tokens.z)
     pxr.UsdGeom.SetStageMetersPerUnit(stage, 1.0)
     pxr.UsdPhysics.SetStageKilogramsPerUnit(stage, 1.0)
+    if credits := model.asset.source.credits:
+        stage.GetRootLayer().customLayerData = {"credits": dict(credits)}
     top = f"/{model.asset.name}"
     root = pxr.UsdGeom.Xform.Define(stage, top).GetPrim()
     stage.SetDefaultPrim(root)

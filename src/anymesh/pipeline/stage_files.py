@@ -53,13 +53,8 @@ class Stage(Generic[Result]):
 
 def _pack_load(result: LoadResult) -> tuple[Record, dict[str, np.ndarray]]:
     record, arrays = _pack_mesh(result.mesh)
-    record |= {
-        "source": source_record(result.source),
-        "warnings": list(result.warnings),
-        "metric": result.metric,
-        "category": result.category,
-    }
-    return record, arrays
+    record |= {"source": source_record(result.source), "warnings": list(result.warnings)}
+    return record | {"metric": result.metric, "category": result.category}, arrays
 
 
 def _pack_mesh(mesh: Mesh) -> tuple[Record, dict[str, np.ndarray]]:
@@ -83,7 +78,7 @@ def _pack_mesh(mesh: Mesh) -> tuple[Record, dict[str, np.ndarray]]:
 
 def _unpack_load(record: Record, arrays: Arrays) -> LoadResult:
     s = record["source"]
-    source = Source(s["path"], s["sha256"], np.array(s["T_asset_source"]), s["up"], tuple(s["notes"]))
+    source = Source(s["path"], s["sha256"], np.array(s["T_asset_source"]), s["up"], tuple(s["notes"]), s.get("credits", {}))
     warnings, metric, category = tuple(record["warnings"]), record.get("metric", False), record.get("category", "")
     return LoadResult(_unpack_mesh(record, arrays), source, warnings, metric, category)
 
@@ -133,15 +128,9 @@ def _unpack_exchanges(records: list[Record], arrays: Arrays) -> tuple[Exchange, 
 
 def _pack_recognition(result: RecognitionResult) -> tuple[Record, dict[str, np.ndarray]]:
     exchanges, arrays = _pack_exchanges(result.exchanges)
-    record = {
-        "recognition": None if result.recognition is None else asdict(result.recognition),
-        "answerer": result.answerer,
-        "scale": result.scale,
-        "note": result.note,
-        "warnings": list(result.warnings),
-        "exchanges": exchanges,
-    }
-    return record, arrays
+    recognition = None if result.recognition is None else asdict(result.recognition)
+    scaled = {"answerer": result.answerer, "scale": result.scale, "note": result.note}
+    return {"recognition": recognition, **scaled, "warnings": list(result.warnings), "exchanges": exchanges}, arrays
 
 
 def _unpack_recognition(record: Record, arrays: Arrays) -> RecognitionResult:
@@ -166,12 +155,8 @@ def _limits(record: Record) -> tuple[float, float] | None:
 
 def _pack_segmentation(result: SegmentationResult) -> tuple[Record, dict[str, np.ndarray]]:
     exchanges, arrays = _pack_exchanges(result.exchanges)
-    record = {
-        "parts": [asdict(part) for part in result.segmentation.parts],
-        "answerer": result.answerer,
-        "warnings": list(result.warnings),
-        "exchanges": exchanges,
-    }
+    record: Record = {"parts": [asdict(part) for part in result.segmentation.parts], "answerer": result.answerer}
+    record |= {"warnings": list(result.warnings), "exchanges": exchanges}
     return record, {**arrays, "face_part": result.segmentation.face_part}
 
 
@@ -219,12 +204,8 @@ def _unpack_completed(record: Record, arrays: Arrays) -> CompletionResult:
 
 
 def _pack_corrected(result: CorrectionResult) -> tuple[Record, dict[str, np.ndarray]]:
-    record = {
-        "parts": [asdict(part) for part in result.segmentation.parts],
-        "joints": [_pack_joint(joint) for joint in result.joints],
-        "warnings": list(result.warnings),
-        "log": list(result.log),
-    }
+    parts, joints = map(asdict, result.segmentation.parts), map(_pack_joint, result.joints)
+    record = {"parts": [*parts], "joints": [*joints], "warnings": list(result.warnings), "log": list(result.log)}
     return record, {"face_part": result.segmentation.face_part}
 
 

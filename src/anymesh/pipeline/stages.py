@@ -70,15 +70,15 @@ def load(run: Run, path: Path, how: PlacementOptions) -> Keyed[LoadResult]:
         category = run.who.config.category
         settings = {"up": how.up, "scale": how.scale, "category": category, "path": str(path), "references": loaded.references}
         settings |= {} if how.animation == "read" else {"animation": how.animation}
+        settings |= {"credits": repr(loaded.credits)} if loaded.credits else {}
         key = stage_key(MESH, previous=loaded.sha256, config=settings)
         placed = run.folder.load(MESH, key)
         if placed is None:
             p = place_mesh(loaded, up=how.up, scale=how.scale, category=category)
-            source = Source(str(path), loaded.sha256, p.T_asset_source, p.up, p.notes)
+            source = Source(str(path), loaded.sha256, p.T_asset_source, p.up, p.notes, loaded.credits)
             scene = resolve(SCENE_WARNING)(p.mesh)
-            placed = LoadResult(
-                p.mesh, source, (*loaded.warnings, *p.warnings, *([scene] if scene else [])), p.metric, category or ""
-            )
+            warnings = (*loaded.warnings, *p.warnings, *([scene] if scene else []))
+            placed = LoadResult(p.mesh, source, warnings, p.metric, category or "")
             run.folder.save(MESH, key, placed)
     return Keyed(placed, key)
 

@@ -74,7 +74,7 @@ class Segmentation:
 class Source(Brief):
     """The file that an asset was made from.
 
-    T_asset_source: (4, 4), from file coordinates as stored to the asset frame [m, Z up].
+    T_asset_source: (4, 4), from file coordinates as stored to the asset frame [m, Z up]; credits: of `formats.credits`.
     """
 
     path: str
@@ -82,6 +82,7 @@ class Source(Brief):
     T_asset_source: Float[np.ndarray, "4 4"]
     up: str  # an axis such as "z" or "-y", or three numbers
     notes: tuple[str, ...] = ()  # how up and scale were determined, in words
+    credits: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, eq=False)

@@ -99,7 +99,7 @@ def read_asset(folder: Path) -> Asset:
         T = np.array(source["T_asset_source"], float)
         return Asset(
             name=record["name"],
-            source=Source(source["path"], source["sha256"], T, source["up"], tuple(source["notes"])),
+            source=Source(source["path"], source["sha256"], T, source["up"], tuple(source["notes"]), source.get("credits", {})),
             mesh=mesh,
             segmentation=Segmentation(_face_part(mesh, parts), parts),
             joints=tuple(_joint(joint) for joint in record["joints"]),

@@ -12,7 +12,7 @@ import pytest
 from PIL import Image
 
 from anymesh.applications.annotate.inputs import ObjectRequest
-from anymesh.applications.annotate.ledger import LOSSES, NAME, Ledger, driven_ledger
+from anymesh.applications.annotate.ledger import LOSSES, NAME, SCHEMA, Ledger, driven_ledger
 from anymesh.applications.annotate.report import GALLERY, write_report
 from anymesh.applications.annotate.runner import LOST
 from anymesh.applications.annotate.states import AttemptOutcome, Result, State
@@ -78,13 +78,24 @@ def test_two_objects_of_one_name_are_an_error(ledger) -> None:
         ledger.enter([*requests(3), ObjectRequest("object 1", "/elsewhere.glb")])
 
 
+def test_a_ledger_of_the_version_before_gets_the_new_columns(tmp_path) -> None:
+    with sqlite3.connect(tmp_path / NAME) as connection:
+        older = SCHEMA.replace("license TEXT , author TEXT , ", "").replace("user_version = 3", "user_version = 2")
+        connection.executescript(older)
+    connection.close()
+    with pytest.raises(OutputError, match="has version 2"):
+        Ledger.open(tmp_path)
+    with Ledger.open(tmp_path, create=True) as ledger:
+        assert ledger.rows("SELECT license, author FROM objects") == []
+
+
 def test_no_ledger_and_a_ledger_of_another_version(tmp_path) -> None:
     with pytest.raises(OutputError, match="holds no ledger"):
         Ledger.open(tmp_path)
     with sqlite3.connect(tmp_path / NAME) as connection:
         connection.execute("PRAGMA user_version = 99")
     connection.close()
-    with pytest.raises(OutputError, match="has version 99; valid is 2"):
+    with pytest.raises(OutputError, match="has version 99; valid is 3"):
         Ledger.open(tmp_path)
 
 

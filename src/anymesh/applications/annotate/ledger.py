@@ -25,7 +25,7 @@ NAME, LOCK = "ledger.sqlite", ".run.lock"
 BUSY = 60.0  # [s] to wait for a reader
 BATCH = 2000  # rows per transaction
 LOSSES = 20  # number of killed runs while working on an object, after which it is quarantined
-VERSION = 2  # of the tables below, in the file's `user_version`
+VERSION = 3  # of the tables below, in the file's `user_version`
 OBJECTS = {  # columns of the table of objects, and of its export
     "name": "TEXT",  # unique in the collection
     "source": "TEXT",  # path of the mesh, or objaverse:UID
@@ -49,6 +49,8 @@ OBJECTS = {  # columns of the table of objects, and of its export
     "warnings": "INTEGER",
     "bytes": "INTEGER",  # of the asset's files
     "sha256": "TEXT",  # of the mesh
+    "license": "TEXT",  # of the mesh, as far as it is stated
+    "author": "TEXT",
     "version": "TEXT",  # of anymesh
     "size": "INTEGER",  # of the mesh [bytes]
     "modified": "INTEGER",  # time of the mesh [ns]
@@ -71,6 +73,11 @@ CREATE INDEX objects_unsure ON objects(state, confidence);
 CREATE TABLE attempts(seq INTEGER NOT NULL, run INTEGER, ended REAL, outcome TEXT, error_class TEXT, error TEXT, seconds REAL,
   memory INTEGER);
 CREATE TABLE runs(run INTEGER PRIMARY KEY, host TEXT, begun REAL, ended REAL, version TEXT, workers INTEGER);
+PRAGMA user_version = {VERSION};
+"""
+CREDITED = f"""
+ALTER TABLE objects ADD COLUMN license TEXT;
+ALTER TABLE objects ADD COLUMN author TEXT;
 PRAGMA user_version = {VERSION};
 """
 ENTER = """
@@ -128,12 +135,14 @@ class Ledger:
 
     def _prepare(self, *, create: bool) -> None:
         version = self._connection.execute("PRAGMA user_version").fetchone()[0]
-        if version != VERSION and not (create and version == 0):
+        if version != VERSION and not (create and version in (0, 2)):
             raise OutputError(f"{self.out / NAME} has version {version}; valid is {VERSION}: use the anymesh that made it")
         self._connection.execute("PRAGMA synchronous = NORMAL")  # in WAL mode a kill loses nothing
         if version == 0:
             self._connection.execute("PRAGMA journal_mode = WAL")  # `--status` reads while the driver writes
             self._connection.executescript(f"BEGIN IMMEDIATE;{SCHEMA}COMMIT;")
+        elif version == 2:
+            self._connection.executescript(f"BEGIN IMMEDIATE;{CREDITED}COMMIT;")
         calls, cost = self._connection.execute("SELECT total(calls), total(cost) FROM objects").fetchone()
         self.spent = int(calls), cost
 

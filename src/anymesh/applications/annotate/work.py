@@ -145,6 +145,7 @@ def asset_columns(folder: Path) -> dict[str, Any] | None:
             "warnings": len(asset["warnings"]),
             "bytes": sum(p.lstat().st_size for p in folder.rglob("*") if p.is_file()),
             "sha256": str(asset["source"]["sha256"]),
+            **{key: asset["source"].get("credits", {}).get(key) for key in ("license", "author")},
             "stage_seconds": json.dumps(read_json(folder / str(asset["timing"])) or {}),
         }
     except (KeyError, TypeError, ValueError, OSError):

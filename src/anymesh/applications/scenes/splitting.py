@@ -71,7 +71,7 @@ def articulate_scene(
     key = _key(loaded.sha256, placed, parts, {**options, **written, "time_limit": time_limit})
     _check_target(out, key, force)
     names = legal_names([o.name or ("room" if o.fixed else "object") for o in objects], fallback="object")
-    scene = SceneAssets(str(path), loaded.sha256, key, how, (*loaded.warnings, *placed.warnings))
+    scene = SceneAssets(str(path), loaded.sha256, key, how, (*loaded.warnings, *placed.warnings), loaded.credits)
     with writing(out):
         out.mkdir(parents=True, exist_ok=True)
     write_scene(scene, out, finished=False)
@@ -195,7 +195,7 @@ def _articulated(
     T = placed.T_asset_source.copy()
     T[:3, 3] -= kind.origin
     digest = hashlib.sha256(f"{scene.key}/{kind.name}".encode()).hexdigest()
-    source = Source(f"{scene.source}/{kind.name}", digest, T, placed.up, placed.notes)
+    source = Source(f"{scene.source}/{kind.name}", digest, T, placed.up, placed.notes, scene.credits)
     made = read_json(target / "asset.json")
     if made is not None and made.get("source", {}).get("sha256") == digest:
         return None

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from xml.etree import ElementTree
@@ -46,6 +46,7 @@ class SceneAssets:
     key: str
     how: ExportOptions
     warnings: tuple[str, ...] = ()
+    credits: Mapping[str, str] = field(default_factory=dict)  # as of a `Source`
     placements: dict[str, tuple[Placement, ...]] = field(default_factory=dict)  # name of the asset -> placements
     errors: dict[str, AnymeshError] = field(default_factory=dict)  # name of the asset -> what stopped it
 
@@ -76,7 +77,7 @@ def _record(scene: SceneAssets, folder: Path, finished: bool) -> dict[str, objec
         "generator": {"name": "articulate-anymesh", "version": anymesh.__version__},
         "finished": finished,
         "key": scene.key,
-        "source": {"path": scene.source, "sha256": scene.sha256},
+        "source": {"path": scene.source, "sha256": scene.sha256, **({"credits": dict(c)} if (c := scene.credits) else {})},
         "files": [f for f in ("scene.xml", "scene.usda") if (folder / f).exists()] if finished else [],
         "assets": {name: f"assets/{name}" for name in scene.placements if name not in scene.errors},
         "objects": [
@@ -106,6 +107,10 @@ def _mjcf(scene: SceneAssets, folder: Path) -> bytes:
         frame = ElementTree.SubElement(world, "frame", pos=vector(placement.T[:3, 3]), quat=vector(placement.rotation))
         ElementTree.SubElement(frame, "attach", model=name, body=made["parts"][0]["name"], prefix=f"{placement.name}/")
     root.extend([assets, world])
+    if scene.credits:
+        custom = ElementTree.SubElement(root, "custom")
+        for key, text in scene.credits.items():
+            ElementTree.SubElement(custom, "text", name=f"credits_{key}", data=text)
     ElementTree.indent(root)
     return ElementTree.tostring(root, "utf-8") + b"\n"
 
@@ -121,6 +126,8 @@ def _usd(scene: SceneAssets, folder: Path) -> str:
     pxr.UsdPhysics.SetStageKilogramsPerUnit(stage, 1.0)
     root = pxr.UsdGeom.Xform.Define(stage, "/scene")
     stage.SetDefaultPrim(root.GetPrim())
+    if scene.credits:
+        stage.GetRootLayer().customLayerData = {"credits": dict(scene.credits)}
     for name, placement in scene.placed():
         xform = pxr.UsdGeom.Xform.Define(stage, f"/scene/{placement.name}")
         xform.GetPrim().GetReferences().AddReference(f"./assets/{name}/{main_file(Format.USD, name)}")

@@ -15,6 +15,7 @@ from dataclasses import replace
 import numpy as np
 
 from anymesh.errors import InputError
+from anymesh.formats.credits import credits_in
 from anymesh.formats.dae.geometry import DaeSurface, DaeTriangles, floats, skin_transforms, whole
 from anymesh.formats.dae.materials import DaeMaterial, DaeMaterials
 from anymesh.formats.dae.transforms import DaeNode, dae_joints, local_transform
@@ -47,6 +48,8 @@ Binding = dict[str, tuple[str, dict[str, int]]]  # symbol -> URL of its material
 def read_dae(data: bytes, folder: Folder) -> Mesh:
     """Return the scene in file coordinates. Raise InputError if it is not valid."""
     document = DaeDocument(data, folder)
+    told = document.root.find("asset/contributor")
+    folder.credits = credits_in("contributor", {} if told is None else {e.tag: e.text for e in told})
     placed = {number: made for number in range(len(document.nodes)) if (made := document.mesh(number)) is not None}
     document.warn_of_rest()
     if not placed:

@@ -12,6 +12,7 @@ from jaxtyping import Float
 
 from anymesh.entry_points import GLTF_JOINTS, resolve
 from anymesh.errors import InputError
+from anymesh.formats.credits import gltf_credits
 from anymesh.formats.gltf.buffers import Buffers, DataError, item, parse_json, split_glb
 from anymesh.formats.gltf.materials import read_materials
 from anymesh.formats.gltf.primitives import GltfMeshes, Pose
@@ -40,6 +41,7 @@ def read_gltf(data: bytes, folder: Folder) -> Mesh:
     if data[:4] == b"glTF":
         data, binary = split_glb(name, data)
     tree = parse_json(name, data)
+    folder.credits = gltf_credits(tree)
     buffers = Buffers(tree, binary, folder)
     for extension in tree.get("extensionsRequired", []):
         if extension not in READ and not extension.startswith(("KHR_materials_", "EXT_texture_", "MSFT_texture_")):

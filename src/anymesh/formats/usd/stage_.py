@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.errors import InputError
+from anymesh.formats.credits import credits_in
 from anymesh.formats.usd.geometry_ import PRIMITIVES, UsdTriangles, array, kind_of, polygon_mesh, primitive, value
 from anymesh.formats.usd.joints_ import add_animated_joints, add_joints
 from anymesh.formats.usd.layers_ import Layers, load_pxr
@@ -39,6 +40,7 @@ def read_usd(folder: Folder, work: Path) -> FileMesh:
     layers = Layers(folder, work)
     stage = pxr.Usd.Stage.Open(layers.root)
     reader = StageReader(pxr, stage, layers, folder)
+    folder.credits = credits_in("customLayerData", stage.GetRootLayer().customLayerData.get("credits", {}))
     placed = reader.read()
     mesh = join([p.mesh for p in placed])
     if folder.joints:
