@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from functools import cache
 from hashlib import sha256
 from importlib.resources import files
@@ -40,7 +40,7 @@ class AnswererSetup:
 
     def settings(self, *without: str) -> dict[str, object]:
         """Return the settings that the result of a stage depends on, without those that the stage does not use."""
-        chosen = {k: v for k, v in self.config.as_dict().items() if k not in without}
+        chosen = {k: v for k, v in asdict(self.config).items() if k not in without}
         return {**chosen, "answerer": self.name, "classifiers": _digest_of_classifiers()}
 
 
@@ -66,7 +66,7 @@ def choose_answerer(
     chosen = AnswererOptions(**options)
     config = Config(
         seed=chosen.seed, category=chosen.category, proposer=chosen.proposer, verify=chosen.verify, ask=chosen.ask,
-        viewpoints=chosen.viewpoints, at_least=chosen.at_least,
+        pictures=chosen.pictures, viewpoints=chosen.viewpoints, at_least=chosen.at_least,
     )  # fmt: skip
     if chosen.answerer != GEOMETRY:
         return resolve(OPEN_ANSWERER)(chosen, config, about, deadline or Deadline(), stop)

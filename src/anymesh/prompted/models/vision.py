@@ -23,7 +23,7 @@ class Request:
     pictures: tuple[Picture, ...]
     schema: Mapping[str, Any]
     max_tokens: int = 8000  # of the answer, including reasoning tokens
-    earlier: tuple[str, Mapping[str, Any]] | None = None  # text and schema of a narrower form, whose recorded answers are valid
+    earlier: tuple[Request, ...] = ()  # other forms of the question, whose recorded answers are valid
 
     @property
     def texts(self) -> list[str]:
