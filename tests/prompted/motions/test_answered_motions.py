@@ -13,11 +13,11 @@ from made import EDGE, PULL, X, Y, Z, context_of, slide, turn
 from scenes import door, prism
 from scipy.spatial.transform import Rotation
 
-from anymesh.articulation.estimate import MAX_LATE_SWEPT, MAX_SWEPT, part_motions
+from anymesh.articulation.estimate import MAX_LATE_SWEPT, MAX_SWEPT, joint_of, part_motions
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.prompted.grounding.faces import stays_free
 from anymesh.prompted.motions import lines
-from anymesh.prompted.motions.cases import PartCase, labels_by_name, make_cases, relabelled, unlabelled
+from anymesh.prompted.motions.cases import PartCase, contradictions, labels_by_name, make_cases, relabelled, unlabelled
 from anymesh.prompted.motions.joints import _joint, normal_outwards
 from anymesh.prompted.motions.lines import (
     axis_points,
@@ -114,7 +114,8 @@ def test_the_type_of_a_joint_follows_from_the_motion_and_the_answer(best, endles
 def test_an_answered_range_that_is_not_free_is_told_and_lowers_the_confidence(name, motion, limits, words) -> None:
     case = replace(case_of(name), recognized=RecognizedLabel("part", motion.kind, None, limits))
     best = max(sweep_candidates(case.context, [("asked", motion)]), key=lambda c: c.outward)
-    joint, told = _joint(case, Choice(best, "so", 0.8), "motion")
+    joint, warnings = _joint(case, Choice(best, "so", 0.8), "motion")
+    told = " ".join(warnings)
     assert words in told
     assert bool(told) is bool(words)
     assert (joint.confidence < 0.8) is ("was answered" in words and best.is_free)
@@ -124,9 +125,9 @@ def test_an_answered_range_that_is_not_free_is_told_and_lowers_the_confidence(na
 def test_an_answered_range_of_what_turns_endlessly_is_told() -> None:
     told = RecognizedLabel("part", JointType.REVOLUTE, None, (0.0, 1.0))
     case = replace(case_of("left"), answer=KindAnswer(ALONG, endless=True), recognized=told)
-    joint, warning = _joint(case, Choice(EDGE, "so", 0.8), "off")
+    joint, warnings = _joint(case, Choice(EDGE, "so", 0.8), "off")
     assert joint.type is JointType.CONTINUOUS
-    assert "the answer 0 to 57.3 degrees is not used, it turns endlessly" in warning
+    assert "the answer 0 to 57.3 degrees is not used, it turns endlessly" in warnings[0]
 
 
 STOPPED = replace(EDGE, opening=0.21, closing=0.28)  # blades that reach into the body behind them
@@ -151,7 +152,8 @@ SPINS = RecognizedLabel("part", JointType.CONTINUOUS, None, None)
 )
 def test_endless_is_kept_if_it_was_answered_twice_and_never_lost_in_silence(recognized, endless, best, kind, words) -> None:
     case = replace(case_of("left"), answer=KindAnswer(ALONG, endless), recognized=recognized)
-    joint, told = _joint(case, Choice(best, "so", 0.9), "motion")
+    joint, warnings = _joint(case, Choice(best, "so", 0.9), "motion")
+    told = " ".join(warnings)
     assert joint.type is kind
     assert (joint.limits is None) is (kind is JointType.CONTINUOUS)
     assert words in told
@@ -172,6 +174,12 @@ def test_the_answered_parent_of_a_label_is_used_where_parts_touch(over: str | No
     low, high = make_cases(whole, replace(segmentation, parts=parts), told if over else None, QUICK)
     assert (low.parent, low.carried) == ("base", (2,))
     assert high.parent == "low"  # also if the base is answered, which it does not touch
+    joints = [joint_of(c.context, c.name, c.parent, EDGE, JointType.REVOLUTE, 0.9, "so", None) for c in (low, high)]
+    assert [w for w in contradictions([low, high], joints) if "mounted" in w] == (
+        ["joint high_joint: it was answered to be mounted on the base, but it touches no base; it is on low, please check"]
+        if over == BASE
+        else []
+    )
     assert (high.recognized is not None) == (over is not None)
     assert (high.number, high.label, high.kind) == (2, "knob", None)
     assert set(segmentation.face_part[high.shown.faces]) == {2}

@@ -107,6 +107,7 @@ def test_a_part_that_is_too_much_is_grounded_again_once() -> None:
     assert found.joints[0].type is JointType.REVOLUTE
     kept = prompt_joints(questions, lambda _: whole, segmentation, lambda wrong: None)
     assert [j.type for j in kept.joints] == [JointType.REVOLUTE]
+    assert found.warnings == kept.warnings == ("part leaf: its region was called too much, but its marks stayed, please check",)
 
 
 def test_the_papers_method_takes_the_planes_normal_and_the_free_one_what_is_held() -> None:

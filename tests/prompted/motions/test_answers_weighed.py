@@ -142,6 +142,7 @@ def test_a_picked_motion_is_chosen_and_agreeing_answers_make_it_sure(monkeypatch
     found, asked = chosen(monkeypatch, offered(answered=1, moves=JointType.REVOLUTE), 1)
     assert (found.best, found.moves, found.fit, asked) == (FAR_EDGE, True, PartFit.RIGHT, [(1, 0, 2)])
     assert found.reason.startswith("chosen among 3 motions: swings from 0 to 180 degrees about the other edge")
+    assert found.warning == ""
     assert found.confidence > 0.95
     alone, _ = chosen(monkeypatch, offered(), 1)
     assert alone.best is FAR_EDGE
@@ -157,6 +158,8 @@ def test_a_pick_of_another_kind_than_answered_needs_the_geometry(monkeypatch: py
     overruled, _ = chosen(monkeypatch, offered(answered=1, moves=JointType.REVOLUTE), 2)
     assert overruled.best is FAR_EDGE  # as its kind, its line and the recognized motion were answered
     assert overruled.reason.startswith("the likeliest of 3 motions: ")
+    assert overruled.warning.startswith("the answer 'slides ")
+    assert "' was not used: 'swings from 0 to 180 degrees about the other edge" in overruled.warning
 
 
 def test_without_a_right_motion_the_likeliest_of_the_answered_kind_is_taken(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -177,11 +180,13 @@ def test_a_pick_against_geometry_and_recognition_must_be_repeated(monkeypatch, a
     assert asked == [(1, 0, 2), (2, 0, 1)]  # in another order
     assert found.best is best
     assert "asked twice" in found.reason
+    assert "' was not used: 'swings " in found.warning
+    assert "is likelier by geometry and the other answers (" in found.warning
 
 
 def test_a_joint_that_geometry_and_recognition_agree_on_is_not_asked_about(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("anymesh.prompted.models.reliability.RELIABILITIES", (0.999,))
-    monkeypatch.setattr("anymesh.prompted.models.reliability.SHARES", (1.0,))
+    monkeypatch.setattr("anymesh.prompted.motions.verify.RELIABILITIES", (0.999,))
+    monkeypatch.setattr("anymesh.prompted.motions.verify.SHARES", (1.0,))
     monkeypatch.setattr("test_answers_weighed.QUICK", replace(QUICK, ask="unsure"))
     told = replace(offered(moves=JointType.REVOLUTE), shares=SURELY)
     found, asked = chosen(monkeypatch, replace(told, case=replace(told.case, answer=None)))

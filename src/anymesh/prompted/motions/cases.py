@@ -22,9 +22,10 @@ from anymesh.geometry.boxes import straightening
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.triangle_set import TriangleSet
 from anymesh.motion.part_context import PartContext
+from anymesh.pipeline.results import PLEASE_CHECK
 from anymesh.prompted.motions.lines import plane_normal, round_patches
 from anymesh.prompted.pictures.visual_prompts import Facing
-from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, PartShown
+from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, PartFit, PartShown
 from anymesh.types import Brief, Joint, JointType, Motion, Picture, Segmentation
 from anymesh.types.exchange import DrawnPictures
 from anymesh.types.motion import BASE, Recognition, RecognizedLabel
@@ -45,7 +46,7 @@ class PartCase(Brief):
     number: index in the segmentation; carried: parts that depend on it; circles: axes of its largest round patches; recognized:
     recognition of its label; answer: its kind of joint, None if it was not asked for; asked: the answered motion; pins: axes of
     round patches in contact; frame: rows are the object's axes; copies: indices of its copies beside it, which open to the same
-    side; shape: indices of the parts that one answer holds for, the part among them; alone: asked about in a call of its own.
+    side; shape: indices of the parts that one answer holds for, the part among them.
     """
 
     number: int
@@ -62,7 +63,6 @@ class PartCase(Brief):
     frame: np.ndarray | None = None
     copies: tuple[int, ...] = ()
     shape: tuple[int, ...] = ()
-    alone: bool = False
 
     @property
     def drawn_alike(self) -> Facing | None:
@@ -125,7 +125,6 @@ def make_cases(
             PartCase(
                 i, part.name, over, carried, context, shown, circles, told,
                 pins=pins, frame=frame, copies=copies[i], shape=shape.get(i, (i,)),
-                alone=config.pictures == "few",
             )
         )  # fmt: skip
     return cases
@@ -232,14 +231,13 @@ def ask_each(
     picture: Callable[[PartCase, str], Picture],
     question: Callable[[DrawnPictures, Sequence[PartCase]], Question[tuple[Answer, ...]]],
 ) -> dict[int, Answer]:
-    """Ask about all cases, MAX_PART_PICTURES per call or each alone, and return the answers by part number.
+    """Ask about all cases, MAX_PART_PICTURES per call, and return the answers by part number.
 
     Each case has one picture, titled with its position in the call.
     """
     answers_by_number: dict[int, Answer] = {}
-    each = 1 if any(c.alone for c in cases) else MAX_PART_PICTURES
-    for begin in range(0, len(cases), each):
-        some = cases[begin : begin + each]
+    for begin in range(0, len(cases), MAX_PART_PICTURES):
+        some = cases[begin : begin + MAX_PART_PICTURES]
         answers = answerer.ask(question(_numbered(some, picture), some))
         answers_by_number |= {case.number: answer for case, answer in zip(some, answers, strict=True)}
     return answers_by_number
@@ -250,17 +248,31 @@ def _numbered(cases: Sequence[PartCase], picture: Callable[[PartCase, str], Pict
 
 
 def contradictions(cases: Sequence[PartCase], joints: Sequence[Joint]) -> tuple[str, ...]:
-    """Return a warning for each part whose answers (recognition, kind of joint, motion) contradict each other."""
-    warnings = []
+    """Return a warning for each part whose answers (recognition, kind of joint, motion) contradict each other or its parent."""
+    warnings, labels = [], {case.name: case.label for case in cases}
     for case, joint in zip(cases, joints, strict=True):
+        over = case.recognized.parent if case.recognized else None
+        if over not in (None, case.label, labels.get(case.parent, BASE)):
+            why = f"it touches no {over}" if over in (BASE, *labels.values()) else f"no {over} was found"
+            told = f"it was answered to be mounted on the {over}"
+            warnings.append(f"joint {joint.name}: {told}, but {why}; it is on {case.parent}{PLEASE_CHECK}")
         answered = list(_answered_motion(case))
         kinds = {kind for kind, _ in answered} | {_motion(joint.type)}
         if len(kinds) > 1:
             answers = ", then ".join(words for _, words in answered)
             warnings.append(
-                f"joint {joint.name}: the answers contradict each other ({answers}); it became {joint.type}, please check"
+                f"joint {joint.name}: the answers contradict each other ({answers}); it became {joint.type}{PLEASE_CHECK}"
             )
     return tuple(warnings)
+
+
+def unchanged(wrong: Mapping[str, PartFit], before: Segmentation, after: Segmentation) -> tuple[str, ...]:
+    """Return a warning for each part, by name, that was called too much or too little and has the same faces after that."""
+    return tuple(
+        f"part {name}: its region was called {fit.words}, but its marks stayed{PLEASE_CHECK}"
+        for name, fit in wrong.items()
+        if np.array_equal(before.face_part == before.numbers[name], after.face_part == before.numbers[name])
+    )
 
 
 def _answered_motion(case: PartCase) -> Iterator[tuple[str, str]]:

@@ -33,6 +33,7 @@ from anymesh.prompted.motions.cases import (
     labels_by_name,
     make_cases,
     relabelled,
+    unchanged,
     unlabelled,
 )
 from anymesh.prompted.motions.lines import (
@@ -172,16 +173,17 @@ def prompt_joints(
     little, with the same names in the same order. Only these parts are asked about again. None keeps the parts.
     """
     chosen_motions = _ask(questions, shape_of, labels_by_name(segmentation, questions.labels), fits=reground is not None)
-    wrong = chosen_motions.wrong()
+    wrong, before = chosen_motions.wrong(), chosen_motions.segmentation
     again = reground(wrong) if reground is not None and wrong else None
     if again is not None:
         chosen_motions = chosen_motions.with_changed(_ask(questions, shape_of, again, fits=False, only=set(wrong)))
     questions.progress("joints", "limits", 3, 4)
     verify = questions.config.verify
     made = [_joint(c, chosen_motions.chosen[c.number], verify) for c in chosen_motions.cases]
-    joints, changed = tuple(joint for joint, _ in made), tuple(warning for _, warning in made if warning)
+    joints = tuple(joint for joint, _ in made)
     doubts = faults({c.name: c.context for c in chosen_motions.cases}, joints)
-    warnings = (*contradictions(chosen_motions.cases, joints), *changed)
+    kept = unchanged(wrong, before, again or before)
+    warnings = (*contradictions(chosen_motions.cases, joints), *kept, *(told for _, some in made for told in some))
     return PromptedJoints(joints, chosen_motions.segmentation, warnings, doubts)
 
 
@@ -200,7 +202,7 @@ def _ask(
     cases, segmentation = _with_kinds(questions, cases, whole, segmentation)
     progress("joints", "points and arrows", 1, 4)
     cases = _with_lines(questions, cases, whole, segmentation)
-    return _ChosenMotions(cases, {c.number: as_answered(c, config.probed) for c in cases}, segmentation)
+    return _ChosenMotions(cases, {c.number: as_answered(c) for c in cases}, segmentation)
 
 
 def _ask_motions(
@@ -328,8 +330,8 @@ def _surface_directions(questions: Questions, cases: list[PartCase], segmentatio
     return {c.number: prismatic(tables[c.number].directions[rows[c.number]], c.context, "arrow picked") for c in sliding}
 
 
-def _joint(case: PartCase, choice: Choice, verify: str) -> tuple[Joint, str]:
-    """Return the joint of a part, and a warning if its limits are not as answered, else ""."""
+def _joint(case: PartCase, choice: Choice, verify: str) -> tuple[Joint, tuple[str, ...]]:
+    """Return the joint of a part, and a warning for each answer that it does not keep."""
     kind, twice = JointType.FIXED, False
     if choice.moves:
         turns = choice.best.motion.kind is JointType.REVOLUTE
@@ -339,12 +341,12 @@ def _joint(case: PartCase, choice: Choice, verify: str) -> tuple[Joint, str]:
     answered = answered_range(case.recognized, kind)
     best = away_from_closed(case.context, choice.best) if answered is None else opening_as_answered(choice.best, answered)
     joint = joint_of(case.context, case.name, case.parent, best, kind, choice.confidence, choice.reason, answered)
-    told = choice.warning or _endless_words(case, best, kind, twice=twice)
-    told = told and f"joint {joint.name}: {told}{PLEASE_CHECK}"
-    if answered is None or pressed(best, answered):
-        return joint, told or (_unused(joint, case.recognized) if answered is None else "")
-    joint, shortened = _as_answered(case, best, joint, answered)
-    return joint, shortened or told
+    if answered is None:
+        ranged = _unused(kind, case.recognized)
+    else:
+        joint, ranged = _as_answered(case, best, joint, answered)
+    told = (choice.warning, _endless_words(case, best, kind, twice=twice), ranged)
+    return joint, tuple(f"joint {joint.name}: {words}{PLEASE_CHECK}" for words in told if words)
 
 
 def _endless_words(case: PartCase, best: Candidate, kind: JointType, *, twice: bool) -> str:
@@ -360,33 +362,35 @@ def _endless_words(case: PartCase, best: Candidate, kind: JointType, *, twice: b
     return f"endless was answered, but {stop}" if recognized or case.endless else ""
 
 
-def _unused(joint: Joint, recognized: RecognizedLabel | None) -> str:
-    """Return a warning about an answered range that a joint of the answered kind does not have, else "".
+def _unused(kind: JointType, recognized: RecognizedLabel | None) -> str:
+    """Return in words that a joint does not have an answered range, else "".
 
     Other kinds contradict the answer, which has a warning of its own.
     """
     if recognized is None or recognized.limits is None or recognized.moves is None:
         return ""
-    endless = joint.type is JointType.CONTINUOUS and recognized.moves is JointType.REVOLUTE
-    if not endless and joint.type is not recognized.moves:
+    endless = kind is JointType.CONTINUOUS and recognized.moves is JointType.REVOLUTE
+    if not endless and kind is not recognized.moves:
         return ""
     why = "is not used, it turns endlessly" if endless else "is no range"
-    return f"joint {joint.name}: the answer {_range_words(recognized.moves, recognized.limits)} {why}{PLEASE_CHECK}"
+    return f"the answer {_range_words(recognized.moves, recognized.limits)} {why}"
 
 
 def _as_answered(case: PartCase, best: Candidate, joint: Joint, answered: tuple[float, float]) -> tuple[Joint, str]:
-    """Return the joint with less confidence if less than the answered range is free, and a warning with both."""
+    """Return the joint with less confidence if less than the answered range is free, and both in words."""
     written = joint.limits or answered
     asked, told = answered[1] - answered[0], _range_words(joint.type, answered)
     if written[1] - written[0] < MIN_KEPT * asked:
         share, end = (written[1] - written[0]) / asked, f"{_range_words(joint.type, written)} is free and was written"
+    elif pressed(best, answered):
+        return joint, ""
     else:
         share = sum(free_within(case.context, best, -answered[0], answered[1], 2 * FINE_STEPS)) / asked
         end = "it was kept, though geometry blocks it"
     if share >= MIN_KEPT:
         return joint, ""
     confidence = joint.confidence * max(share, BLOCKED_RATIO if best.is_free else 1.0)
-    return replace(joint, confidence=confidence), f"joint {joint.name}: {told} was answered, {end}{PLEASE_CHECK}"
+    return replace(joint, confidence=confidence), f"{told} was answered, {end}"
 
 
 def _range_words(kind: JointType, limits: tuple[float, float]) -> str:

@@ -279,6 +279,10 @@ class PartFit(StrEnum):
     TOO_MUCH = "too_much"
     TOO_LITTLE = "too_little"
 
+    @property
+    def words(self) -> str:
+        return self.value.replace("_", " ")
+
 
 @dataclass(frozen=True)
 class MotionPick:
