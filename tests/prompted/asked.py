@@ -9,7 +9,7 @@ import numpy as np
 from assets import checker
 from hypothesis import strategies as st
 
-from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
+from anymesh.prompted.questions.grounding import EqualMarks, MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.prompted.questions.prompting import (
     ArrowTable,
     JointAppearance,
@@ -23,7 +23,7 @@ from anymesh.prompted.questions.prompting import (
     WhichMotions,
     WhichPoints,
 )
-from anymesh.prompted.questions.recognition import Recognize
+from anymesh.prompted.questions.recognition import Recognize, RecognizeRegions
 from anymesh.types import JointType, Motion, Picture
 from anymesh.types.motion import Recognition, RecognizedLabel
 from anymesh.types.questions import Question
@@ -72,6 +72,11 @@ def picks(name: str, *rows: Any) -> dict[str, Any]:
 TURNS = tuple(Motion(JointType.REVOLUTE, axis, np.zeros(3), "built so") for axis in (X, Z))
 REGIONS = (np.array([[1, 2], [3, -1]]), np.array([[2, 4], [-1, -1]]))  # the marks of two pictures
 FACES = (np.zeros((2, 2), int), np.zeros((2, 2), int))
+WHEEL = RecognizedLabel("wheel", JointType.CONTINUOUS, "base", None, 4)
+WHEELS = (np.array([[1, 2], [3, -1]]), np.array([[4, 5], [6, 7]]))
+"""Marks of three tyres, 1 to 3, and of three hubs, the last of which, 6, lies off its tyre; 7 is as large as a hub."""
+PLACES = np.array([[0.0, 0, 0], [4, 0, 0], [8, 0, 0], [4, 0.1, 0], [0, 0.1, 0], [8, 3, 0], [2, 5, 0]])
+EQUAL = EqualMarks(np.arange(1, 8), np.array([0, 0, 0, 1, 1, 1, 1]), PLACES)
 DOOR = {"label": "door", "moves": "revolute", "parent": "base", "lower": 0, "upper": 90}
 KNOB = {"label": "knob", "moves": "continuous", "parent": "door", "lower": 0, "upper": 0}
 TRAY = {"label": "tray", "moves": "prismatic", "parent": "base", "lower": -5, "upper": 30.5}
@@ -89,6 +94,20 @@ ASKED = {
                 RecognizedLabel("tray", JointType.PRISMATIC, "base", (-0.05, 0.305)),
             ),
             45.0,
+        ),
+    ),
+    "regions": Asked(
+        RecognizeRegions((PICTURE,) * 3, (1, 2, 2), (WHEEL,), "truck"),
+        {
+            "regions": [{"region": 2, "labels": ["Wheel", "flap"]}, {"region": 1, "labels": []}],
+            **parts(
+                {"label": "flap", "moves": "revolute", "parent": "base", "lower": 0, "upper": 90, "count": 2},
+                {"label": "wheel", "moves": "continuous", "parent": "base", "lower": 0, "upper": 0, "count": 6},
+            ),
+        },
+        (
+            RecognizedLabel("wheel", JointType.CONTINUOUS, "base", None, 6),
+            RecognizedLabel("flap", JointType.REVOLUTE, "base", (0.0, 90 * 3.141592653589793 / 180), 2),
         ),
     ),
     "views": Asked(
@@ -110,6 +129,22 @@ ASKED = {
         WhichMarks((PICTURE,) * 2, ("door", "knob"), True, REGIONS, FACES, extensible=True),
         marks(("Door", 1, 0, [4, 1]), ("Hose reel", 1, 0, [2])),
         MarksAnswer((MarkedPart("door", 1, None, (1, 4)), MarkedPart("hose reel", 1, None, (2,)))),
+    ),
+    "marks of which one stands for its equals": Asked(
+        WhichMarks((PICTURE,) * 2, ("wheel", "knob"), True, WHEELS, FACES, equal=EQUAL, counts=(3, 0)),
+        parts(
+            {"label": "wheel", "instance": 1, "marks": [1, 5], "all_equal": True},
+            {"label": "knob", "instance": 1, "marks": [7], "all_equal": False},
+        )
+        | {"unsure": []},
+        MarksAnswer(
+            (
+                MarkedPart("wheel", 1, None, (1, 5)),
+                MarkedPart("knob", 1, None, (7,)),
+                MarkedPart("wheel", 2, None, (2, 4)),
+                MarkedPart("wheel", 3, None, (3,)),
+            )
+        ),
     ),
     "marks of each view": Asked(
         WhichMarks((PICTURE,) * 2, ("door", "knob"), False, REGIONS, FACES),

@@ -1,5 +1,6 @@
 """Test that schema and parser of every question match, and that no answer is guessed or causes a crash."""
 
+import copy
 import json
 from collections.abc import Iterator
 from contextlib import nullcontext
@@ -8,7 +9,7 @@ from typing import Any
 
 import jsonschema
 import pytest
-from asked import ASKED, FACES, PICTURE, REGIONS, TRAY, marks, picks, satisfying, table
+from asked import ASKED, DOOR, FACES, KNOB, PICTURE, REGIONS, TRAY, marks, parts, picks, satisfying, table
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -286,3 +287,48 @@ def test_each_number_once_and_no_other(case) -> None:
 def test_numbers_below_the_largest_are_let_through() -> None:
     check_schema([LARGEST - 1, -LARGEST + 1], a_list(NUMBER))
     check_schema(int(LARGEST) - 1, INTEGER)
+
+
+def test_what_turns_endlessly_has_no_limits_and_counts_are_possible() -> None:
+    question, ask = ASKED["recognize"].question, {"category": "x", "longest_side_m": 1, "front": 0}
+    for changes, told in (
+        ({"upper": 90}, "continuous has 0 and 0; what has limits is revolute"),
+        ({"count": -1}, "count must"),
+    ):
+        with pytest.raises(BadAnswerError, match=f"knob: {told}"):
+            question.parse({**ask, **parts(DOOR, {**KNOB, **changes})})
+    found = question.parse({**ask, "machine": True, **parts({**DOOR, "count": 4}, KNOB)})
+    assert (found.machine, [label.count for label in found.labels]) == (True, [4, None])
+
+
+def test_kinds_of_every_region_need_an_entry_and_those_found_before_are_told() -> None:
+    asked = ASKED["regions"]
+    assert "wheel (4)" in asked.question.text()
+    for lacking, told in (
+        ({**asked.found, "regions": asked.found["regions"][:1]}, "each region 1..2 must be answered exactly once"),
+        ({**asked.found, "parts": []}, "parts must have an entry for each new kind in regions; missing ..flap"),
+    ):
+        with pytest.raises(BadAnswerError, match=told):
+            asked.question.parse(lacking)
+    assert asked.question.parse({"regions": [{"region": k, "labels": []} for k in (1, 2)], "parts": []}) == asked.question.known
+
+
+def test_equal_marks_and_counts_are_told_and_pairs_are_named_one_by_one() -> None:
+    question = ASKED["marks of which one stands for its equals"].question
+    assert "wheel (3), knob." in question.text()
+    assert "Marks of equal size and shape: 1, 2, 3; 4, 5, 6, 7." in question.text()
+    assert question.equal.among({1, 2, 4, 5}) is None
+    assert question.equal.among({1, 4, 5, 6}).marks.tolist() == [4, 5, 6]
+
+
+@pytest.mark.parametrize("name", ["recognize", "marks of which one stands for its equals"])
+def test_answers_to_the_form_before_counts_and_equal_marks_stay_valid(name: str) -> None:
+    request = request_of(ASKED[name].question)
+    ((text, schema),) = request.earlier
+    assert not any(word in text for word in ("count:", "machine:", "all_equal:"))
+    assert not any(word in json.dumps(schema) for word in ("count", "machine", "all_equal"))
+    found = copy.deepcopy(ASKED[name].found)
+    for part in found["parts"]:
+        part.pop("all_equal", None)
+    check_schema(found, request.schema)
+    assert len(ASKED[name].question.parse(found).parts if "unsure" in found else found["parts"]) == len(found["parts"])

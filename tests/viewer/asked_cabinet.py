@@ -58,12 +58,12 @@ def motions(scale: float = 1.0) -> WhichMotions:
 
 def questions() -> dict[str, tuple[Any, dict[str, Any]]]:
     """Kind of question -> the question, and an answer that it takes."""
-    door = {"label": "door", "moves": "revolute", "parent": "base", "lower": 0.0, "upper": 90.0}
-    knob = {"label": "knob", "moves": "continuous", "parent": "door", "lower": 0.0, "upper": 0.0}
+    door = {"label": "door", "moves": "revolute", "parent": "base", "lower": 0.0, "upper": 90.0, "count": 2}
+    knob = {"label": "knob", "moves": "continuous", "parent": "door", "lower": 0.0, "upper": 0.0, "count": 0}
     return {
         "recognize": (
             Recognize((PICTURE,) * 4, None, (0.0, 90.0, 180.0, 270.0)),
-            {"category": "cabinet", "longest_side_m": 1.2, "front": 1, "parts": [door, knob]},
+            {"category": "cabinet", "longest_side_m": 1.2, "front": 1, "machine": False, "parts": [door, knob]},
         ),
         "marks": (
             marks(),

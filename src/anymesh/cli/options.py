@@ -31,7 +31,7 @@ OTHER_GROUPS = {  # of fields that differ from their class
     "category": INPUT,
     **dict.fromkeys(("parts_list", "at_least", "precision"), PARTS),
     **dict.fromkeys(("hulls", "resistance", "mechanisms", "visuals", "shapes", "profile", "time_limit", "seed"), ADVANCED),
-    **dict.fromkeys(("animation", "root", "cache", "timeout", "viewpoints", "verify", "ask", "proposer"), ADVANCED),
+    **dict.fromkeys(("animation", "root", "cache", "timeout", "viewpoints", "verify", "ask", "detail", "proposer"), ADVANCED),
 }
 MeshPath = Annotated[
     Path, typer.Argument(metavar="MESH", help="GLB, glTF, OBJ, PLY, STL, OFF, DAE, 3MF, USD, FBX, STEP or zip.")

@@ -18,9 +18,7 @@ from anymesh.runtime import Deadline
 from anymesh.types import Exchange
 from anymesh.types.questions import AnswererFactory
 
-CLASSIFIERS = (
-    "segmentation/part_classifier.npz", "articulation/unswept_classifier.npz", "articulation/motion_classifier.npz"
-)  # fmt: skip
+CLASSIFIERS = ("segmentation/part_classifier.npz", "articulation/unswept_classifier.npz", "articulation/motion_classifier.npz")
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,7 +64,7 @@ def choose_answerer(
     chosen = AnswererOptions(**options)
     config = Config(
         seed=chosen.seed, category=chosen.category, proposer=chosen.proposer, verify=chosen.verify, ask=chosen.ask,
-        pictures=chosen.pictures, viewpoints=chosen.viewpoints, at_least=chosen.at_least,
+        viewpoints=chosen.viewpoints, at_least=chosen.at_least, detail=chosen.detail,
     )  # fmt: skip
     if chosen.answerer != GEOMETRY:
         return resolve(OPEN_ANSWERER)(chosen, config, about, deadline or Deadline(), stop)

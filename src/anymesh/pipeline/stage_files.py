@@ -134,15 +134,15 @@ def _pack_recognition(result: RecognitionResult) -> tuple[Record, dict[str, np.n
 
 
 def _unpack_recognition(record: Record, arrays: Arrays) -> RecognitionResult:
-    def label(label_record: Record) -> RecognizedLabel:
-        moves = None if label_record["moves"] is None else JointType(label_record["moves"])
-        return RecognizedLabel(label_record["label"], moves, label_record["parent"], _limits(label_record))
+    def label(stored: Record) -> RecognizedLabel:
+        moves = None if stored["moves"] is None else JointType(stored["moves"])
+        known: Record = {**stored, "moves": moves, "limits": _limits(stored)}
+        return RecognizedLabel(**known)
 
-    r = record["recognition"]
-    recognition = None
+    r, recognition = record["recognition"], None
     if r is not None:
-        labels = tuple(label(label_record) for label_record in r["labels"])
-        recognition = Recognition(r["category"], r["size"], labels, r.get("front"))
+        known: Record = {**r, "labels": tuple(map(label, r["labels"]))}
+        recognition = Recognition(**known)
     exchanges = _unpack_exchanges(record["exchanges"], arrays)
     return RecognitionResult(
         recognition, record["answerer"], record["scale"], record["note"], tuple(record["warnings"]), exchanges

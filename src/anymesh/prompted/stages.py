@@ -6,6 +6,8 @@ from copy import copy
 from dataclasses import replace
 from functools import cached_property, partial
 
+import numpy as np
+
 from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.pipeline.solving import GeometryStages
 from anymesh.prompted.answerers.question_files import NAME as FILES
@@ -13,19 +15,28 @@ from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer, r
 from anymesh.prompted.grounding.cloud import seen_points
 from anymesh.prompted.grounding.faces import stays_free
 from anymesh.prompted.grounding.ground import Ground, ground_by_masks, ground_exactly, ground_parts
-from anymesh.prompted.grounding.mark_questions import MarkQuestioner
+from anymesh.prompted.grounding.mark_questions import MAX_MARKS_PER_PICTURE, MarkQuestioner
 from anymesh.prompted.grounding.regrounding import ground_again
 from anymesh.prompted.grounding.sam_onnx_ import load_sam
-from anymesh.prompted.grounding.views import EXACT, MIN_RECOGNITION_PATCH_RATIO, SampledObject, inner_faces, sample_object
+from anymesh.prompted.grounding.views import (
+    EXACT,
+    MIN_RECOGNITION_PATCH_RATIO,
+    SampledObject,
+    inner_faces,
+    region_cameras,
+    sample_object,
+)
 from anymesh.prompted.motions.joints import Questions, Reground, prompt_joints
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
-from anymesh.prompted.questions.recognition import GIVEN, answered_scale, ask_recognition, in_size_of
+from anymesh.prompted.questions.recognition import GIVEN, RecognizeRegions, answered_scale, ask_recognition, in_size_of
 from anymesh.runtime import Progress, silent
 from anymesh.types import Picture, Segmentation
+from anymesh.types.exchange import DrawnPictures
 from anymesh.types.motion import Recognition
 from anymesh.types.questions import AnswererFactory
 
 MAX_INSIDE_VIEWS = 2  # pictures of the inside in the question about the object
+FEW_PARTS = 4  # a machine of more moving parts, or of more regions than one picture of marks holds, is asked about by regions
 
 
 class PromptedStages:
@@ -72,6 +83,9 @@ class PromptedStages:
         answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._reference_parts))
         azimuths = [azimuth for azimuth, _ in self.config.directions]
         recognition = ask_recognition(self._view_pictures, answerer, self.config.category, self.config.parts_list, azimuths)
+        many = sum(r.count or 1 for r in recognition.labels) > FEW_PARTS
+        if recognition.machine and (many or len(np.unique(self._sampled.regions)) > MAX_MARKS_PER_PICTURE):
+            recognition = replace(recognition, labels=answerer.ask(self._regions(recognition)))
         kept = GIVEN if not sized else "the file's unit" if metric else ""
         size, measured = float(self.mesh.extents.max()), answerer.name == FILES
         scale, note, doubt = answered_scale(recognition, size, kept=kept, measured=measured)
@@ -88,6 +102,19 @@ class PromptedStages:
             names += [prompts.inside_names()[k] for k in chosen]
         return prompts.pictures([view.color for view in seen], names)
 
+    def _regions(self, recognition: Recognition) -> RecognizeRegions:
+        """Return the question about kinds of part by regions."""
+        prompts, near = self.visual_prompts, region_cameras(self._sampled.cloud, self.visual_prompts.views)
+        names = prompts.names(len(prompts.views), recognition.front)
+
+        def draw() -> tuple[Picture, ...]:
+            titles = [f"region {number}, {names[v]}" for number, v, _ in near]
+            return prompts.pictures([prompts.view(camera).color for _, _, camera in near], titles)
+
+        return RecognizeRegions(
+            DrawnPictures(draw), tuple(number for number, _, _ in near), recognition.labels, recognition.category
+        )
+
     def find_parts(self, recognition: Recognition | None, progress: Progress = silent) -> SegmentationResult:
         """Run Stage A; without a recognition there is nothing to ask for, and geometry finds the parts."""
         if recognition is None:
@@ -96,7 +123,11 @@ class PromptedStages:
         answerer = self._see(ReferenceAnswerer(self._geometry.name, lambda: self._reference_parts))
         labels = tuple(r.label for r in recognition.labels)
         asked_for = recognition.size is not None  # the user did not give the labels
-        questioner = MarkQuestioner(answerer, self.visual_prompts, labels, recognition.category, self.config, asked_for)
+        counts = tuple(r.count or 0 for r in recognition.labels)
+        questioner = MarkQuestioner(
+            answerer, self.visual_prompts, labels, recognition.category, self.config, asked_for,
+            counts=counts if any(counts) else (), machine=recognition.machine,
+        )  # fmt: skip
         segmentation, warnings = ground_parts(
             self._sampled,
             questioner,

@@ -199,24 +199,26 @@ def extent(joint: Joint) -> str:
 class RecognizedLabel:
     """A kind of movable part.
 
-    moves: as answered before any picture of its joint, never FIXED; limits: (lower, upper) from the pose shown [rad, or m],
-    None if unknown.
+    moves: as answered before any picture of its joint, never FIXED; limits: (lower, upper) from the pose shown [rad, or m];
+    count: how many there are; None if unknown.
     """
 
     label: str
     moves: JointType | None  # None if unknown
     parent: str | None  # another label, or "base"; None if unknown
     limits: tuple[float, float] | None
+    count: int | None = None
 
 
 @dataclass(frozen=True)
 class Recognition:
     """The recognized object.
 
-    size: longest side of the real object [m]; front: azimuth of the view that shows the front [deg]. Both are None if unknown.
+    size: longest side of the real object [m]; front: azimuth of the view that shows the front [deg]; None if unknown.
     """
 
     category: str
     size: float | None
     labels: tuple[RecognizedLabel, ...]
     front: float | None = None
+    machine: bool = False

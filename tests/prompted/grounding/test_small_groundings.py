@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cache
 
 import numpy as np
@@ -12,10 +12,12 @@ from assets import box, mesh_of
 from made import smaller
 
 from anymesh.config import Config
+from anymesh.prompted.grounding import alike
+from anymesh.prompted.grounding.alike import equal_marks, small_regions
 from anymesh.prompted.grounding.ground import ground_exactly, ground_parts
 from anymesh.prompted.grounding.mark_questions import MarkQuestioner
 from anymesh.prompted.grounding.regrounding import ground_again
-from anymesh.prompted.grounding.views import SampledObject, sample_object
+from anymesh.prompted.grounding.views import SampledObject, region_cameras, sample_object
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks
 from anymesh.prompted.questions.prompting import PartFit
@@ -89,7 +91,9 @@ def grounded(parts: Mapping[tuple[str, int], Sequence[int]], *labels: str, insid
     """Return the parts by name as pieces, the segmentation, its warnings and the answerer."""
     sampled, piece, prompts = scene(inside)
     who = Scripted(piece, parts, options.get("unsure", ()))
-    told = Recognition("box", options.get("size"), tuple(RecognizedLabel(label, None, None, None) for label in labels))
+    told = Recognition(
+        "box", options.get("size"), tuple(RecognizedLabel(label, None, None, None, options.get("count")) for label in labels)
+    )
 
     def by_geometry() -> Segmentation:
         return Segmentation((piece == TRAY_NUMBER).astype(np.int64), (Part("base", "base"), Part("tray", "tray", 0.5, "it is")))
@@ -124,6 +128,51 @@ def test_a_label_without_a_part_gives_a_warning() -> None:
     assert warnings == ("no lid was found, though scripted expects one",)
     _, _, warnings, _ = grounded({("door", 1): range(7)}, "door")
     assert warnings == ("no door was found, the marks cover all of the object, or too little of it",)
+
+
+def test_parts_that_were_lost_or_miscounted_give_a_warning() -> None:
+    _, _, warnings, _ = grounded({("door", 1): [5], ("door", 2): []}, "door", count=2)
+    assert warnings == ("scripted recognized 2 parts door, but 1 is marked",)
+    _, _, warnings, _ = grounded({("lid", 1): [1], ("lid", 2): [0, 2, 3, 4, 5, 6]}, "lid", count=2)
+    assert warnings == ("1 of 2 marked parts lid are left: others took the surface of the rest, or all of it",)
+
+
+def test_with_low_detail_small_regions_join_what_they_sit_on_with_a_warning() -> None:
+    sampled, piece, prompts = scene(inside=False)
+    small = small_regions(piece, sampled.mesh, sampled.whole.diagonal)
+    assert not small
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(alike, "SMALL_RATIO", 0.3)
+        assert small_regions(piece, sampled.mesh, sampled.whole.diagonal) == {KNOB_NUMBER}
+        who = Scripted(piece, {("door", 1): [DOOR_NUMBER]})
+        low = MarkQuestioner(who, prompts, ("door",), "box", replace(QUICK, detail="low"))
+        told = Recognition("box", 1.0, (RecognizedLabel("door", None, None, None),))
+        found, warnings = ground_parts(sampled, low, told, ground_exactly, lambda: pytest.fail("asked"), lambda *_: True)
+    assert who.pieces(0) == {0, 1, 2, 3, 4, 5}
+    assert set(piece[found.face_part == 1].tolist()) == {DOOR_NUMBER, KNOB_NUMBER}
+    assert warnings[0].startswith("--detail low: 1 regions below ")
+
+
+def test_equal_marks_are_those_of_one_shape_turned_or_mirrored() -> None:
+    boxes = [box((k, 0, 0), (k + 0.4, 0.2, 0.1)) for k in range(3)]
+    turned = box((0, 2, 0), (0.1, 2.4, 0.2))
+    mesh, number = mesh_of([*boxes, turned, box((2, 2, 0), (2.4, 2.3, 0.1))])
+    mark = number + 1
+    found = equal_marks(mark, mesh)
+    assert found.marks.tolist() == [1, 2, 3, 4]
+    assert len(set(found.group.tolist())) == 1
+    assert found.middle[0] == pytest.approx([0.2, 0.1, 0.05])
+    assert equal_marks(np.where(mark == 1, 1, -1), mesh) is None
+
+
+def test_a_machine_is_shown_region_by_region_in_close_up() -> None:
+    sampled, piece, prompts = scene(inside=False)
+    near = region_cameras(sampled.cloud, prompts.views)
+    assert sorted({number for number, _, _ in near}) == [1, 2, 3, 4]
+    assert len(near) <= 8
+    assert all(camera.fov < prompts.views[v].camera.fov for _, v, camera in near)
+    seen = np.unique(np.concatenate([prompts.view(camera).face.ravel() for _, _, camera in near]))
+    assert set(piece[seen[seen >= 0]].tolist()) == {0, 1, 2, 3, 4, 5, 6}
 
 
 def test_without_labels_nothing_is_asked_and_all_is_the_base() -> None:

@@ -28,7 +28,7 @@ from anymesh.prompted.questions.prompting import (
     WhichMotions,
     WhichPoints,
 )
-from anymesh.prompted.questions.recognition import Recognize
+from anymesh.prompted.questions.recognition import Recognize, RecognizeRegions
 from anymesh.types import Brief, Exchange, Joint, JointType, KnownJoint, Mesh, Motion, Segmentation
 from anymesh.types.motion import BASE, Recognition, RecognizedLabel
 from anymesh.types.questions import Answer, Question
@@ -107,6 +107,8 @@ class ReferenceAnswerer:
         match question:
             case Recognize():
                 answer = self._recognition()
+            case RecognizeRegions():
+                answer = question.known
             case WhichViews():
                 answer = self._views(question)
             case WhichMarks():

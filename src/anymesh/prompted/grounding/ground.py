@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.config import Config
+from anymesh.prompted.grounding.alike import SMALL_RATIO
 from anymesh.prompted.grounding.cloud import seen_points
 from anymesh.prompted.grounding.em import refine_instances
 from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE, StaysFree, face_parts, mark_parts, point_parts
@@ -25,7 +27,6 @@ from anymesh.prompted.grounding.mark_questions import MarkAnswers, MarkQuestione
 from anymesh.prompted.grounding.regions import number_regions, split_marks
 from anymesh.prompted.grounding.sam import PromptedSegmenter, automatic_masks
 from anymesh.prompted.grounding.views import EXACT, MIN_INNER_PATCH_RATIO, SampledObject, shown_views, unseen_patches
-from anymesh.prompted.models.reliability import MARKS, confidence_in_marks, in_words
 from anymesh.prompted.pictures.views import normal_picture
 from anymesh.rendering.render import View
 from anymesh.runtime import Progress, silent
@@ -83,7 +84,7 @@ def ground_parts(
         return lambda without, joined, part: stays_free(without, joined, part, moves.get(of[part - 1]))
 
     grounded = ground(sampled, questioner, recognition.front, free, progress)
-    reason = f"{_pointed(answerer)}{in_words(questioner.config.probed, MARKS)}"
+    reason = _pointed(answerer)
     parts = named_parts(
         grounded.face_part,
         grounded.labels,
@@ -102,7 +103,18 @@ def ground_parts(
     missing = [label for label in labels if label not in {p.label for p in parts.parts}]
     causes = {True: "the marks cover all of the object, or too little of it", False: f"though {answerer.name} expects one"}
     lost = tuple(f"no {label} was found, {causes[label in grounded.pointed]}" for label in missing)
-    return parts, (*grounded.warnings, *lost, *inside)
+    return parts, (*grounded.warnings, *lost, *_miscounted(recognition, grounded, parts, answerer.name), *inside)
+
+
+def _miscounted(recognition: Recognition, grounded: GroundedParts, parts: Segmentation, answerer: str) -> Iterator[str]:
+    """Yield a warning for each label of which other parts are left than were marked, or than were recognized."""
+    left_over, marked = Counter(p.label for p in parts.parts), Counter(grounded.labels)
+    recognized = {r.label: r.count for r in recognition.labels}
+    for label, left in left_over.items():
+        if marked[label] > left:
+            yield f"{left} of {marked[label]} marked parts {label} are left: others took the surface of the rest, or all of it"
+        elif recognized.get(label) not in (None, left):
+            yield f"{answerer} recognized {recognized[label]} parts {label}, but {left} {'is' if left == 1 else 'are'} marked"
 
 
 def _pointed(answerer: VisualAnswerer) -> str:
@@ -163,17 +175,18 @@ def ground_exactly(
     face_part = mark_parts(mesh, whole, answer.marks.face_mark, parts, little, free(labels))
     doubts = [sorted(answer.unsure & set(p.marks)) for p in answer.parts]
     crowded = f"{marks.crowded} small regions have no mark of their own: the object has too many to be shown"
+    below = f"--detail low: {shown.small} regions below {SMALL_RATIO:.0%} of the object's diagonal were not asked about"
     return GroundedParts(
         face_part,
         shown.hidden[whole.mesh_patch],
         labels,
-        tuple(confidence_in_marks(UNSURE if some else SURE, questioner.config.probed) for some in doubts),
+        tuple(UNSURE if some else SURE for some in doubts),
         tuple(
             f", not sure of {len(some)} of {len(p.marks)} marks" if some else ""
             for some, p in zip(doubts, answer.parts, strict=True)
         ),
         frozenset(p.label for p in answer.parts),
-        (crowded,) if marks.crowded else (),
+        (*([crowded] if marks.crowded else []), *([below] if shown.small else [])),
     )
 
 
@@ -206,11 +219,11 @@ def ground_by_masks(
     instances = join_numbered(counts, instances)
     points = point_parts(cloud, instances, seen_points(cloud, shown.views))
     face_part = face_parts(mesh, whole, cloud, points, free(instances.labels))
-    count, sure = len(instances.labels), confidence_in_marks(SURE, config.probed)
+    count = len(instances.labels)
     lost = lost_parts(masks, [v.face for v in shown.views], face_part, instances.labels)
     pointed = frozenset(p.label for p in marked)
     return GroundedParts(
-        face_part, shown.hidden[whole.mesh_patch], instances.labels, (sure,) * count, ("",) * count, pointed, lost
+        face_part, shown.hidden[whole.mesh_patch], instances.labels, (SURE,) * count, ("",) * count, pointed, lost
     )  # fmt: skip
 
 

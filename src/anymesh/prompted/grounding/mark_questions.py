@@ -13,6 +13,7 @@ import numpy as np
 from jaxtyping import Bool, Int
 
 from anymesh.config import REFERENCE_PX, Config
+from anymesh.prompted.grounding.alike import equal_marks, small_regions
 from anymesh.prompted.grounding.fuse import Proposal
 from anymesh.prompted.grounding.regions import Marks
 from anymesh.prompted.pictures.drawing import draw_marks
@@ -171,7 +172,8 @@ def _halves(middle: np.ndarray, group: np.ndarray) -> list[np.ndarray]:
 class MarkQuestioner:
     """Settings of the questions about one object: answerer, picture style, labels and category.
 
-    extensible: close-ups may show kinds of part that the labels lack.
+    extensible: close-ups may show kinds of part that the labels lack; counts: how many parts of each label were recognized, 0
+    if unknown; machine: of many small parts, which get more close-ups.
     """
 
     answerer: VisualAnswerer
@@ -180,11 +182,8 @@ class MarkQuestioner:
     category: str | None
     config: Config
     extensible: bool = False
-
-    @property
-    def per_call(self) -> int:
-        """Return the number of pictures per call."""
-        return 1 if self.config.pictures == "few" else MAX_MARK_PICTURES
+    counts: tuple[int, ...] = ()
+    machine: bool = False
 
     def pictures(self, shown: Sequence[MarkPicture]) -> DrawnPictures:
         """Return the pictures with their marks."""
@@ -247,14 +246,18 @@ def _in_calls(
     splittable: bool,
     again: tuple[str, ...],
 ) -> MarksAnswer:
-    """Ask about all pictures, `questioner.per_call` at once, without repeating marks that earlier calls asked about.
+    """Ask about all pictures, MAX_MARK_PICTURES per call, without repeating marks that earlier calls asked about.
 
-    Where each call has one picture, these marks are drawn all the same, as they tell which part is which.
+    Where there are several calls, pictures of small marks alone come last.
     """
+    mesh = questioner.visual_prompts.mesh
+    equal = equal_marks(marks.face_mark, mesh)
+    if len(shown) > MAX_MARK_PICTURES:
+        small = small_regions(marks.face_mark, mesh, mesh.diagonal)
+        shown = sorted(shown, key=lambda p: p.drawn <= small)
     parts, unsure, split, done = earlier_parts, set[int](), set[int](), set[int]()
-    for begin in range(0, len(shown), questioner.per_call):
-        new = {id(p): p.without(done) for p in shown[begin : begin + questioner.per_call] if p.drawn - done}
-        some = [p for p in shown if id(p) in new] if questioner.per_call == 1 else list(new.values())
+    for begin in range(0, len(shown), MAX_MARK_PICTURES):
+        some = [p for p in (p.without(done) for p in shown[begin : begin + MAX_MARK_PICTURES]) if p.drawn]
         if not some:
             continue
         answer = questioner.answerer.ask(
@@ -271,13 +274,14 @@ def _in_calls(
                 again,
                 marks.face_mark,
                 extensible=questioner.extensible and not again and any(CLOSE_UP in p.name for p in some),
+                equal=equal.among(set[int]().union(*(p.drawn for p in some))) if equal is not None and not again else None,
+                counts=questioner.counts,
             )
         )
-        own = [replace(p, marks=tuple(m for m in p.marks if m not in done)) for p in answer.parts]
-        parts = _together(parts, [p for p in own if p.marks])
-        unsure |= set(answer.unsure)
-        split |= set(answer.split) - done
         done |= set[int]().union(*(p.drawn for p in some))
+        parts = _together(parts, answer.parts)
+        unsure |= set(answer.unsure)
+        split |= set(answer.split)
     return MarksAnswer(parts, tuple(sorted(unsure)), tuple(sorted(split)))
 
 
@@ -294,16 +298,16 @@ def ask_masks(
 ) -> tuple[MarkedPart, ...]:
     """Ask about masks that are numbered separately in each view.
 
-    The first question asks which labels each view shows, the others which marks belong to which part, for `per_call` views
-    each. Parts of different calls have different instance numbers, since no call shows the pictures of another.
+    The first question asks which labels each view shows, the others which marks belong to which part, for MAX_MARK_PICTURES
+    views each. Parts of different calls have different instance numbers, since no call shows the pictures of another.
     """
     plain = DrawnPictures(lambda: questioner.visual_prompts.pictures([v.color for v in seen], names))
     seen_in = questioner.answerer.ask(WhichViews(plain, questioner.labels, tuple(v.face for v in seen), questioner.category))
     chosen = sorted({k for view_indices in seen_in.values() for k in view_indices})
     labels = tuple(label for label, view_indices in seen_in.items() if view_indices)
     parts: list[MarkedPart] = []
-    for begin in range(0, len(chosen), questioner.per_call):
-        some, last = chosen[begin : begin + questioner.per_call], max((p.instance for p in parts), default=0)
+    for begin in range(0, len(chosen), MAX_MARK_PICTURES):
+        some, last = chosen[begin : begin + MAX_MARK_PICTURES], max((p.instance for p in parts), default=0)
         marked = _in_views(questioner, labels, [proposals[k] for k in some], [seen[k] for k in some], [names[k] for k in some])
         parts += [replace(p, view=some[p.view], instance=last + p.instance) for p in marked if p.view is not None]
     return tuple(parts)

@@ -40,7 +40,7 @@ def ground_again(
     numbers = {p.name: k for k, p in enumerate(segmentation.parts)}
     instance = {k: labels[1 : k + 1].count(labels[k]) for k in numbers.values()}
     parts = {(labels[numbers[name]], instance[numbers[name]]): numbers[name] for name in wrong}
-    questioner = replace(questioner, labels=tuple(dict.fromkeys(label for label, _ in parts)))
+    questioner = replace(questioner, labels=tuple(dict.fromkeys(label for label, _ in parts)), counts=())
     mesh, whole, cloud = sampled.mesh, sampled.whole, sampled.cloud
     shown = shown_views(sampled, questioner, front)
     marks = number_regions(shown.region, shown.views, whole.diagonal)

@@ -11,11 +11,13 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.config import REFERENCE_PX, Config
 from anymesh.geometry.surface import ObjectShape
+from anymesh.prompted.grounding.alike import small_regions
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud, seen_points
 from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE
 from anymesh.prompted.grounding.mark_questions import MarkQuestioner
 from anymesh.prompted.grounding.regions import face_regions, join_doubled, join_wires
 from anymesh.rendering.render import View
+from anymesh.rendering.viewpoints import zoom
 from anymesh.segmentation.handles import patch_sizes
 from anymesh.types import Brief, Mesh
 from anymesh.types.camera import Camera
@@ -24,11 +26,13 @@ MAX_SEEN_SHARE = 0.25  # patches up to this visible share of the surface count a
 MIN_INNER_PATCH_RATIO = 0.05  # of the object's diagonal: hidden patches with a smaller diagonal are not shown
 # of the object's diagonal: minimum size of a hidden patch for the inside to be shown when the object is recognized
 MIN_RECOGNITION_PATCH_RATIO = 0.1
-MAX_CLOSE_UPS = 8  # close-ups per object; each adds a picture to a question
+MAX_CLOSE_UPS, MAX_MACHINE_CLOSE_UPS = 8, 16  # close-ups per object, and per machine; each adds a picture to a question
+REGION_CUTS = 2  # times that a machine is halved into regions, whose close-ups are asked about on their own
 MIN_AREA_PX, MIN_WIDTH_PX = 250.0, 4.0  # [px, px across] in a 640 px view: regions below either are too small to judge
 LEGIBLE_AREA_PX, LEGIBLE_WIDTH_PX = 1500.0, 12.0  # [px, px across] size that a close-up should give such regions
 MIN_ZOOM, MAX_ZOOM = 2.0, 6.4  # magnification of a close-up
 MIN_CLOSE_UP_SHARE = 0.1  # share of a region's surface that views must see; less is a glimpse through a gap
+REGION_AIR = 0.06  # margin around a region in its close-up, as a share of its box on each side
 WINDOW = 0.8  # share of the close-up's side that holds the centers of its regions
 EXACT = "exact"
 MASK_POINTS = 800_000  # samples of the surface
@@ -57,8 +61,10 @@ def inner_faces(
     return (hidden & (size >= MIN_INNER_PATCH_RATIO))[whole.mesh_patch]
 
 
-def close_ups(region: Int[np.ndarray, " F"], cloud: Cloud, views: Sequence[View]) -> tuple[Camera, ...]:
-    """Return at most MAX_CLOSE_UPS cameras for regions that are too small in every view.
+def close_ups(
+    region: Int[np.ndarray, " F"], cloud: Cloud, views: Sequence[View], most: int = MAX_CLOSE_UPS
+) -> tuple[Camera, ...]:
+    """Return at most `most` cameras for regions that are too small in every view.
 
     The smallest regions come first. Each camera stands where one of the views does and covers as many small regions as fit.
 
@@ -72,9 +78,8 @@ def close_ups(region: Int[np.ndarray, " F"], cloud: Cloud, views: Sequence[View]
     little = (size < MIN_AREA_PX * scale**2).all(0) | (across < MIN_WIDTH_PX * scale).all(0)
     open_to = little & (size > 0).any(0) & _open(region, cloud, views)
     cameras: list[Camera] = []
-    while open_to.any() and len(cameras) < MAX_CLOSE_UPS:
-        most = size.max(0)
-        first = int(np.where(open_to, most, np.inf).argmin())
+    while open_to.any() and len(cameras) < most:
+        first = int(np.where(open_to, size.max(0), np.inf).argmin())
         v = int(size[:, first].argmax())
         wanted = float(zoom[v, first])
         reach = WINDOW * views[v].camera.height / wanted / 2
@@ -144,12 +149,55 @@ class SampledObject:
 
 @dataclass(frozen=True, eq=False)
 class ShownViews(Brief):
-    """The views to choose pictures from, their names, the patches that no outside view shows, and the region of each face."""
+    """The views to choose pictures from, their names, the patches that no outside view shows, and the region of each face.
+
+    small: number of regions that are too small to be asked about.
+    """
 
     views: list[View]
     names: list[str]
     hidden: Bool[np.ndarray, " P"]
     region: Int[np.ndarray, " F"]
+    small: int = 0
+
+
+def region_cameras(cloud: Cloud, views: Sequence[View]) -> list[tuple[int, int, Camera]]:
+    """Return close-ups of the regions of an object: the region, from 1, the index of the view that shows it, and the camera.
+
+    Regions are halves of halves of its box, across the longest side. Each is shown in the view whose close-up shows its surface
+    largest, and in the one that shows the rest of it largest.
+    """
+    seen = np.array([seen_points(cloud, [view]) for view in views])
+    cells = [np.flatnonzero(seen.any(0))]
+    for _ in range(REGION_CUTS):
+        cells = [half for cell in cells for half in _halved(cloud.points, cell)]
+    cameras = []
+    for number, cell in enumerate((c for c in cells if len(c)), start=1):
+        shown = seen[:, cell]
+        boxes = np.array([_box(view, cloud.points[cell]) for view in views])
+        magnified = 1 / np.maximum((boxes[:, 2:] - boxes[:, :2]).max(1), 1.0) ** 2
+        first = int((magnified * shown.sum(1)).argmax())
+        second = int((magnified * (shown & ~shown[first]).sum(1)).argmax())
+        for v in dict.fromkeys((first, second)):
+            camera = views[v].camera
+            cameras.append((number, v, zoom(camera, boxes[v], REGION_AIR, camera.height)))
+    return cameras
+
+
+def _box(view: View, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " 4"]:
+    """Return the box of points in a view: x0, y0, x1, y1 [px]."""
+    pixels = view.camera.project(points)[0]
+    return np.concatenate([pixels.min(0), pixels.max(0)])
+
+
+def _halved(points: Float[np.ndarray, "n 3"], cell: Int[np.ndarray, " c"]) -> list[Int[np.ndarray, " h"]]:
+    """Return the two halves of some points, cut across the longest side of their box."""
+    if not len(cell):
+        return [cell]
+    low, high = points[cell].min(0), points[cell].max(0)
+    axis = int((high - low).argmax())
+    upper = points[cell, axis] > (low[axis] + high[axis]) / 2
+    return [cell[~upper], cell[upper]]
 
 
 def sample_object(mesh: Mesh, whole: ObjectShape, config: Config) -> SampledObject:
@@ -164,15 +212,20 @@ def shown_views(sampled: SampledObject, questioner: MarkQuestioner, front: float
     front: azimuth of the front [deg], if known.
     """
     prompts, cloud = questioner.visual_prompts, sampled.cloud
-    size, across, _ = _shown(sampled.regions, prompts.views)
+    regions, small = sampled.regions, set[int]()
+    if questioner.config.detail == "low":
+        small = small_regions(regions, sampled.mesh, sampled.whole.diagonal)
+        regions = np.where(np.isin(regions, list(small)), -1, regions)
+    size, across, _ = _shown(regions, prompts.views)
     narrow = across < MIN_WIDTH_PX * prompts.views[0].camera.height / REFERENCE_PX
     thin = np.logical_and((size > 0).any(0), narrow.all(0))
-    region, racks = join_wires(sampled.regions, thin, prompts.views, sampled.whole.diagonal)
-    small = close_ups(np.where(np.isin(region, racks), -1, region), cloud, prompts.views) if questioner.labels else ()
-    seen = [*prompts.views, *(prompts.view(camera) for camera in small)]
+    region, racks = join_wires(regions, thin, prompts.views, sampled.whole.diagonal)
+    most = MAX_MACHINE_CLOSE_UPS if questioner.machine else MAX_CLOSE_UPS
+    near = close_ups(np.where(np.isin(region, racks), -1, region), cloud, prompts.views, most) if questioner.labels else ()
+    seen = [*prompts.views, *(prompts.view(camera) for camera in near)]
     names = prompts.names(len(seen), front)
     shown = seen_points(cloud, seen)
     inside = inner_faces(sampled.mesh, sampled.whole, cloud, shown)
     if questioner.labels and inside.any():
         seen, names = [*seen, *prompts.insides(inside)], [*names, *prompts.inside_names(front)]
-    return ShownViews(seen, names, unseen_patches(sampled.whole, cloud, shown), region)
+    return ShownViews(seen, names, unseen_patches(sampled.whole, cloud, shown), region, len(small))

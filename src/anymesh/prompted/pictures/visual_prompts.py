@@ -204,40 +204,40 @@ class VisualPrompts:
     """Draws the pictures of one object, and of its parts (face_part: (F,) part index per face)."""
 
     def __init__(self, mesh: Mesh, config: Config) -> None:
-        self._mesh, self._config = smoothed(mesh), config
+        self.mesh, self._config = smoothed(mesh), config
         self._pixels: tuple[bytes, np.ndarray] | None = None  # the last parts, and the pixels of each in each view
         self._inside: tuple[bytes, list[View]] | None = None  # the last faces that were shown alone, and their views
 
     @cached_property
     def scene(self) -> RayScene:
         """Ray scene of the mesh."""
-        return RayScene(self._mesh.vertices, self._mesh.faces)
+        return RayScene(self.mesh.vertices, self.mesh.faces)
 
     @cached_property
     def views(self) -> list[View]:
         """Views of the object from all sides."""
-        return views(self._mesh, self._config.directions, scene=self.scene)
+        return views(self.mesh, self._config.directions, scene=self.scene)
 
     @cached_property
     def face_colors(self) -> Float[np.ndarray, "F 3"]:
         """sRGB colour of each face, 0..1."""
-        return face_colors(self._mesh) / 255.0
+        return face_colors(self.mesh) / 255.0
 
     def view(self, camera: Camera) -> View:
         """Render the view of another camera."""
-        return shown(self._mesh, camera, self.scene)
+        return shown(self.mesh, camera, self.scene)
 
     def near(self, view: View, camera: Camera) -> View:
         """Render a close-up of a view: what it shows of the inside alone, if it is one of `insides`."""
         if self._inside is not None and any(view is other for other in self._inside[1]):
-            return inside_views(self._mesh, np.frombuffer(self._inside[0], bool), [camera], self.scene)[0]
+            return inside_views(self.mesh, np.frombuffer(self._inside[0], bool), [camera], self.scene)[0]
         return self.view(camera)
 
     def insides(self, inside: Bool[np.ndarray, " F"]) -> list[View]:
         """Render some faces alone, with the rest as a ghost, from INSIDE_DIRECTIONS."""
         key = inside.tobytes()
         if self._inside is None or self._inside[0] != key:
-            self._inside = key, inside_views(self._mesh, inside, cameras(self._mesh, INSIDE_DIRECTIONS), self.scene)
+            self._inside = key, inside_views(self.mesh, inside, cameras(self.mesh, INSIDE_DIRECTIONS), self.scene)
         return self._inside[1]
 
     def clearest_inside_views(self, inside: Bool[np.ndarray, " F"], most: int) -> list[int]:
@@ -278,7 +278,7 @@ class VisualPrompts:
 
     def _seen_from(self, facing: Float[np.ndarray, " 3"]) -> list[int]:
         """Return the indices of the views from a side, of all views if there are none."""
-        eyes = [v.camera.T_world_camera[:3, 3] - self._mesh.bounds.mean(0) for v in self.views]
+        eyes = [v.camera.T_world_camera[:3, 3] - self.mesh.bounds.mean(0) for v in self.views]
         return [k for k, eye in enumerate(eyes) if is_beside(eye, facing)] or list(range(len(eyes)))
 
     def _from(self, face_part: Int[np.ndarray, " F"], alike: Facing | None) -> list[View]:
@@ -299,7 +299,7 @@ class VisualPrompts:
         contact: points [m] that should be visible; alike: parts that are drawn from the same side.
         """
         view = card_view(self._from(face_part, alike), face_part, part, self.scene, contact)
-        return encode(part_card(self._mesh, view, face_part, part, title, self.scene))
+        return encode(part_card(self.mesh, view, face_part, part, title, self.scene))
 
     def shot(
         self,
@@ -316,7 +316,7 @@ class VisualPrompts:
         best = [views[best_view(views, face_part, part)]]
         two = best if candidates is None else self._two(views, face_part, part, candidates)
         near = tuple(self._near(view, face_part, part) for view in two)
-        rest = self._mesh.subset(face_part != part)
+        rest = self.mesh.subset(face_part != part)
 
         def through(view: View) -> UInt8[np.ndarray, "H W 3"]:
             return shown(rest, view.camera, RayScene(rest.vertices, rest.faces)).color
@@ -341,7 +341,7 @@ class VisualPrompts:
 
     def _hidden(self, view: View, points: Float[np.ndarray, "k 3"]) -> Bool[np.ndarray, " k"]:
         """Return which points [m] lie below a surface, as seen in a view."""
-        return hidden_points(self.scene, view.camera, points, UNDER * self._mesh.diagonal)
+        return hidden_points(self.scene, view.camera, points, UNDER * self.mesh.diagonal)
 
     def arrows(
         self,
@@ -355,7 +355,7 @@ class VisualPrompts:
         """Draw the part with numbered arrows, in the view where they are most distinct. alike: as in `card`."""
         views = self._from(face_part, alike)
         view = self._near(views[clearest_view(views, center, directions, face_part, part)], face_part, part)
-        length = ARROW * float(np.linalg.norm(np.ptp(self._mesh.triangles[face_part == part].reshape(-1, 3), axis=0)))
+        length = ARROW * float(np.linalg.norm(np.ptp(self.mesh.triangles[face_part == part].reshape(-1, 3), axis=0)))
         image = highlight(view.color, self._mask(view, face_part, part))
         drawn = draw_arrows(image, view.camera, center, directions, range(1, len(directions) + 1), length)
         return encode(titled(drawn, title))
@@ -371,14 +371,14 @@ class VisualPrompts:
     ) -> Picture:
         """Draw a part and what it carries, at rest and moved by each amount [rad or m]. words: as in `motion_strip`."""
         shown = list(zip(motions, amounts, strict=True))
-        strip = motion_strip(self._mesh, moving, shown, words=words, scene=self.scene, seen_from=seen_from)
+        strip = motion_strip(self.mesh, moving, shown, words=words, scene=self.scene, seen_from=seen_from)
         return encode(titled(strip, title))
 
     def _near(self, view: View, face_part: np.ndarray, part: int) -> View:
         """Return a close-up if the part is small in the view, else the view."""
-        return close_up(self._mesh, view, face_part, part, self.scene) or view
+        return close_up(self.mesh, view, face_part, part, self.scene) or view
 
     def _mask(self, view: View, face_part: np.ndarray, part: int) -> np.ndarray:
         """Return the pixels of the part, or its full silhouette if nothing of it is visible."""
         mask = part_pixels(view, face_part, part)
-        return mask if mask.any() else silhouette(self._mesh.triangles[face_part == part], view.camera)
+        return mask if mask.any() else silhouette(self.mesh.triangles[face_part == part], view.camera)

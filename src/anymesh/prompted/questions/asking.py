@@ -11,7 +11,8 @@ import reprlib
 from collections.abc import Mapping
 from typing import Any
 
-REASON = "reason"  # optional property before an answer that lets a model reason
+REASON = "reason"  # property before an answer that lets a model reason
+OPTIONAL = {REASON, "machine", "count", "all_equal"}  # properties that answers may lack, as those of earlier versions do
 LARGEST = 1e9  # limit of numbers in answers; a number of a thousand digits would fill the following questions
 INTEGER, NUMBER, STRING, BOOLEAN = ({"type": t} for t in ("integer", "number", "string", "boolean"))
 _TYPES: dict[str, tuple[type, ...]] = {
@@ -74,7 +75,7 @@ def check_schema(value: Any, schema: Mapping[str, Any], at: str = "the answer") 
 
 def _check_names(value: Mapping[str, Any], schema: Mapping[str, Any], at: str) -> None:
     """Raise BadAnswerError unless an object has the properties of its schema and no others."""
-    needed = set(schema["required"]) - {REASON}
+    needed = set(schema["required"]) - OPTIONAL
     missing, unknown = (sorted(a) for a in (needed - set(value), set(value) - set(schema["properties"])))
     if missing or unknown:
         raise BadAnswerError(f"{at} must have exactly {schema['required']}; missing {missing}, unknown {_short(unknown)}")

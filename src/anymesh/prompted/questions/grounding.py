@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
-from jaxtyping import Int
+from jaxtyping import Float, Int
 
 from anymesh.prompted.questions.asking import (
+    BOOLEAN,
     INTEGER,
     STRING,
     BadAnswerError,
@@ -22,6 +24,9 @@ from anymesh.prompted.questions.asking import (
 from anymesh.prompted.questions.recognition import check_labels, folded
 from anymesh.types import Brief
 from anymesh.types.exchange import Pictures
+
+MIN_EQUAL = 3  # equal marks from which one entry may name all; two are as soon named one by one
+SAME_PLACE = 0.02  # of the extent of all marks: difference of the distances of marks of two copies; an estimate
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,6 +90,63 @@ class MarksAnswer:
 
 
 @dataclass(frozen=True, eq=False)
+class EqualMarks(Brief):
+    """Marks of one shape and size.
+
+    marks: in ascending order; group: of each mark; middle: of its surface [m].
+    """
+
+    marks: Int[np.ndarray, " n"]
+    group: Int[np.ndarray, " n"]
+    middle: Float[np.ndarray, "n 3"]
+
+    @property
+    def text(self) -> str:
+        """Return the marks of each group in words, with what may be answered about them."""
+        listed = (", ".join(map(str, self.marks[self.group == g])) for g in dict.fromkeys(self.group.tolist()))
+        return (
+            f"Marks of equal size and shape: {'; '.join(listed)}. all_equal: true if all marks that are equal to those of the "
+            "entry are further parts of its kind; they then need no entry, and each is a part of its own (with those that lie "
+            "at the same distance, if the entry has several marks). Else false. Marks in other entries stay there."
+        )
+
+    def among(self, marks: Collection[int]) -> EqualMarks | None:
+        """Return those among some marks of which at least MIN_EQUAL are equal, None if there are none."""
+        here = np.isin(self.marks, list(marks))
+        _, back, count = np.unique(self.group[here], return_inverse=True, return_counts=True)
+        kept = np.flatnonzero(here)[count[back.reshape(-1)] >= MIN_EQUAL]
+        return EqualMarks(self.marks[kept], self.group[kept], self.middle[kept]) if len(kept) else None
+
+    def copies(self, part: Collection[int], taken: Collection[int]) -> list[set[int]]:
+        """Return the marks of each copy of a part, without marks that are taken.
+
+        The mark of the part with the fewest equals stands for it; each copy takes the equals of the other marks that lie as far
+        from its own. Marks without equals, such as a badge, do not count.
+        """
+        own = [k for k, mark in enumerate(self.marks.tolist()) if mark in part]
+        left = [k for k, mark in enumerate(self.marks.tolist()) if mark not in taken and k not in own]
+        equals = {k: [j for j in left if self.group[j] == self.group[k]] for k in own}
+        first = min((k for k in own if equals[k]), key=lambda k: len(equals[k]), default=None)
+        if first is None:
+            return []
+        near = SAME_PLACE * float(np.linalg.norm(np.ptp(self.middle, axis=0)))
+        copies, used = [], set(equals[first])
+        for j in equals[first]:
+            copy = {j}
+            for k in (k for k in own if k != first):
+                off = {i: self._off(i, j) - self._off(k, first) for i in equals[k] if i not in used | copy}
+                best = min(off, key=lambda i: abs(off[i]), default=None)
+                if best is not None and abs(off[best]) <= near:
+                    copy.add(best)
+            used |= copy
+            copies.append({int(self.marks[k]) for k in copy})
+        return copies
+
+    def _off(self, a: int, b: int) -> float:
+        return float(np.linalg.norm(self.middle[a] - self.middle[b]))
+
+
+@dataclass(frozen=True, eq=False)
 class WhichMarks(Brief):
     """Which marks make up which part?
 
@@ -92,7 +154,8 @@ class WhichMarks(Brief):
     surface has the same number in all pictures; found: parts of earlier pictures; splittable: the answer may ask for marks to
     be split; inside: some pictures show the inside; again: descriptions of parts of an earlier answer that proved wrong;
     face_mark: (F,) the mark of each face of the mesh, -1 for none, if marks are the same in all views, for answerers that
-    select marks on the surface itself; extensible: the answer may name kinds of part that the list lacks.
+    select marks on the surface itself; extensible: the answer may name kinds of part that the list lacks; equal: marks of one
+    shape, so that one entry may name all; counts: how many parts of each label were recognized, 0 if unknown.
     """
 
     pictures: Pictures
@@ -108,6 +171,8 @@ class WhichMarks(Brief):
     face_mark: Int[np.ndarray, " F"] | None = None
     kind: str = "marks"
     extensible: bool = False
+    equal: EqualMarks | None = None
+    counts: tuple[int, ...] = ()
 
     def text(self) -> str:
         views = f"pictures (1..{len(self.regions)} in this order)"
@@ -119,7 +184,8 @@ class WhichMarks(Brief):
             "another region. Give each part once for every picture that shows it; view is that picture. The same part has the "
             "same instance in all pictures."
         )
-        sentences = [same, f"The kinds of part: {', '.join(self.labels)}. {self._belonging()}"]
+        listed = ", ".join(f"{label} ({n})" if n else label for label, n in zip_longest(self.labels, self.counts))
+        sentences = [same, f"The kinds of part: {listed}. {self._belonging()}"]
         if self.inside:
             sentences.append(
                 "Pictures of the inside show what is hidden from outside; marks there belong to the part that they move with, "
@@ -136,6 +202,8 @@ class WhichMarks(Brief):
                 "If you see a kind of part that moves by itself and is not listed, name it as well: label is then a short "
                 "English noun in lower case."
             )
+        if self.equal is not None:
+            sentences.append(self.equal.text)
         if self.found:
             parts = "; ".join(f"{p.label} {p.instance}: marks {', '.join(map(str, p.marks))}" for p in self.found)
             sentences.append(
@@ -159,7 +227,8 @@ class WhichMarks(Brief):
     def schema(self) -> dict[str, Any]:
         view = {} if self.consistent else {"view": INTEGER}
         label = STRING if self.extensible else one_of(self.labels)
-        part = an_object(label=label, instance=INTEGER, **view, marks=a_list(INTEGER))
+        equal = {} if self.equal is None else {"all_equal": BOOLEAN}
+        part = an_object(label=label, instance=INTEGER, **view, marks=a_list(INTEGER), **equal)
         split = {"split": a_list(INTEGER)} if self.splittable else {}
         return an_answer(parts=a_list(part), unsure=a_list(INTEGER), **split)
 
@@ -186,6 +255,13 @@ class WhichMarks(Brief):
                     raise BadAnswerError(f"mark {mark} belongs to one part; it is given to {other[0]} {other[1]} and {where}")
             if marks:
                 parts.setdefault((p["label"], p["instance"], view), set()).update(marks)
+        equal, off = self.equal, {*split, *(mark for _, mark in taken)}
+        for p in named if equal is not None else ():
+            label, first = p["label"], parts.get((p["label"], p["instance"], None))
+            for copy in equal.copies(first, off) if equal is not None and first and p.get("all_equal") else ():
+                last = max([k for name, k, _ in parts if name == label] + [f.instance for f in self.found if f.label == label])
+                parts[label, last + 1, None] = copy
+                off |= copy
         marked = tuple(MarkedPart(*part, tuple(sorted(marks))) for part, marks in parts.items())
         return MarksAnswer(marked, tuple(sorted(set(answer.get("unsure", ())))), tuple(sorted(split)))
 

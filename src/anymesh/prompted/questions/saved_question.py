@@ -28,7 +28,7 @@ from anymesh.prompted.questions.prompting import (
     WhichMotions,
     WhichPoints,
 )
-from anymesh.prompted.questions.recognition import Recognize
+from anymesh.prompted.questions.recognition import Recognize, RecognizeRegions
 from anymesh.types import JointType, Picture
 from anymesh.types.motion import Recognition, RecognizedLabel
 from anymesh.types.questions import Question
@@ -140,6 +140,9 @@ def answer_object(question: Question[Any], answer: Any) -> dict[str, Any]:
     match question:
         case Recognize():
             return _recognition(question, answer)
+        case RecognizeRegions():
+            numbers = range(1, max(question.regions) + 1)
+            return {"regions": [{"region": k, "labels": []} for k in numbers], **_parts([_label(r) for r in answer])}
         case WhichViews():
             return _parts([{"label": label, "views": [v + 1 for v in views]} for label, views in answer.items()])
         case WhichMarks():
@@ -182,11 +185,13 @@ def _motion(question: WhichMotions, number: int, pick: MotionPick) -> dict[str, 
 def _recognition(question: Recognize, answer: Recognition) -> dict[str, Any]:
     front = question.azimuths.index(answer.front) + 1 if answer.front in question.azimuths else 0
     labels = [_label(label) for label in answer.labels]
-    return {"category": answer.category, "longest_side_m": answer.size, "front": front, **_parts(labels)}
+    object_ = {"category": answer.category, "longest_side_m": answer.size, "front": front, "machine": answer.machine}
+    return {**object_, **_parts(labels)}
 
 
 def _label(label: RecognizedLabel) -> dict[str, Any]:
     unit = np.pi / 180 if label.moves is JointType.REVOLUTE else 0.01
     lower, upper = (0.0, 0.0) if label.limits is None else (end / unit for end in label.limits)
     moves = None if label.moves is None else label.moves.value
-    return {"label": label.label, "moves": moves, "parent": label.parent, "lower": lower, "upper": upper}
+    ends = {"lower": lower, "upper": upper, "count": label.count or 0}
+    return {"label": label.label, "moves": moves, "parent": label.parent, **ends}

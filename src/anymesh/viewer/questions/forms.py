@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import asdict, dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
@@ -69,6 +69,7 @@ class LabelRow:
     parent: str = BASE
     lower: float = 0.0
     upper: float = 90.0
+    count: int = 0
 
     @property
     def words(self) -> str:
@@ -95,19 +96,25 @@ class RecognizeForm(Form):
     category: str = ""
     longest: float = 1.0
     front: int = 0
+    machine: bool = False
     rows: list[LabelRow] = field(default_factory=list)
     open_row: int = -1
     touched: bool = False
 
     def fill(self, answer: Mapping[str, Any]) -> None:
+        self.machine = answer.get("machine", False)
         self.category, self.longest, self.front = answer["category"], float(answer["longest_side_m"]), int(answer["front"])
         self.rows = [
-            LabelRow(p["label"], p["moves"], p["parent"], round(p["lower"], 1), round(p["upper"], 1)) for p in answer["parts"]
+            LabelRow(p["label"], p["moves"], p["parent"], round(p["lower"], 1), round(p["upper"], 1), p.get("count", 0))
+            for p in answer["parts"]
         ]
 
     def answer(self) -> dict[str, Any]:
-        rows = [{"label": r.label, "moves": r.moves, "parent": r.parent, "lower": r.lower, "upper": r.upper} for r in self.rows]
-        return {"category": self.category, "longest_side_m": self.longest, "front": self.front, "parts": rows}
+        rows = [
+            {**asdict(r), "lower": 0, "upper": 0} if r.moves == JointType.CONTINUOUS.value else asdict(r) for r in self.rows
+        ]
+        object_ = {"category": self.category, "longest_side_m": self.longest, "front": self.front, "machine": self.machine}
+        return {**object_, "parts": rows}
 
     def look_from(self, azimuth: float) -> None:
         """Choose the picture with the nearest azimuth [deg] as the one that shows the front."""
