@@ -16,6 +16,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from PIL import Image
 
 from anymesh.articulation.candidate_motions import Candidate
 from anymesh.articulation.estimate import part_motions
@@ -26,6 +27,7 @@ from anymesh.evaluation.oracle import SimulatedVlm, oracle
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline import articulate
 from anymesh.pipeline.solving import Solver
+from anymesh.prompted.answerers.answering import pictures_per_call
 from anymesh.prompted.motions.offers import MAX_SHOWN_ANGLE_RAD, MAX_SHOWN_TRAVEL_RATIO
 from anymesh.prompted.pictures.plates import mark_color
 from anymesh.prompted.pictures.sheet import question_sheet
@@ -38,6 +40,7 @@ from anymesh.segmentation.segment import assign_parts, examine_candidates
 from anymesh.types import Exchange, JointType, Mesh, Picture
 from anymesh.viewer.pictures_ import write_picture
 
+USUAL = Config(ask="all")
 EXAMPLES = Path(__file__).parents[1] / "examples"
 IMAGES = Path(__file__).parent / "images"
 SHELF = ("cabinet", "fridge", "laptop", "microwave", "storage_box", "stove", "toy_car", "valve")  # on the first page
@@ -111,11 +114,12 @@ def draw_method(folder: Path, name: str, part: int) -> None:
         shutil.copyfile(Path(out) / "asset" / "preview.png", folder / "joints.png")
 
 
-def asked(name: str) -> list[Exchange]:
+def asked(name: str, config: Config = USUAL) -> list[Exchange]:
     """Return what a model is asked about an example, with the answers of one that sees the ground truth."""
     truth = next(t for t in example_truths(EXAMPLES) if t.name == name)
     mesh = place_mesh(load_mesh(truth.mesh)).mesh
-    solver = Solver(mesh, answerer_factory=lambda fallback: SimulatedVlm(oracle(prepared(truth)), fallback))
+    known, most = oracle(prepared(truth)), pictures_per_call(config)
+    solver = Solver(mesh, config, lambda fallback: SimulatedVlm(known, fallback, most=most))
     recognized = solver.answers.recognize()
     recognized = replace(recognized, recognition=replace(recognized.recognition, front=FRONT))
     segmented = solver.parts("auto", recognized.recognition)
@@ -136,11 +140,14 @@ def draw_questions(folder: Path, name: str, every: bool) -> None:
 def draw_vlm(folder: Path) -> None:
     """Draw the pictures of vlm.md."""
     first: dict[str, Exchange] = {}
-    for name in ("microwave", "sliding_window"):  # the second has a part that slides along arrows
-        for exchange in asked(name):
+    paper = Config(verify="free")
+    for name, config in (("microwave", USUAL), ("microwave", paper), ("sliding_window", paper)):  # which slides along arrows
+        for exchange in asked(name, config):
             first.setdefault(exchange.kind, exchange)
+    first["sheet"] = asked("microwave", Config(pictures="few"))[0]
     for page, kind, k in (
         ("view", "recognize", 0),
+        ("sheet", "sheet", 0),
         ("marks", "marks", 0),
         ("inside", "marks", -2),
         ("kinds", "kinds", 0),
@@ -149,6 +156,9 @@ def draw_vlm(folder: Path) -> None:
         ("motions", "motions", 0),
     ):
         (folder / f"{page}.png").write_bytes(first[kind].pictures[k].png)
+    with Image.open(folder / "sheet.png") as sheet:
+        sheet.thumbnail((900, 1000))
+        sheet.convert("P", palette=Image.Palette.ADAPTIVE).save(folder / "sheet.png")
 
 
 def draw_tutorials(images: Path) -> None:

@@ -21,7 +21,7 @@ PAPER_VIEWS = "8@15"
 DEFAULT_VIEWS = f"{PAPER_VIEWS},2@50+30,1@-35+30"
 MAX_VIEWS = 32
 RING = re.compile(r"(?P<count>[1-9]\d?)@(?P<elevation>-?\d{1,2}(\.\d+)?)(\+(?P<azimuth>\d{1,3}(\.\d+)?))?")
-VERIFY, ASK, DETAIL = ("motion", "free", "off"), ("unsure", "all"), ("high", "low")
+VALID = {"verify": ("motion", "free", "off"), "ask": ("unsure", "all"), "pictures": ("many", "few"), "detail": ("high", "low")}
 PROPOSERS = r"exact|(exact\+)?sam:.+"
 
 
@@ -35,6 +35,8 @@ class Config:
     proposer: str = "exact"  # of masks, see `segmentation.propose`
     verify: str = "motion"  # "free": answers are used, except for slides that are blocked; "off": the paper's method unchanged
     ask: str = "unsure"  # a model about joints that geometry and recognition do not agree on, or about "all"
+    pictures: str = "many"  # at most 8 in each question of a model, or "few": one
+    probed: tuple[tuple[str, int, int, float], ...] = ()  # of the model: question, right, asked, chance to guess it right
     detail: str = "high"  # "low": a model is not asked about small regions
     at_least: int = 0  # minimum number of parts, even with weak evidence, for objects that are known to move
     viewpoints: str = DEFAULT_VIEWS  # shown to a model: COUNT@ELEVATION or COUNT@ELEVATION+AZIMUTH [deg], separated by commas
@@ -43,7 +45,7 @@ class Config:
         for option, number in (("seed", self.seed), ("at-least", self.at_least)):
             if number < 0:
                 raise OptionError(f"--{option}: found {number}; valid are integers from 0 up")
-        for option, word, valid in (("verify", self.verify, VERIFY), ("ask", self.ask, ASK), ("detail", self.detail, DETAIL)):
+        for (option, valid), word in zip(VALID.items(), (self.verify, self.ask, self.pictures, self.detail), strict=True):
             if word not in valid:
                 raise OptionError(f"--{option}: found {word!r}; valid are {', '.join(valid)}")
         if not re.fullmatch(PROPOSERS, self.proposer):

@@ -324,9 +324,9 @@ def test_equal_marks_and_counts_are_told_and_pairs_are_named_one_by_one() -> Non
 @pytest.mark.parametrize("name", ["recognize", "marks of which one stands for its equals"])
 def test_answers_to_the_form_before_counts_and_equal_marks_stay_valid(name: str) -> None:
     request = request_of(ASKED[name].question)
-    ((text, schema),) = request.earlier
-    assert not any(word in text for word in ("count:", "machine:", "all_equal:"))
-    assert not any(word in json.dumps(schema) for word in ("count", "machine", "all_equal"))
+    (form,) = request.earlier
+    assert not any(word in form.text for word in ("count:", "machine:", "all_equal:"))
+    assert not any(word in json.dumps(form.schema) for word in ("count", "machine", "all_equal"))
     found = copy.deepcopy(ASKED[name].found)
     for part in found["parts"]:
         part.pop("all_equal", None)

@@ -17,6 +17,7 @@ from anymesh.evaluation.oracle import SimulatedVlm, oracle
 from anymesh.export.asset_json import schema
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline.solving import Solver
+from anymesh.prompted.models.reliability import keep_probe
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NAME = "storage_box"
@@ -135,6 +136,19 @@ def test_a_budget_stops_before_the_next_call_and_the_next_run_goes_on(model: Mod
     assert articulate(model, "out") == 0
     assert not Path("out.transcript").exists()
     assert len(model.asked) == len(model.said)
+
+
+@pytest.mark.slow
+def test_a_kept_probe_of_the_model_lowers_the_written_confidence_and_is_told(model: Model) -> None:
+    assert articulate(model, "out") == 0
+    name = f"openai-compatible:{model.service.url}/v1#m"
+    keep_probe(name, "many", [("recognize", 0, 3, 0.0), ("marks", 2, 7, 0.0), ("motions", 0, 4, 0.1), ("kinds", 1, 4, 0.25)])
+    assert articulate(model, "again") == 0
+    before, now = record("out"), record("again")
+    for kind in ("parts", "joints"):
+        assert now[kind][-1]["confidence"] < before[kind][-1]["confidence"]
+    assert "2 of 7 marks right" in now["parts"][-1]["reason"]
+    assert "0 of 4 motions" in now["joints"][-1]["reason"]
 
 
 @pytest.mark.slow

@@ -313,7 +313,7 @@ def test_a_recorded_answer_to_a_narrower_form_of_a_question_is_found(tmp_path: P
     """What was recorded before answers could name kinds of part that the list lacks stays valid."""
     wide = replace(ASKED["marks of kinds that only close-ups show"].question, category="cabinet")
     before = request_of(replace(wide, extensible=False))
-    assert before.earlier is None
+    assert not before.earlier
     write_transcript([exchange_of("m", before, Reply(ANSWER, "m", 1, 1), "accepted")], tmp_path)
     assert request_of(wide).schema != before.schema
     assert Replay(tmp_path).ask(request_of(wide)).text == ANSWER

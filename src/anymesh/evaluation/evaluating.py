@@ -170,7 +170,7 @@ def _settings(
         settings["up"] = str(eval_config.up)
     if only:
         settings["only"] = ", ".join(sorted(only))
-    settings |= {k: str(answering[k]) for k in ("verify", "ask", "proposer", "viewpoints") if k in answering}
+    settings |= {k: str(answering[k]) for k in ("verify", "ask", "pictures", "proposer", "viewpoints") if k in answering}
     if eval_config.protocol in (EvalProtocol.END_TO_END, EvalProtocol.EXECUTABILITY):
         settings["at least"] = str(answering.get("at_least", 0))
     made = {"date": datetime.datetime.now(datetime.UTC).date().isoformat(), "python": platform.python_version()}

@@ -16,6 +16,7 @@ from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer
 from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer
 from anymesh.prompted.models.budget import cost_of, max_picture_tokens
 from anymesh.prompted.models.vision import Reply, Request
+from anymesh.prompted.pictures.sheet import MAX_PICTURES
 from anymesh.prompted.questions.grounding import WhichMarks
 from anymesh.prompted.questions.prompting import (
     JointAppearance,
@@ -29,8 +30,10 @@ from anymesh.prompted.questions.prompting import (
     WhichMotions,
     WhichPoints,
 )
+from anymesh.prompted.questions.recognition import Recognize
 from anymesh.prompted.questions.saved_question import answer_object
 from anymesh.types import Exchange, JointType, KnownJoint
+from anymesh.types.motion import RecognizedLabel
 from anymesh.types.questions import Answer, Question, VisualAnswerer
 from anymesh.vocabulary import recognize
 
@@ -63,17 +66,23 @@ def true_reference(sample: EvalSample) -> Reference:
 
 
 class Noisy:
-    """Wrapper that replaces each item of an answer by a wrong one with a probability: mark, kind, point, arrow or motion."""
+    """Wrapper that replaces each item of an answer by a wrong one with a probability: mark, kind, point, arrow or motion.
+
+    misread: probability that a recognized kind of part is left out, or said to turn where it slides or the reverse.
+    """
 
     exchanges: tuple[Exchange, ...] = ()
     warnings: tuple[str, ...] = ()
 
-    def __init__(self, answerer: VisualAnswerer, wrong: float, rng: np.random.Generator) -> None:
+    def __init__(self, answerer: VisualAnswerer, wrong: float, rng: np.random.Generator, misread: float = 0.0) -> None:
         self.name, self._answerer, self._wrong, self._rng = f"noisy {answerer.name}", answerer, wrong, rng
+        self._misread = misread
 
     def ask(self, question: Question[Answer]) -> Answer:
         answer: Any = self._answerer.ask(question)
         match question:
+            case Recognize() if self._misread:
+                answer = replace(answer, labels=tuple(r for label in answer.labels if (r := self._read(label)) is not None))
             case WhichMarks():
                 present = [np.unique(r[r >= 0]) for r in question.regions]
                 every = np.unique(np.concatenate(present))
@@ -95,6 +104,12 @@ class Noisy:
             case _:
                 pass
         return cast(Answer, answer)
+
+    def _read(self, label: RecognizedLabel) -> RecognizedLabel | None:
+        if self._rng.random() >= self._misread:
+            return label
+        moves = JointType.REVOLUTE if label.moves is JointType.PRISMATIC else JointType.PRISMATIC
+        return replace(label, moves=moves, limits=None) if self._rng.random() < 0.5 else None
 
     def _pick(self, right: MotionPick, table: MotionTable) -> MotionPick:
         """Replace the motion and, independently, the kind of joint; a wrong motion comes with a kind that agrees with it."""
@@ -180,13 +195,18 @@ class SimulatedModel:
 
 
 class SimulatedVlm(VlmAnswerer):
-    """VLM answerer whose model returns the answers of another answerer."""
+    """VLM answerer whose model returns the answers of another answerer. most: pictures per call."""
 
     def __init__(
-        self, answerer: VisualAnswerer, fallback: VisualAnswerer, like: str = "openai:gpt-4o", cache: Path | None = None
+        self,
+        answerer: VisualAnswerer,
+        fallback: VisualAnswerer,
+        like: str = "openai:gpt-4o",
+        cache: Path | None = None,
+        most: int = MAX_PICTURES,
     ) -> None:
         self._simulated = SimulatedModel(answerer, like)
-        super().__init__(Cached(self._simulated, cache) if cache else self._simulated, fallback)
+        super().__init__(Cached(self._simulated, cache) if cache else self._simulated, fallback, most=most)
 
     def ask(self, question: Question[Answer]) -> Answer:
         self._simulated.question = question

@@ -64,7 +64,7 @@ def choose_answerer(
     chosen = AnswererOptions(**options)
     config = Config(
         seed=chosen.seed, category=chosen.category, proposer=chosen.proposer, verify=chosen.verify, ask=chosen.ask,
-        viewpoints=chosen.viewpoints, at_least=chosen.at_least, detail=chosen.detail,
+        pictures=chosen.pictures, detail=chosen.detail, viewpoints=chosen.viewpoints, at_least=chosen.at_least,
     )  # fmt: skip
     if chosen.answerer != GEOMETRY:
         return resolve(OPEN_ANSWERER)(chosen, config, about, deadline or Deadline(), stop)

@@ -138,6 +138,7 @@ class AnswererOptions:
         "motion", "motion: a model chooses among motions; free: its picks are used unless blocked; off: the paper's method."
     )
     ask: str = _option("unsure", "unsure: a model is not asked about joints that geometry is sure of; all: about each.")
+    pictures: str = _option("many", "few: a model sees one picture per question, as small models need it; many: up to 8.")
     detail: str = _option("high", "high, or low: a model is not asked about regions below 3 % of the object's diagonal.")
     category: str | None = _option(None, "Kind of object, such as fridge; for models and for --scale auto.", kind=str)
     timeout: float = _option(CALL_SECONDS, "Time-out of one model call.", metavar="SECONDS")
@@ -165,6 +166,7 @@ class Answering(TypedDict, total=False):
     viewpoints: str
     verify: str
     ask: str
+    pictures: str
     detail: str
     max_calls: int | None
     max_cost: float | None

@@ -94,7 +94,7 @@ def recognize(run: Run, loaded: Keyed[LoadResult], parts: str, *, sized: bool) -
     if not solver.answers.recognizes:
         return solver, Keyed(solver.answers.recognize(), loaded.key)
     metric = loaded.result.metric
-    settings = {**who.settings("verify", "ask", "detail", "proposer"), "sized": sized, "metric": metric}
+    settings = {**who.settings("verify", "ask", "detail", "proposer", "probed"), "sized": sized, "metric": metric}
     key = stage_key(RECOGNITION, previous=loaded.key, config=settings)
     recognized = run.answered(RECOGNITION, key, "recognize", lambda: solver.answers.recognize(sized=sized, metric=metric))
     final = recognized.sized(loaded.result)

@@ -29,6 +29,13 @@ Values = Annotated[
 ]
 
 
+ProbedModel = Annotated[
+    str | None,
+    typer.Option(metavar="MODEL", help="Ask a model ten questions with known answers, and keep the result for its runs."),
+]
+PicturesOption = Annotated[str, typer.Option("--pictures", help="With --probe: many or few, as for articulate.")]
+
+
 def answer(folder: QuestionsPath, values: Values = None, json_: Json = False, quiet: Quiet = False) -> None:
     """Show the open question in FOLDER, or answer it with VALUE, which is checked immediately.
 
@@ -109,10 +116,16 @@ def _read(value: str) -> str:
         raise InputError(f"{value[1:]} cannot be read as an answer ({type(error).__name__})") from None
 
 
-def models(json_: Json = False) -> None:
-    """List the models available on this machine, and which keys are set (without their values)."""
+def models(probe: ProbedModel = None, pictures: PicturesOption = "many", json_: Json = False) -> None:
+    """List the models available on this machine, and which keys are set (without their values).
+
+    With --probe, ask a model ten questions with known answers instead.
+    """
     from anymesh.prompted.models.servers import KEYS, SERVERS, probe_servers
 
+    if probe is not None:
+        typer.echo(_probed(probe, pictures, json_=json_))
+        return
     probes = probe_servers()
     keys = [
         {"provider": provider, "variable": name, "set": bool(os.environ.get(name, "").strip())}
@@ -144,3 +157,31 @@ def models(json_: Json = False) -> None:
     variables = {k["variable"]: k["set"] for k in keys}  # several providers may use one key
     typer.echo("keys: " + ", ".join(f"{name} {'is set' if is_set else 'is not set'}" for name, is_set in variables.items()))
     typer.echo("choose a model that accepts pictures; without one, you or your agent can answer: --answerer files:FOLDER")
+
+
+def _probed(model: str, pictures: str, *, json_: bool) -> str:
+    """Return what a probe of a model finds; its result is kept for the runs that use the model."""
+    from anymesh.export.asset_json import usage
+    from anymesh.prompted.models.reliability import interval, keep_probe
+    from anymesh.prompted.probe import probe_model
+
+    result = probe_model(model, pictures)
+    path = keep_probe(model, pictures, result.counts)
+    spent = usage(result.exchanges)
+    if json_:
+        questions = [dict(zip(("question", "object", "right", "asked"), row, strict=True)) for row in result.rows]
+        kinds = [
+            {"question": kind, "right": right, "asked": asked, "interval": interval(right, asked)}
+            for kind, right, asked, _ in result.counts
+        ]
+        record = {"model": model, "pictures": pictures, "right": result.right, "questions": questions, "kinds": kinds}
+        return json.dumps(record | {"usage": spent, "kept": str(path)}, indent=2)
+    cost = "" if spent["cost_usd"] is None else f", {spent['cost_usd']:.3f} USD"
+    lines = [f"{model}: {result.right} of {len(result.rows)} questions right ({spent['calls']} calls{cost})", ""]
+    lines += [f"  {kind:<10} {about:<8} {right} of {asked} right" for kind, about, right, asked in result.rows]
+    lines += ["", "by kind of answer, with the 95 % interval of the share that is right:"]
+    for kind, right, asked, _ in result.counts:
+        low, high = interval(right, asked)
+        lines.append(f"  {kind:<10} {right} of {asked}   {100 * low:.0f} to {100 * high:.0f} %")
+    kept = f"From now on the answers of this model are weighed accordingly, except with --cache off ({path})."
+    return "\n".join(map(plain, [*lines, "", kept]))

@@ -9,12 +9,11 @@ from known import the_case
 from made import EDGE, FAR_EDGE, PLATE, PULL, ROUND
 from scenes import door
 
+from anymesh.prompted.models.reliability import RELIABILITIES, SHARES
 from anymesh.prompted.motions.cases import PartCase
 from anymesh.prompted.motions.offers import MotionOffers
 from anymesh.prompted.motions.verify import (
     FIXED_SHARE,
-    RELIABILITIES,
-    SHARES,
     PartAnswers,
     ShownPick,
     answered_confidence,
@@ -65,15 +64,25 @@ def test_probabilities_and_shares_sum_to_one() -> None:
 @pytest.mark.parametrize("reliability", RELIABILITIES)
 def test_the_probabilities_of_all_lines_sum_to_one_for_each_true_motion_of_the_kind(reliability: float) -> None:
     turning = (EDGE_ROW, FAR_ROW, ROUND_ROW)
-    rows = [answers(ALONG, answered=k).likelihood(reliability) - answers(ALONG).likelihood(reliability) for k in turning]
+    rows = [
+        (answers(ALONG, answered=k).likelihood(reliability) - answers(ALONG).likelihood(reliability)).sum(0) for k in turning
+    ]
     np.testing.assert_allclose(np.exp(rows).sum(0), 1)
     np.testing.assert_allclose(np.exp(rows)[:, [PULL_ROW, OTHER, NO_MOTION]], 1 / 3)  # of another kind than answered
 
 
 @pytest.mark.parametrize("reliability", RELIABILITIES)
 def test_the_probabilities_of_all_picks_sum_to_one_for_each_true_motion(reliability: float) -> None:
-    rows = [answers(None, picked).likelihood(reliability) for picked in (None, 0, 1, 2, 3)]
+    rows = [answers(None, picked).likelihood(reliability).sum(0) for picked in (None, 0, 1, 2, 3)]
     np.testing.assert_allclose(np.exp(rows).sum(0), 1)
+
+
+def test_a_probe_says_how_much_an_answer_counts() -> None:
+    part, random = answers(ALONG, FAR_ROW, moves=JointType.REVOLUTE), [("kinds", 1, 4, 0.25), ("recognize", 0, 3, 0.0)]
+    found = [posteriors({1: part}, probed)[1][FAR_ROW] for probed in ((), (("motions", 4, 4, 0.1),), (("motions", 0, 4, 0.1),))]
+    assert found[2] < 0.8 < 0.9 < found[0] < found[1]
+    assert posteriors({1: part}, (*random, ("motions", 0, 4, 0.1)))[1][FAR_ROW] < 0.5
+    assert posteriors({1: part}, (("marks", 0, 7, 0.0),))[1] == pytest.approx(probability(part))  # says nothing about motions
 
 
 def test_a_pick_decides_among_motions_that_geometry_holds_for_equal() -> None:
@@ -93,7 +102,7 @@ def test_what_does_not_move_needs_more_than_one_answer_against_what_is_recognize
     assert probability(answers(FIXED)).argmax() == NO_MOTION
     part = answers(FIXED)
     part = replace(part, offers=replace(part.offers, motions=(EDGE, FAR_EDGE, ALONG_SURFACE, ROUND)))
-    prior, fixed = part.prior(), part.likelihood(0.9)
+    prior, fixed = part.prior(), part.likelihood(0.9).sum(0)
     assert (fixed[:NO_MOTION] == fixed[0]).all()  # the answer tells no motion from another, also none along the surface
     assert fixed[NO_MOTION] > fixed[0]
     assert len(prior) == len(fixed) == len(MOTIONS) + 2

@@ -185,8 +185,8 @@ def test_a_pick_against_geometry_and_recognition_must_be_repeated(monkeypatch, a
 
 
 def test_a_joint_that_geometry_and_recognition_agree_on_is_not_asked_about(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("anymesh.prompted.motions.verify.RELIABILITIES", (0.999,))
-    monkeypatch.setattr("anymesh.prompted.motions.verify.SHARES", (1.0,))
+    monkeypatch.setattr("anymesh.prompted.models.reliability.RELIABILITIES", (0.999,))
+    monkeypatch.setattr("anymesh.prompted.models.reliability.SHARES", (1.0,))
     monkeypatch.setattr("test_answers_weighed.QUICK", replace(QUICK, ask="unsure"))
     told = replace(offered(moves=JointType.REVOLUTE), shares=SURELY)
     found, asked = chosen(monkeypatch, replace(told, case=replace(told.case, answer=None)))

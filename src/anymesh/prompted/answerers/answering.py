@@ -14,9 +14,11 @@ from anymesh.pipeline.options import FILES, Account, AnswererOptions
 from anymesh.prompted.answerers.recordings import Cached, Replay
 from anymesh.prompted.answerers.vlm_answerer import Patience, VlmAnswerer
 from anymesh.prompted.models.budget import Budgeted, Limiter, RateLimited
+from anymesh.prompted.models.reliability import kept_probe
 from anymesh.prompted.models.retry import Retrying
 from anymesh.prompted.models.servers import SERVERS
 from anymesh.prompted.models.vision import VisionModel
+from anymesh.prompted.pictures.sheet import MAX_PICTURES
 from anymesh.prompted.questions.recognition import parse_labels
 from anymesh.runtime import CALL_SECONDS, Deadline, cache_folder
 from anymesh.types import Exchange
@@ -50,6 +52,8 @@ def open_answerer(
     config = replace(config, parts_list=parse_labels(labels.split(",") if isinstance(labels, str) else labels))
     if name.startswith(FILES):
         return _from_files(config, name, chosen, about, deadline, stop)
+    if chosen.cache != "off":
+        config = replace(config, probed=kept_probe(name, config.pictures))
     model = open_model(
         name,
         cache=_cache(chosen.cache),
@@ -61,10 +65,16 @@ def open_answerer(
     )
 
     def renewed() -> RecordingFactory:
-        return RecordingFactory(lambda fallback, patience: VlmAnswerer(model, fallback, patience, deadline.paused))
+        most = pictures_per_call(config)
+        return RecordingFactory(lambda fallback, patience: VlmAnswerer(model, fallback, patience, deadline.paused, most))
 
     asked = renewed()
     return AnswererSetup(config, name, asked, exchanges=asked.exchanges, new_factory=renewed)
+
+
+def pictures_per_call(config: Config) -> int:
+    """Return the number of pictures that a model takes in one call."""
+    return 1 if config.pictures == "few" else MAX_PICTURES
 
 
 def _cache(setting: Path | str | None) -> Path | None:
@@ -94,6 +104,7 @@ def _from_files(
             paused=deadline.paused,
             stop=stop,
             suggest=options.suggest,
+            one=config.pictures == "few",
         ),
         lambda exchanges: still_answered(store, exchanges),
     )

@@ -150,7 +150,8 @@ class FileAnswerer:
 
     wait: wait for a missing answer, with all state in memory, instead of raising OpenQuestionError; paused: context entered
     while waiting, so that a time limit does not count it; stop: ends all waiting; suggest: write the fallback's answer beside
-    each question that is waited for, by a thread, so that the run goes on at once when the answer comes first.
+    each question that is waited for, by a thread, so that the run goes on at once when the answer comes first; one: each
+    question has one picture, otherwise as many as there are, and a sheet of them.
     """
 
     warnings: tuple[str, ...] = ()
@@ -164,8 +165,9 @@ class FileAnswerer:
         paused: Callable[[], AbstractContextManager[None]] = nullcontext,
         stop: Event | None = None,
         suggest: bool = False,
+        one: bool = False,
     ) -> None:
-        self.name, self._suggest = NAME, suggest
+        self.name, self._suggest, self._most = NAME, suggest, 1 if one else None
         self._store, self._fallback, self._wait, self._paused = store, fallback, wait, paused
         self._stop = stop or Event()
         self._exchanges: list[Exchange] = []
@@ -179,7 +181,7 @@ class FileAnswerer:
 
         Raise OpenQuestionError if there is no valid answer yet, OutputError if the folder cannot be written.
         """
-        request = request_of(question)
+        request = request_of(question, self._most)
         folder = self._store.put(request, _files(request, question))
         begin, text = time.monotonic(), folder.answer()
         while True:
@@ -260,7 +262,7 @@ def _files(request: Request, question: Question[Answer]) -> dict[str, bytes]:
     with suppress(TypeError):  # a question from outside this package may hold anything
         files[CHECK] = pack_question(question)
     if request.pictures:
-        files[SHEET] = question_sheet(request.pictures).png
+        files[SHEET] = (request.pictures[0] if len(request.pictures) == 1 else question_sheet(request.pictures)).png
     return files
 
 

@@ -11,7 +11,6 @@ import logging
 import re
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import replace
 from html import escape
 from pathlib import Path
 from typing import Any
@@ -124,8 +123,8 @@ class Replay:
         self.name: str = self._names[0]
 
     def ask(self, request: Request) -> Reply:
-        """Return the recorded reply, also to an earlier form of the question. Raise ModelError if it was not recorded."""
-        for form in (request, *(replace(request, text=text, schema=schema) for text, schema in request.earlier)):
+        """Return the recorded reply, also to another form of the question. Raise ModelError if it was not recorded."""
+        for form in (request, *request.earlier):
             for name in self._names:
                 if (record := self._records.get(request_key(name, form))) is not None:
                     return kept_reply(record)

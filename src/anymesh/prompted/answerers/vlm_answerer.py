@@ -14,6 +14,7 @@ from typing import Any
 
 from anymesh.prompted.answerers.question_files import LEFT, NAME, is_left_to_geometry
 from anymesh.prompted.models.vision import Reply, Request, VisionModel, request_key
+from anymesh.prompted.pictures.sheet import MAX_PICTURES, on_sheets
 from anymesh.prompted.questions.asking import BadAnswerError, reply_object
 from anymesh.prompted.questions.grounding import WhichMarks
 from anymesh.prompted.questions.recognition import Recognize
@@ -57,7 +58,7 @@ class VlmAnswerer:
     """Answerer that asks a model; if its answers are not valid, `fallback` answers, with a warning.
 
     patience: shared by the answerers of one run; once it is lost, the model is not asked again; paused: context entered while
-    the model is asked, so that a time limit does not count it.
+    the model is asked, so that a time limit does not count it; most: pictures per call.
     """
 
     def __init__(
@@ -66,8 +67,9 @@ class VlmAnswerer:
         fallback: VisualAnswerer,
         patience: Patience | None = None,
         paused: Callable[[], AbstractContextManager[None]] = nullcontext,
+        most: int = MAX_PICTURES,
     ) -> None:
-        self.name, self._paused = model.name, paused
+        self.name, self._paused, self._most = model.name, paused, most
         self._model, self._fallback, self._patience = model, fallback, patience or Patience()
         self._exchanges: list[Exchange] = []
         self._warnings: list[str] = []
@@ -85,7 +87,7 @@ class VlmAnswerer:
 
         Raise ModelError if there is no reply at all, BudgetError before a call that would exceed the budget.
         """
-        request = request_of(question)
+        request = request_of(question, self._most)
         if self._patience.lost:
             verdict = f"{NOT_ASKED}, {self.name} was given up; {self._fallback.name} {FALLBACK_VERDICT}"
             nothing = Reply("", self._model.name, 0, 0, cost=0.0)
@@ -127,10 +129,15 @@ class VlmAnswerer:
         return answer
 
 
-def request_of(question: Question[Answer]) -> Request:
-    """Return the request that asks a question."""
-    earlier = tuple((form.text(), form.schema()) for form in _earlier_forms(question))
-    return Request(question.kind, SYSTEM, question.text(), tuple(question.pictures), question.schema(), earlier=earlier)
+def request_of(question: Question[Answer], most: int | None = None) -> Request:
+    """Return the request that asks a question; more pictures than `most` share that many sheets."""
+    shown = tuple(question.pictures)
+    forms = [Request(q.kind, SYSTEM, q.text(), shown, q.schema()) for q in (question, *_earlier_forms(question))]
+    if most is not None and len(shown) > most:
+        sheets = on_sheets(shown, most)
+        where = f"Pictures 1..{len(shown)} are on {len(sheets)} sheet{'s' * (len(sheets) > 1)}, each below its number."
+        forms.insert(0, replace(forms[0], text=f"{forms[0].text} {where}", pictures=sheets))
+    return replace(forms[0], earlier=tuple(forms[1:]))
 
 
 def _earlier_forms(question: Question[Answer]) -> list[Question[Any]]:

@@ -27,6 +27,7 @@ from anymesh.prompted.grounding.mark_questions import MarkAnswers, MarkQuestione
 from anymesh.prompted.grounding.regions import number_regions, split_marks
 from anymesh.prompted.grounding.sam import PromptedSegmenter, automatic_masks
 from anymesh.prompted.grounding.views import EXACT, MIN_INNER_PATCH_RATIO, SampledObject, shown_views, unseen_patches
+from anymesh.prompted.models.reliability import MARKS, confidence_in_marks, in_words
 from anymesh.prompted.pictures.views import normal_picture
 from anymesh.rendering.render import View
 from anymesh.runtime import Progress, silent
@@ -84,7 +85,7 @@ def ground_parts(
         return lambda without, joined, part: stays_free(without, joined, part, moves.get(of[part - 1]))
 
     grounded = ground(sampled, questioner, recognition.front, free, progress)
-    reason = _pointed(answerer)
+    reason = f"{_pointed(answerer)}{in_words(questioner.config.probed, MARKS)}"
     parts = named_parts(
         grounded.face_part,
         grounded.labels,
@@ -180,7 +181,7 @@ def ground_exactly(
         face_part,
         shown.hidden[whole.mesh_patch],
         labels,
-        tuple(UNSURE if some else SURE for some in doubts),
+        tuple(confidence_in_marks(UNSURE if some else SURE, questioner.config.probed) for some in doubts),
         tuple(
             f", not sure of {len(some)} of {len(p.marks)} marks" if some else ""
             for some, p in zip(doubts, answer.parts, strict=True)
@@ -219,11 +220,11 @@ def ground_by_masks(
     instances = join_numbered(counts, instances)
     points = point_parts(cloud, instances, seen_points(cloud, shown.views))
     face_part = face_parts(mesh, whole, cloud, points, free(instances.labels))
-    count = len(instances.labels)
+    count, sure = len(instances.labels), confidence_in_marks(SURE, config.probed)
     lost = lost_parts(masks, [v.face for v in shown.views], face_part, instances.labels)
     pointed = frozenset(p.label for p in marked)
     return GroundedParts(
-        face_part, shown.hidden[whole.mesh_patch], instances.labels, (SURE,) * count, ("",) * count, pointed, lost
+        face_part, shown.hidden[whole.mesh_patch], instances.labels, (sure,) * count, ("",) * count, pointed, lost
     )  # fmt: skip
 
 

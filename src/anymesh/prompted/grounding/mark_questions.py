@@ -185,6 +185,11 @@ class MarkQuestioner:
     counts: tuple[int, ...] = ()
     machine: bool = False
 
+    @property
+    def per_call(self) -> int:
+        """Return the number of pictures per call."""
+        return 1 if self.config.pictures == "few" else MAX_MARK_PICTURES
+
     def pictures(self, shown: Sequence[MarkPicture]) -> DrawnPictures:
         """Return the pictures with their marks."""
 
@@ -246,18 +251,20 @@ def _in_calls(
     splittable: bool,
     again: tuple[str, ...],
 ) -> MarksAnswer:
-    """Ask about all pictures, MAX_MARK_PICTURES per call, without repeating marks that earlier calls asked about.
+    """Ask about all pictures, `questioner.per_call` at once, without repeating marks that earlier calls asked about.
 
-    Where there are several calls, pictures of small marks alone come last.
+    Where there are several calls, pictures of small marks alone come last. Where each call has one picture, marks that were
+    asked about are drawn all the same, as they tell which part is which.
     """
     mesh = questioner.visual_prompts.mesh
     equal = equal_marks(marks.face_mark, mesh)
-    if len(shown) > MAX_MARK_PICTURES:
+    if len(shown) > questioner.per_call:
         small = small_regions(marks.face_mark, mesh, mesh.diagonal)
         shown = sorted(shown, key=lambda p: p.drawn <= small)
     parts, unsure, split, done = earlier_parts, set[int](), set[int](), set[int]()
-    for begin in range(0, len(shown), MAX_MARK_PICTURES):
-        some = [p for p in (p.without(done) for p in shown[begin : begin + MAX_MARK_PICTURES]) if p.drawn]
+    for begin in range(0, len(shown), questioner.per_call):
+        new = {id(p): p.without(done) for p in shown[begin : begin + questioner.per_call] if p.drawn - done}
+        some = [p for p in shown if id(p) in new] if questioner.per_call == 1 else list(new.values())
         if not some:
             continue
         answer = questioner.answerer.ask(
@@ -278,10 +285,11 @@ def _in_calls(
                 counts=questioner.counts,
             )
         )
-        done |= set[int]().union(*(p.drawn for p in some))
-        parts = _together(parts, answer.parts)
+        own = [replace(p, marks=tuple(m for m in p.marks if m not in done)) for p in answer.parts]
+        parts = _together(parts, [p for p in own if p.marks])
         unsure |= set(answer.unsure)
-        split |= set(answer.split)
+        split |= set(answer.split) - done
+        done |= set[int]().union(*(p.drawn for p in some))
     return MarksAnswer(parts, tuple(sorted(unsure)), tuple(sorted(split)))
 
 
@@ -298,16 +306,16 @@ def ask_masks(
 ) -> tuple[MarkedPart, ...]:
     """Ask about masks that are numbered separately in each view.
 
-    The first question asks which labels each view shows, the others which marks belong to which part, for MAX_MARK_PICTURES
-    views each. Parts of different calls have different instance numbers, since no call shows the pictures of another.
+    The first question asks which labels each view shows, the others which marks belong to which part, for `per_call` views
+    each. Parts of different calls have different instance numbers, since no call shows the pictures of another.
     """
     plain = DrawnPictures(lambda: questioner.visual_prompts.pictures([v.color for v in seen], names))
     seen_in = questioner.answerer.ask(WhichViews(plain, questioner.labels, tuple(v.face for v in seen), questioner.category))
     chosen = sorted({k for view_indices in seen_in.values() for k in view_indices})
     labels = tuple(label for label, view_indices in seen_in.items() if view_indices)
     parts: list[MarkedPart] = []
-    for begin in range(0, len(chosen), MAX_MARK_PICTURES):
-        some, last = chosen[begin : begin + MAX_MARK_PICTURES], max((p.instance for p in parts), default=0)
+    for begin in range(0, len(chosen), questioner.per_call):
+        some, last = chosen[begin : begin + questioner.per_call], max((p.instance for p in parts), default=0)
         marked = _in_views(questioner, labels, [proposals[k] for k in some], [seen[k] for k in some], [names[k] for k in some])
         parts += [replace(p, view=some[p.view], instance=last + p.instance) for p in marked if p.view is not None]
     return tuple(parts)

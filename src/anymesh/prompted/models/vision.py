@@ -23,9 +23,7 @@ class Request:
     pictures: tuple[Picture, ...]
     schema: Mapping[str, Any]
     max_tokens: int = 8000  # of the answer, including reasoning tokens
-    earlier: tuple[
-        tuple[str, Mapping[str, Any]], ...
-    ] = ()  # text and schema of narrower forms, whose recorded answers are valid
+    earlier: tuple[Request, ...] = ()  # other forms of the question, whose recorded answers are valid
 
     @property
     def texts(self) -> list[str]:

@@ -46,7 +46,7 @@ class PartCase(Brief):
     number: index in the segmentation; carried: parts that depend on it; circles: axes of its largest round patches; recognized:
     recognition of its label; answer: its kind of joint, None if it was not asked for; asked: the answered motion; pins: axes of
     round patches in contact; frame: rows are the object's axes; copies: indices of its copies beside it, which open to the same
-    side; shape: indices of the parts that one answer holds for, the part among them.
+    side; shape: indices of the parts that one answer holds for, the part among them; alone: asked about in a call of its own.
     """
 
     number: int
@@ -63,6 +63,7 @@ class PartCase(Brief):
     frame: np.ndarray | None = None
     copies: tuple[int, ...] = ()
     shape: tuple[int, ...] = ()
+    alone: bool = False
 
     @property
     def drawn_alike(self) -> Facing | None:
@@ -125,6 +126,7 @@ def make_cases(
             PartCase(
                 i, part.name, over, carried, context, shown, circles, told,
                 pins=pins, frame=frame, copies=copies[i], shape=shape.get(i, (i,)),
+                alone=config.pictures == "few",
             )
         )  # fmt: skip
     return cases
@@ -231,13 +233,14 @@ def ask_each(
     picture: Callable[[PartCase, str], Picture],
     question: Callable[[DrawnPictures, Sequence[PartCase]], Question[tuple[Answer, ...]]],
 ) -> dict[int, Answer]:
-    """Ask about all cases, MAX_PART_PICTURES per call, and return the answers by part number.
+    """Ask about all cases, MAX_PART_PICTURES per call or each alone, and return the answers by part number.
 
     Each case has one picture, titled with its position in the call.
     """
     answers_by_number: dict[int, Answer] = {}
-    for begin in range(0, len(cases), MAX_PART_PICTURES):
-        some = cases[begin : begin + MAX_PART_PICTURES]
+    each = 1 if any(c.alone for c in cases) else MAX_PART_PICTURES
+    for begin in range(0, len(cases), each):
+        some = cases[begin : begin + each]
         answers = answerer.ask(question(_numbered(some, picture), some))
         answers_by_number |= {case.number: answer for case, answer in zip(some, answers, strict=True)}
     return answers_by_number

@@ -202,7 +202,7 @@ def _ask(
     cases, segmentation = _with_kinds(questions, cases, whole, segmentation)
     progress("joints", "points and arrows", 1, 4)
     cases = _with_lines(questions, cases, whole, segmentation)
-    return _ChosenMotions(cases, {c.number: as_answered(c) for c in cases}, segmentation)
+    return _ChosenMotions(cases, {c.number: as_answered(c, config.probed) for c in cases}, segmentation)
 
 
 def _ask_motions(

@@ -2,8 +2,8 @@
 
 An answerer is taken to give each answer rightly with a probability, its reliability, and to choose at random otherwise. The
 score of a motion is the logarithm of its probability by geometry and of the probability of all answers, if it is the true one.
-The reliability is not assumed: RELIABILITIES are weighted by how probable they make all answers about an object, that is, by
-how well the answers agree with each other and with the geometry.
+The reliability is not assumed: possible ones are weighted by how probable they make all answers about an object, that is, by
+how well the answers agree with each other and with the geometry, and by a probe of the model (`models.reliability`).
 """
 
 from __future__ import annotations
@@ -25,20 +25,20 @@ from anymesh.articulation.rank_motions import (
     shipped_classifier,
 )
 from anymesh.config import FACING_COSINE, Config
+from anymesh.prompted.models.reliability import ProbeCount, in_words, trust
 from anymesh.prompted.motions.cases import PartCase, ask_each
 from anymesh.prompted.motions.lines import prismatic
-from anymesh.prompted.motions.offers import MotionOffers, fits, make_offers, moves_as, nearest_motion
+from anymesh.prompted.motions.offers import FEW, MotionOffers, fits, make_offers, moves_as, nearest_motion
 from anymesh.prompted.pictures.sides import UNNAMED, SeenFrom, Sides
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.prompting import JointAppearance, MotionPick, MotionTable, PartFit, WhichMotions
 from anymesh.types import Brief, JointType, Picture
 from anymesh.types.questions import VisualAnswerer
 
+Probed = tuple[ProbeCount, ...]
 MOTIONS_IN_PICTURE = 14  # three rows of five with the pose at rest
 SURE = 0.8  # probability by geometry and recognition from which a joint is not asked about, or again if a pick contradicts it:
 # of 43 parts of 16 kinds of object that no classifier was trained on, it is reached by 14, all of them right
-RELIABILITIES = (0.97, 0.9, 0.7, 0.4, 0.1)
-SHARES = (0.55, 0.27, 0.1, 0.05, 0.03)  # of answerers with each reliability, before any of their answers is known
 MISLED_SHARE = 0.1  # share of the parts about whose motion geometry says nothing
 FIXED_SHARE = 0.1  # share of the parts of a model that do not move
 KINDS = 4  # kinds of joint that differ: turns, slides out, slides along the surface, fixed
@@ -74,22 +74,22 @@ class PartAnswers:
         moves = (1 - FIXED_SHARE) * np.append(OFFERED_SHARE * shares, 1 - OFFERED_SHARE)
         return np.log(np.append(moves, FIXED_SHARE))
 
-    def likelihood(self, reliability: float) -> Float[np.ndarray, " m"]:
-        """Return the log-probability of the answers for each true motion, for another one, and for none."""
+    def likelihood(self, reliability: float) -> Float[np.ndarray, "4 m"]:
+        """Return the log-probability of each answer (see `WEIGHED`) for each true motion, for another one, and for none."""
         case, motions, answered = self.offers.case, self.offers.motions, self.offers.answered
         fixed = case.kind is JointAppearance.FIXED
         by_kind = np.array([*(float(fits(c, case.kind)) for c in motions), 0.0 if fixed else 1 / (KINDS - 1), float(fixed)])
-        total = np.zeros(len(by_kind))
+        each = np.zeros((4, len(by_kind)))
         if case.kind is not None and not self._picked_its_kind:
-            total += np.log(_answered(by_kind, reliability, KINDS))
+            each[0] += np.log(_answered(by_kind, reliability, KINDS))
         if case.moves is not None:
             as_recognized = np.array([*(float(moves_as(c, case.moves)) for c in motions), 0.5, 0.0])
-            total += np.log(_answered(as_recognized, reliability, 2))
+            each[1] += np.log(_answered(as_recognized, reliability, 2))
         if answered is not None and answers_a_line(case) and by_kind[answered]:
-            total += np.log(self._line(by_kind == 1, answered, reliability))
+            each[2] += np.log(self._line(by_kind == 1, answered, reliability))
         for pick in self.picks:
-            total += np.log(self._pick(pick, reliability))
-        return total
+            each[3] += np.log(self._pick(pick, reliability))
+        return each
 
     @property
     def _picked_its_kind(self) -> bool:
@@ -123,25 +123,33 @@ def answers_a_line(case: PartCase) -> bool:
     return case.kind not in (None, JointAppearance.SLIDE_OUT, JointAppearance.FIXED)
 
 
-def posteriors(parts: Mapping[int, PartAnswers]) -> dict[int, Float[np.ndarray, " m"]]:
-    """Return the probability of each motion of each part of an object, of another one and of none, by part number."""
-    joint = {n: np.array([p.prior() + p.likelihood(r) for r in RELIABILITIES]) for n, p in parts.items()}
-    evidence = np.log(SHARES) + sum(np.logaddexp.reduce(scores, axis=1) for scores in joint.values())
+def posteriors(parts: Mapping[int, PartAnswers], probed: Probed = ()) -> dict[int, Float[np.ndarray, " m"]]:
+    """Return the probability of each motion of each part of an object, of another one and of none, by part number.
+
+    probed: of the answerer, see `Config`.
+    """
+    trusted, joint = trust(probed), {}
+    for n, p in parts.items():
+        each = np.array([p.likelihood(r) for r in trusted.grid])
+        joint[n] = p.prior() + each[trusted.levels, np.arange(4)].sum(1)
+    evidence = trusted.weights + sum(np.logaddexp.reduce(scores, axis=1) for scores in joint.values())
     weights = np.exp(evidence - np.logaddexp.reduce(evidence))
     return {n: weights @ np.exp(scores - np.logaddexp.reduce(scores, axis=1)[:, None]) for n, scores in joint.items()}
 
 
-def answered_confidence(as_recognized: bool | None, *, line: bool, free: bool = True) -> float:
+def answered_confidence(as_recognized: bool | None, *, line: bool, free: bool = True, probed: Probed = ()) -> float:
     """Return the confidence in an answer that is not compared with other motions (`verify` off or free).
 
     as_recognized: whether it moves as recognized, None if that is not known; line: whether a line or direction was answered;
-    free: whether the sweep leaves it free.
+    free: whether the sweep leaves it free; probed: as in `posteriors`.
     """
-    reliability, shares = np.array(RELIABILITIES), np.array(SHARES)
+    trusted = trust(probed)
+    kind, recognized, lined, _ = trusted.grid[trusted.levels].T
+    shares, reliability = np.exp(trusted.weights), np.minimum(kind, lined) if line else kind
     right = shares * (LINE_RIGHT if line else 1.0) * (reliability + (1 - reliability) / KINDS)
     wrong = shares - right
     if as_recognized is not None:
-        agrees = reliability + (1 - reliability) / 2
+        agrees = recognized + (1 - recognized) / 2
         right, wrong = right * (agrees if as_recognized else 1 - agrees), wrong / 2
     return float(right.sum() / (right.sum() + wrong.sum())) * (1.0 if free else BLOCKED_RATIO)
 
@@ -158,17 +166,19 @@ class Choice:
     warning: str = ""  # warning about it, in words
 
 
-def as_answered(case: PartCase) -> Choice:
-    """Return the answered motion unchanged."""
+def as_answered(case: PartCase, probed: Probed = ()) -> Choice:
+    """Return the answered motion unchanged. probed: as in `posteriors`."""
     motion = case.asked or prismatic(case.context.opening_direction, case.context, "nothing moves")
     both = sweep_candidates(case.context, [("asked", motion)])
     scores = PartMotionScores(case.context, case.label, both).alone.score
     best = both[max((0, 1), key=lambda k: (both[k].is_free, scores[k]))] if motion.kind is JointType.REVOLUTE else both[0]
-    moves, answer = case.moves, f"answered: {case.kind and case.kind.words}; {motion.source}"
+    told = in_words(probed, "kinds", "points", "arrows")
+    moves, answer = case.moves, f"answered{told}: {case.kind and case.kind.words}; {motion.source}"
     if case.kind is JointAppearance.FIXED:
-        return Choice(best, answer, answered_confidence(None if moves is None else False, line=False), moves=False)
+        confidence = answered_confidence(None if moves is None else False, line=False, probed=probed)
+        return Choice(best, answer, confidence, moves=False)
     as_recognized = None if moves is None else moves_as(best, moves)
-    return Choice(best, answer, answered_confidence(as_recognized, line=answers_a_line(case), free=best.is_free))
+    return Choice(best, answer, answered_confidence(as_recognized, line=answers_a_line(case), free=best.is_free, probed=probed))
 
 
 @dataclass(frozen=True, eq=False)
@@ -222,10 +232,14 @@ class MotionQuestioner(Brief):
 
 @dataclass(frozen=True, eq=False)
 class AskedMotions:
-    """All answers about the motions of some parts, and the picks among those that were asked about, both by part number."""
+    """All answers about the motions of some parts, and the picks among those that were asked about, both by part number.
+
+    probed: as in `posteriors`.
+    """
 
     answers: Mapping[int, PartAnswers]
     picks: Mapping[int, MotionPick]
+    probed: Probed = ()
 
     def lost(self) -> list[PartCase]:
         """Return the parts that move by the answers, but by no motion that was shown."""
@@ -238,9 +252,11 @@ class AskedMotions:
 
     def chosen(self) -> dict[int, Choice]:
         """Return the likeliest motion of each part by all answers and the geometry."""
-        probabilities = posteriors(self.answers)
+        probabilities = posteriors(self.answers, self.probed)
         fits = {n: pick.part for n, pick in self.picks.items()}
         chosen = {n: _chosen(a, probabilities[n], fits.get(n, PartFit.RIGHT)) for n, a in self.answers.items()}
+        told = in_words(self.probed, "recognize", "kinds", "motions")
+        chosen = {n: replace(choice, reason=f"{choice.reason}{told}") for n, choice in chosen.items()}
         return _to_one_side(chosen, self.answers, probabilities)
 
 
@@ -250,9 +266,9 @@ def ask_motions(cases: Sequence[PartCase], asking: MotionQuestioner, config: Con
     Parts of one shape are asked about once. With `config.ask` "unsure", parts are not asked about whose joint geometry and
     recognition agree on. If a pick contradicts what these agree on, it is asked for again in another order.
     """
-    offers = {c.number: make_offers(c, MOTIONS_IN_PICTURE, config.seed) for c in cases}
+    offers = {c.number: make_offers(c, FEW if c.alone else MOTIONS_IN_PICTURE, config.seed) for c in cases}
     first = {n: next(k for k in o.case.shape if k in offers) for n, o in offers.items()}
-    probabilities = posteriors({n: PartAnswers(o) for n, o in offers.items()})
+    probabilities = posteriors({n: PartAnswers(o) for n, o in offers.items()}, config.probed)
     agreed = {n: _joint_probability(o, probabilities[n]) for n, o in offers.items()}
     unsure = [n for n in offers if config.ask == "all" or asking.names or agreed[n] < SURE]
     shown = {n: offers[n].shown for n in dict.fromkeys(first[n] for n in unsure)}
@@ -269,7 +285,7 @@ def ask_motions(cases: Sequence[PartCase], asking: MotionQuestioner, config: Con
         made = [(shown, picks), (doubted, again)]
         own = tuple(ShownPick(s[leader], p[leader].motion) for s, p in made if leader in p)
         answers[n] = PartAnswers(o, own if leader == n else tuple(_of_copy(offers[leader], o, pick) for pick in own))
-    return AskedMotions(answers, picks)
+    return AskedMotions(answers, picks, config.probed)
 
 
 def _renewed(answers: PartAnswers, case: PartCase, seed: int) -> PartAnswers:

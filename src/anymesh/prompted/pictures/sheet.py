@@ -1,4 +1,4 @@
-"""Contact sheet of a question's pictures with their captions, for viewers that open a single file."""
+"""Contact sheets of a question's pictures with their captions, for viewers that open a single file, and for models."""
 
 from __future__ import annotations
 
@@ -12,17 +12,27 @@ from anymesh.rendering.marks import font
 from anymesh.types.exchange import Picture
 
 SIDE = 2000  # [px] longest side of a sheet, which vision models accept without downscaling
+MAX_PICTURES = 8  # pictures per call that models of 7 to 30 billion parameters take; an estimate
 MAX_CELL, MIN_CELL = 900, 240  # [px] maximum and minimum of the longer side of one picture; the sheet grows to keep the minimum
 TEXT, LINE, GAP = 16, 21, 8  # [px] font size, line height, space between cells
 MAX_CAPTION_LINES = 3  # maximum number of lines per caption
 
 
-def question_sheet(pictures: Sequence[Picture]) -> Picture:
-    """Lay out pictures in rows, numbered from 1, with their captions. Raise ValueError without pictures."""
+def on_sheets(pictures: Sequence[Picture], most: int) -> tuple[Picture, ...]:
+    """Lay out pictures, numbered through, on at most `most` sheets, each with as many of them; the last may have fewer."""
+    each = math.ceil(len(pictures) / most)
+    return tuple(question_sheet(pictures[k : k + each], k + 1, SIDE) for k in range(0, len(pictures), each))
+
+
+def question_sheet(pictures: Sequence[Picture], first: int = 1, largest: int = MAX_CELL) -> Picture:
+    """Lay out pictures in rows, numbered from `first`, with their captions. Raise ValueError without pictures.
+
+    largest: longer side of one picture [px]; none is enlarged.
+    """
     if not pictures:
         raise ValueError("a contact sheet needs at least one picture")
-    columns, width = _layout([p.size for p in pictures])
-    titles = [_lines(_title(k, p), width) for k, p in enumerate(pictures, 1)]
+    columns, width = _layout([p.size for p in pictures], largest)
+    titles = [_lines(_title(k, p), width) for k, p in enumerate(pictures, first)]
     images = [_shrunk(picture, width) for picture in pictures]
     bar = LINE * max(map(len, titles)) + 4
     heights = [max(i.height for i in images[k : k + columns]) + bar for k in range(0, len(images), columns)]
@@ -38,7 +48,8 @@ def question_sheet(pictures: Sequence[Picture]) -> Picture:
         sheet.paste(image, (x + (width - image.width) // 2, y + bar))
     buffer = io.BytesIO()
     sheet.save(buffer, "PNG")
-    return Picture(buffer.getvalue(), "contact sheet")
+    numbers = f"{first}..{first + len(pictures) - 1}" if len(pictures) > 1 else str(first)
+    return Picture(buffer.getvalue(), f"contact sheet of pictures {numbers}")
 
 
 def _title(number: int, picture: Picture) -> str:
@@ -54,7 +65,7 @@ def _shrunk(picture: Picture, width: int) -> Image.Image:
     return small
 
 
-def _layout(sizes: Sequence[tuple[int, int]]) -> tuple[int, int]:
+def _layout(sizes: Sequence[tuple[int, int]], largest: int) -> tuple[int, int]:
     """Choose the number of columns that shows the pictures largest, and the width of a cell [px]."""
     wide, high = max(w for w, _ in sizes), max(h for _, h in sizes)
     least = min(1.0, MIN_CELL / max(wide, high))
@@ -62,7 +73,7 @@ def _layout(sizes: Sequence[tuple[int, int]]) -> tuple[int, int]:
     for columns in range(1, len(sizes) + 1):
         rows = math.ceil(len(sizes) / columns)
         across, down = (SIDE / columns - GAP) / wide, (SIDE / rows - MAX_CAPTION_LINES * LINE - GAP) / high
-        options.append((max(least, min(across, down, MAX_CELL / max(wide, high), 1.0)), -max(rows, columns), columns))
+        options.append((max(least, min(across, down, largest / max(wide, high), 1.0)), -max(rows, columns), columns))
     scale, _, columns = max(options)
     return columns, max(1, int(wide * scale))
 

@@ -255,7 +255,7 @@ class WhichMarks(Brief):
                     raise BadAnswerError(f"mark {mark} belongs to one part; it is given to {other[0]} {other[1]} and {where}")
             if marks:
                 parts.setdefault((p["label"], p["instance"], view), set()).update(marks)
-        equal, off = self.equal, {*split, *(mark for _, mark in taken)}
+        equal, off = self.equal, {*split, *(mark for _, mark in taken), *(mark for f in self.found for mark in f.marks)}
         for p in named if equal is not None else ():
             label, first = p["label"], parts.get((p["label"], p["instance"], None))
             for copy in equal.copies(first, off) if equal is not None and first and p.get("all_equal") else ():

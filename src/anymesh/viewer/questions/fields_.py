@@ -129,10 +129,10 @@ class Fields:
         self._bound(form, gui.add_text("Object", form.category), lambda v: setattr(form, "category", v))
         size = gui.add_number("Longest side [m]", round(form.longest, 3), min=0.002, max=200.0, step=0.001)
         self._bound(form, size, lambda v: setattr(form, "longest", float(v)))
-        fronts = [
-            NO_FRONT,
-            *(f"{k}: {p.caption.partition(': ')[2] or p.caption}" for k, p in enumerate(form.question.pictures, 1)),
-        ]
+        captions, azimuths = [p.caption.partition(": ")[2] or p.caption for p in form.question.pictures], form.question.azimuths
+        if len(captions) < len(azimuths):  # on one sheet
+            captions = [f"turned by {azimuth:g} degrees" for azimuth in azimuths]
+        fronts = [NO_FRONT, *(f"{k}: {caption}" for k, caption in enumerate(captions, 1))]
         front = gui.add_dropdown("Front", fronts, initial_value=fronts[min(form.front, len(fronts) - 1)])
         self._bound(form, front, lambda v: setattr(form, "front", fronts.index(v)))
         mine = gui.add_button("I look at its front now", color="gray")
