@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -97,7 +98,8 @@ def test_a_question_with_its_pictures_on_sheets_finds_answers_that_were_recorded
     assert [len(r.pictures) for r in (on_eight, on_one, alone)] == [6, 1, 11]
     assert on_eight.text == f"{asked.text()} Pictures 1..11 are on 6 sheets, each below its number."
     assert on_one.text.endswith("are on 1 sheet, each below its number.")
-    assert on_eight.earlier == on_one.earlier == (alone,)
+    assert on_eight.earlier == on_one.earlier == (replace(alone, earlier=()), *alone.earlier)
+    assert len(alone.earlier) == 1  # the question without counts
     assert request_of(ASKED["motions"].question).pictures == ASKED["motions"].question.pictures
 
 
