@@ -122,6 +122,7 @@ COMMANDS = {
     "plan": "applications.plan.command_line:plan",
     "train": "applications.policy.command_line:train",
     "check": "checking.command_line:check",
+    "diff": "checking.command_line:diff",
     "eval": "evaluation.command_line:evaluate",
 }
 

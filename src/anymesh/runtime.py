@@ -41,7 +41,7 @@ def read_json(path: Path) -> dict[str, Any] | None:
     """Read the JSON object in a file, None if there is none."""
     try:
         record = json.loads(path.read_bytes())
-    except (OSError, ValueError):
+    except (OSError, ValueError, RecursionError):
         return None
     return record if isinstance(record, dict) else None
 

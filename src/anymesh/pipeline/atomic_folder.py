@@ -20,7 +20,7 @@ except ImportError:  # Windows: no folder is recognized as stale there
     fcntl = None
 
 FOLDER_PREFIX = ".anymesh."  # prefix of hidden folders inside an output
-IGNORED = frozenset({"Thumbs.db", "desktop.ini", ".DS_Store"})  # created by file managers
+IGNORED = frozenset({"Thumbs.db", "desktop.ini", ".DS_Store", "certificate.json"})  # by file managers, and by `check`
 GENERATOR = "articulate-anymesh"
 MANIFEST = "stages/files.json"  # list of files written by this program; nothing else is ever removed
 CORRECTIONS = "corrections.json"  # manual corrections; a new run never removes them
