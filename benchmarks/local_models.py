@@ -102,7 +102,7 @@ def main() -> None:
     options = parser.parse_args()
     truths = [t for t in example_truths(EXAMPLES) if not options.names or t.name in options.names]
     head = HEAD.format(names="".join(f" {name}" for name in options.names))
-    lines, asked = [head, *table_head(COLUMNS)], known_questions("few")
+    lines, asked = [head, *table_head(COLUMNS)], list(known_questions("few"))
     for wrong in (None, *options.wrong):
         for probed in ((),) if wrong is None else ((), counted(asked, wrong)):
             told = ", ".join(f"{kind} {right}/{n}" for kind, right, n, _ in probed)

@@ -39,7 +39,7 @@ def questions() -> Iterator[list[KnownQuestion]]:
     """Questions about one of the objects: marks, motions and arrows."""
     window = next(known for known in known_objects() if known.name == "window")
     with smaller(120, 4_000), patch.object(probing, "known_objects", lambda: [window]):
-        yield known_questions()
+        yield list(known_questions())
 
 
 class Known:
@@ -66,7 +66,7 @@ class Silent(Known):
 @pytest.mark.slow
 def test_there_are_ten_questions_of_which_a_perfect_answerer_gets_ten() -> None:
     with smaller(240, 8_000):
-        asked = known_questions()
+        asked = list(known_questions())
     found = probe(asked, Known(asked))
     assert (found.right, len(found.rows)) == (10, 10)
     assert {kind for kind, *_ in found.counts} == {"recognize", "marks", "kinds", "motions", "points", "arrows"}

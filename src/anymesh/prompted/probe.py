@@ -5,7 +5,7 @@ They are asked by the code of a run, about four objects of boards and discs whos
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeVar
 
@@ -41,6 +41,7 @@ ASKED = {  # kinds of question about each object
 MIN_IOU = 0.5  # of a marked part with the true one, as in evaluation
 MAX_ANGLE_DEG, MAX_DISTANCE_RATIO = 10.0, 0.05  # of a right line to the known one; distance as a share of the part's size
 DISC_SIDES = 32
+ENDLESS = 10**6  # invalid answers in a row after which a model is given up
 COLORS = ((0.55, 0.42, 0.3, 1.0), (0.75, 0.75, 0.78, 1.0))  # linear, of the base and of the parts
 Solid = tuple[np.ndarray, np.ndarray]  # vertices and faces
 Label = TypeVar("Label", bound=str)
@@ -125,15 +126,11 @@ def probe_model(name: str, pictures: str, timeout: float = CALL_SECONDS) -> Prob
     """
     if name == GEOMETRY or name.startswith((FILES, "replay:")):
         raise OptionError(f"--probe: found {name!r}, which is no model; valid are {VALID.partition(', files')[0]}")
-    config = Config(pictures=pictures)
-    model = open_model(name, timeout=timeout)
-    questions = known_questions(pictures)
-    calls = sum(len(q.calls) for q in questions)
-    answerer = VlmAnswerer(model, _Refuses(), Patience(2 * calls + 1), most=pictures_per_call(config))
-    return probe(questions, answerer)
+    most, model = pictures_per_call(Config(pictures=pictures)), open_model(name, timeout=timeout)
+    return probe(known_questions(pictures), VlmAnswerer(model, _Refuses(), Patience(ENDLESS), most=most))
 
 
-def probe(questions: Sequence[KnownQuestion], answerer: VisualAnswerer) -> ProbeResult:
+def probe(questions: Iterable[KnownQuestion], answerer: VisualAnswerer) -> ProbeResult:
     """Ask an answerer the questions. It may raise UnansweredError."""
     rows, items = [], list[tuple[str, bool, float]]()
     for question in questions:
@@ -153,15 +150,13 @@ def probe(questions: Sequence[KnownQuestion], answerer: VisualAnswerer) -> Probe
     return ProbeResult(tuple(rows), tuple(counts), answerer.exchanges)
 
 
-def known_questions(pictures: str = "many") -> list[KnownQuestion]:
-    """Return the questions as a run asks them, with the right answers. pictures: as in `Config`."""
-    questions = []
+def known_questions(pictures: str = "many") -> Iterator[KnownQuestion]:
+    """Return the questions as a run asks them, with the right answers, object by object. pictures: as in `Config`."""
     for known in known_objects():
         kinds = ASKED[known.name]
         asked = list(_asked(known, kinds, pictures))
         for kind in kinds:
-            questions.append(KnownQuestion(kind, known.name, tuple((q, a) for q, a in asked if q.kind == kind)))
-    return questions
+            yield KnownQuestion(kind, known.name, tuple((q, a) for q, a in asked if q.kind == kind))
 
 
 def _asked(known: KnownObject, kinds: Sequence[str], pictures: str) -> Iterator[tuple[Question[Any], Any]]:
@@ -173,7 +168,8 @@ def _asked(known: KnownObject, kinds: Sequence[str], pictures: str) -> Iterator[
         if "marks" in kinds and verify == "motion":
             solver.parts("auto", recognition)
         solver.joints(known.segmentation, recognition)
-        yield from (asked for asked in answerer.asked if verify == "motion" or asked[0].kind in ("points", "arrows"))
+        asked, answerer.asked = answerer.asked, []  # the solver holds the answerer, and the questions hold the solver
+        yield from (each for each in asked if verify == "motion" or each[0].kind in ("points", "arrows"))
 
 
 def compared(question: Question[Any], answer: Any, truth: Any) -> list[tuple[str, bool, float]]:

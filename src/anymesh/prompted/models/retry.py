@@ -84,7 +84,7 @@ def persist(
         try:
             return call()
         except TransientError as error:
-            failure = error
+            failure = error.with_traceback(None)  # which would hold this frame, and with it all that its callers hold
         if attempt == attempts:
             break
         if (failure.retry_after or 0) > PATIENCE:
