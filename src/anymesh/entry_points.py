@@ -62,9 +62,10 @@ USUAL_SIZE = "kinds.usual:usual_size"
 USUAL_PARTS = "kinds.moving_parts:usual_parts"
 DESCRIBED = "kinds.pieces:described"
 
-# Resistance, springs, catches and detents of joints.
+# Resistance, springs, catches, detents and handles of joints.
 CHOOSE_MECHANISMS = "mechanisms.choosing:choose_mechanisms"
 RESISTANCES = "mechanisms.resisting:resistances"
+HANDLE_FRAMES = "mechanisms.handles:handle_frames"
 PARSE_MECHANISMS = "mechanisms.choosing:parse_mechanisms"
 
 # Scenes of several objects.

@@ -12,10 +12,11 @@ from scenes import case
 
 from anymesh.articulation.candidate_motions import Candidate
 from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.limits import answered_range, limits, opening_as_answered, pressed
+from anymesh.articulation.limits import limits, pressed
 from anymesh.articulation.part_contexts import have_one_handle
 from anymesh.articulation.rank_motions import joint_type, label_of
 from anymesh.motion.part_context import PartContext
+from anymesh.prompted.motions.cases import answered_range, opening_as_answered
 from anymesh.types import JointType, Motion
 from anymesh.types.motion import RecognizedLabel
 

@@ -16,6 +16,7 @@ from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.meshes import write_meshes
 from anymesh.export.model import Exclusion, ExportConfig, ExportLink, Model
 from anymesh.export.options import Base, Driven, ExportOptions
+from anymesh.mechanisms.handles import handle_frames
 from anymesh.mechanisms.resisting import resistances
 from anymesh.physics.inertia import link_inertia
 from anymesh.types import Asset, Box, Cylinder, Hull, Material, Part, Segmentation, Shape, Texture
@@ -68,7 +69,9 @@ def model_of(
     shapes = [shapes_of(link, i) for i, link in enumerate(links)] if like is None else [b.shapes for b in like.bodies]
     bodies = tuple(ExportLink(link, link_inertia(link.triangles, CONFIG), s) for link, s in zip(links, shapes, strict=True))
     resisting = resistances(asset, {body.name: body.inertia for body in bodies})
-    return Model(asset, bodies, resisting, ExportOptions(base, drives=driven), exclusions)
+    return Model(
+        asset, bodies, resisting, ExportOptions(base, drives=driven), exclusions, handles=handle_frames(asset, resisting)
+    )
 
 
 def with_meshes(model: Model, folder: Path) -> Path:

@@ -255,7 +255,8 @@ PROGRAM = """
 import hashlib
 import numpy as np
 from test_smooth_pictures import CAMERA, SIZE, samples_of, sphere
-from anymesh.rendering.drawing import draw, ground, headlight_on, light_on, material_colors
+from anymesh.prompted.pictures.views import headlight_on
+from anymesh.rendering.drawing import draw, ground, light_on, material_colors
 from anymesh.rendering.render import lit
 from anymesh.rendering.drawing import smoothed
 

@@ -19,7 +19,6 @@ from anymesh.config import ALONG_COSINE
 from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
-from anymesh.types.motion import RecognizedLabel
 
 FINE_STEPS = 30  # for the limits: three times as many over the range of a hinge, twice as many of a slide
 MAX_DOOR_DEG = 110.0  # [deg] upper limit of an unobstructed hinge with an upright axis (common cup hinges)
@@ -39,8 +38,6 @@ MIN_STROKE_RATIO = 0.1  # of its height: a button with less free space behind it
 STROKE_RATIO = 0.5  # of its height: stroke of such a button
 MIN_HINGE_RANGE_RAD = np.deg2rad(2.0)  # [rad] a hinge with a shorter range, answered or left free, has an error
 MIN_SLIDE_FREE_RATIO = 0.05  # of an answered travel: a slide that the sweep leaves less is blocked and keeps its answer
-# free shares of an answered range for reversing the axis: the maximum before, and the minimum after
-MAX_BLOCKED_RATIO, MIN_REVERSED_FREE_RATIO = 0.5, 0.8
 MIN_DEPTH_IN_PARENT_RATIO = 0.3  # of the answered travel: a part less deep inside its parent is only a panel
 ANGLE_STEP_RAD = np.deg2rad(1.0)  # [rad] resolution of limits that the sweep finds
 Range = tuple[float, float]  # lower, upper [rad or m], lower <= 0 <= upper
@@ -144,36 +141,9 @@ def limits(context: PartContext, c: Candidate, kind: JointType, answered: Range 
             return _prismatic(context, c)
 
 
-def answered_range(recognized: RecognizedLabel | None, kind: JointType) -> Range | None:
-    """Return the answered range [rad or m] for a joint of this type, None if there is none or it is unusable."""
-    if recognized is None or recognized.limits is None:
-        return None
-    lower, upper = recognized.limits
-    if kind is JointType.REVOLUTE and recognized.moves is JointType.REVOLUTE:
-        return recognized.limits if upper - lower >= MIN_HINGE_RANGE_RAD else None
-    if kind is JointType.PRISMATIC and recognized.moves is JointType.PRISMATIC:
-        return recognized.limits if upper > lower else None
-    return None
-
-
 def pressed(c: Candidate, answered: Range | None) -> bool:
     """Return whether a slide goes into its parent by its answered range, as buttons do."""
     return c.slide_direction is SlideDirection.OUTWARDS and answered is not None and -answered[0] > answered[1]
-
-
-def opening_as_answered(c: Candidate, answered: Range | None) -> Candidate:
-    """Return the candidate with the opening direction that fits an answered range [rad].
-
-    A lid modelled open closes further than it opens (-105..20 deg). The direction suggested by geometry is reversed only in
-    this case, and only if the sweep leaves more of the range free with the axis reversed.
-    """
-    if answered is None or -answered[0] <= answered[1] or c.motion.kind is JointType.PRISMATIC:
-        return c
-    lower, upper = -answered[0], answered[1]
-    kept, other = min(upper, c.opening) + min(lower, c.closing), min(upper, c.closing) + min(lower, c.opening)
-    if kept > MAX_BLOCKED_RATIO * (lower + upper) or other < MIN_REVERSED_FREE_RATIO * (lower + upper):
-        return c
-    return c.reversed()
 
 
 def _answered_revolute(context: PartContext, c: Candidate, answered: Range) -> Range:

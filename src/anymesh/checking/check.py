@@ -16,7 +16,7 @@ from anymesh.checking.engines.robot import Robot, read_urdf
 from anymesh.checking.joints import check_damping, check_direction, check_joints, check_motion
 from anymesh.checking.report import CheckReport, Finding, Severity, failure
 from anymesh.checking.schema_ import NAME, SCHEMA, check_asset_json, check_files, check_naming, check_tree
-from anymesh.checking.shapes import check_meshes, check_scale, check_texture
+from anymesh.checking.shapes import HANDLES, check_handles, check_meshes, check_scale, check_texture
 from anymesh.errors import InputError, MissingExtraError
 from anymesh.runtime import read_json
 
@@ -69,6 +69,9 @@ def _still(content: Content) -> Iterator[Finding]:
     yield from _or_ok("inertia", [*check_inertia(content)], _masses(robot))
     record = read_json(beside) if ours and not any(f.severity is Severity.FAILURE for f in schema) else None
     yield from _or_ok("usual", [*check_usual(content, record or {})], "size and mass are plausible for what it is")
+    if record is not None:
+        handles = sum("handle" in joint for joint in record["joints"])
+        yield from _or_ok(HANDLES, [*check_handles(content, record)], f"{handles} handles lie on their links")
     rest = _rest(robot)
     collision = [*check_collision(content, rest, ours=ours)]
     fine = "moving links have collision shapes, cavities and round openings are open"

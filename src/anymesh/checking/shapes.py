@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import html
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from PIL import Image
@@ -13,10 +14,12 @@ from PIL import Image
 from anymesh.checking.content import Content, Solid
 from anymesh.checking.engines.locate import find_file
 from anymesh.checking.report import Finding, failure, warning
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.topology import components
-from anymesh.types.triangles import normals_and_areas
+from anymesh.types.triangles import normals_and_areas, unshared
 
-MESHES = "meshes"
+MESHES, HANDLES = "meshes", "handles"
+SHIFT, OFF = 0.01, 1e-6  # of the diagonal: where the ray to a handle begins, and of that: tolerance; of unit vectors
 NOTHING = 1e-12  # share of a mesh's squared diagonal, below which a face has no area
 MANY = 0.05  # share of a mesh's faces without area above which a warning is given
 CLOSED = 0.5  # share of a link's surface that must belong to closed bodies for volume and inertia to be computable
@@ -43,6 +46,28 @@ def check_meshes(content: Content) -> Iterator[Finding]:
         yield from _closed(content, link.name)
         yield from _size(content, link.name)
         yield from _agreement(content, link.name)
+
+
+def check_handles(content: Content, record: Mapping[str, Any]) -> Iterator[Finding]:
+    """Check that the frames of handles in asset.json lie on the surface of their links, seen from where a hand comes."""
+    for joint in record.get("joints", ()):
+        handle = joint.get("handle")
+        if handle is None:
+            continue
+        place, approach, closing = (np.array(handle[key], float) for key in ("place", "approach", "closing"))
+        if handle["link"] not in content.visuals:
+            yield failure(HANDLES, handle["name"], f"its link is {handle['link']!r}, which is not there")
+            continue
+        lengths = np.array([np.linalg.norm(approach), np.linalg.norm(closing), 1 + abs(approach @ closing)])
+        if np.abs(lengths - 1).max() > OFF:
+            yield failure(HANDLES, handle["name"], "approach and closing are no unit vectors at right angles")
+            continue
+        surface = content.at_rest(frozenset((handle["link"],)))
+        off = SHIFT * content.diagonal
+        hit = RayScene(*unshared(surface)).first_hit((place - off * approach)[None], approach[None]).distance[0]
+        if not abs(hit - off) < SHIFT * off:
+            where = f"{1000 * (hit - off):.3g} mm off" if np.isfinite(hit) else "beside it"
+            yield failure(HANDLES, handle["name"], f"its frame does not lie on the surface of {handle['link']!r}: {where}")
 
 
 def _faces(link: str, solid: Solid) -> Iterator[Finding]:

@@ -15,7 +15,7 @@ from anymesh.entry_points import PROBABILITY, resolve
 from anymesh.export.formats import main_file
 from anymesh.export.model import ExportLink, Model, SubstanceShare, faces_path
 from anymesh.export.options import Format
-from anymesh.physics.mechanism import Mechanism
+from anymesh.physics.mechanism import HandleFrame, Mechanism
 from anymesh.physics.resistance import Resistance
 from anymesh.rendering.viewpoints import away
 from anymesh.types import Asset, Exchange, Joint, ProposedJoint, Source
@@ -110,10 +110,12 @@ def _substance(share: SubstanceShare) -> dict[str, Any]:
 
 def _joint(model: Model, joint: Joint) -> dict[str, Any]:
     resistance, mechanism = model.resistances.get(joint.name), model.mechanisms.get(joint.name)
+    handle = next((h for h in model.handles if h.joint == joint.name), None)
     return {
         **_motion(joint),
         **({} if resistance is None else _resistance(resistance)),
         **({} if mechanism is None else {"mechanism": _mechanism(mechanism, model.how.formats)}),
+        **({} if handle is None else {"handle": _handle(model.asset, handle)}),
         **_certainty(joint),
         "probability": _round(resolve(PROBABILITY)(model.asset.segmentation.parts, joint)),
     }
@@ -163,6 +165,15 @@ def _mechanism(m: Mechanism, formats: Sequence[Format]) -> dict[str, Any]:
     values = {name: _round(value) for name, value in numbers.items() if value or (name == "reference" and m.stiffness)}
     values |= {"steps": m.steps} if m.steps else {}
     return {"kind": str(m.kind), **values, "formats": [str(f) for f in formats if f in held], "reason": m.reason}
+
+
+def _handle(asset: Asset, h: HandleFrame) -> dict[str, Any]:
+    """Return a handle; its vectors are in the asset frame at rest."""
+    vectors = {"place": h.place, "approach": h.R[:, 2], "closing": h.R[:, 1]}
+    sizes = dict(zip(("length", "width", "depth"), map(_round, h.size), strict=True))
+    places = {key: [_round(v) for v in vector] for key, vector in vectors.items()}
+    faces = {"face_count": len(asset.source_faces(h.faces)), "faces": faces_path(h.name)}
+    return {"name": h.name, "link": h.link, **places, **sizes, **faces}
 
 
 def _round(value: float) -> float:

@@ -45,6 +45,7 @@ def write_meshes(model: Model, folder: Path, config: ExportConfig) -> None:
         write_obj(folder / body.visual_path(), body.name, f"{body.name}.mtl", primitives, names)
         _write_hulls(body, folder)
     faces = {body.name: body.link.faces for body in bodies} | {p.part.name: p.faces for p in model.asset.proposals}
+    faces |= {h.name: h.faces for h in model.handles}
     for name, mine in faces.items():
         np.save(folder / faces_path(name), model.asset.source_faces(mine), allow_pickle=False)
 

@@ -39,6 +39,7 @@ FIRM = {  # else what friction holds creeps, a knob by turns per second, and spr
     "solimpfriction": "0.9999 0.9999 0.001",
 }
 CATCHES = 2  # group of the actuators that are catches and detents, which no command moves
+HANDLES, PLATE = 4, 5e-4  # group of the sites, which viewers hide at first; half thickness [m]
 DRIVES = 1  # group of the actuators: `actuatorgroupdisable="1"` makes the asset passive
 
 
@@ -260,6 +261,10 @@ def with_digits(text: str, model: Model, motors: Mapping[str, Drive]) -> str:
             element.set("pos", vector(body.link.origin - origins[joint.parent]))
         _inertial(element, body)
         _geoms(element, body)
+    for handle in model.handles:  # a plate on its surface
+        place, size = vector(handle.place - origins[handle.link]), vector((*handle.size[:2] / 2, PLATE))
+        words = {"name": handle.name, "type": "box", "pos": place, "quat": vector(quaternion(handle.R)), "size": size}
+        ElementTree.SubElement(bodies[handle.link], "site", words, group=str(HANDLES))
     joints = {element.get("name"): element for element in root.iter("joint")}
     for joint in model.asset.joints:
         if joint.name in joints:

@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from anymesh.entry_points import CHOOSE_MECHANISMS, RESISTANCES, USUAL_BODIES, resolve
+from anymesh.entry_points import CHOOSE_MECHANISMS, HANDLE_FRAMES, RESISTANCES, USUAL_BODIES, resolve
 from anymesh.export.flat_looks import losses, tiled, tinted, with_materials
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.options import Driven, ExportOptions, Shapes, Visuals
@@ -21,7 +21,7 @@ from anymesh.geometry.surface import plain_triangles
 from anymesh.physics.collision import CollisionConfig, collision_shapes
 from anymesh.physics.convex import as_hull, planes
 from anymesh.physics.inertia import Inertia, InertiaConfig, MadeOf, link_inertia
-from anymesh.physics.mechanism import Mechanism
+from anymesh.physics.mechanism import HandleFrame, Mechanism
 from anymesh.physics.resistance import Resistance, crossing
 from anymesh.physics.substances import Substance, substance_of, usual_substance
 from anymesh.runtime import Deadline
@@ -108,6 +108,7 @@ class Model:
     how: ExportOptions = field(default_factory=ExportOptions)
     exclusions: tuple[Exclusion, ...] = ()
     mechanisms: Mapping[str, Mechanism] = field(default_factory=dict)
+    handles: tuple[HandleFrame, ...] = ()
 
     @property
     def links(self) -> Sequence[Link]:
@@ -175,7 +176,8 @@ def build_model(
     inertias = {body.name: body.inertia for body in bodies}
     resistances = resolve(RESISTANCES)(asset, inertias, how.resistance)
     chosen, resisting = resolve(CHOOSE_MECHANISMS)(asset, inertias, resistances, how.mechanisms)
-    return Model(asset, tuple(bodies), resisting, how, tuple(excluded), chosen)
+    handles = resolve(HANDLE_FRAMES)(asset, resisting)
+    return Model(asset, tuple(bodies), resisting, how, tuple(excluded), chosen, handles)
 
 
 def _weighing(bodies: Sequence[ExportLink], mass: float, config: InertiaConfig) -> list[ExportLink]:

@@ -10,14 +10,18 @@ import re
 import shutil
 import zipfile
 from pathlib import Path
+from typing import Any
 from xml.etree import ElementTree
+
+import numpy as np
 
 import anymesh
 from anymesh.errors import InputError, OutputError
 from anymesh.export.model import FOLDER
-from anymesh.export.notation import document
+from anymesh.export.notation import document, rpy, vector
 from anymesh.export.options import Base
 from anymesh.names import legal_names
+from anymesh.runtime import read_json
 
 CMAKE = """cmake_minimum_required(VERSION 3.8)
 project({name})
@@ -33,7 +37,8 @@ PLAIN_FILE = 0o100644 << 16  # a file readable by all and writable by its owner
 def write_package(folder: Path, into: Path, *, base: Base) -> Path:
     """Write a package of the one URDF in an asset folder as a new folder in `into`; return the package's folder.
 
-    A fixed base gets the link `world` to which ROS and Gazebo fix it; a free one has none.
+    A fixed base gets the link `world` to which ROS and Gazebo fix it; a free one has none. A handle gets a link without mass,
+    which is a frame in ROS and in Gazebo; not in a URDF for engines, where PyBullet gives it a mass of 1 kg.
 
     Raise InputError if the folder has no URDF, OutputError if the package exists.
     """
@@ -52,7 +57,7 @@ def write_package(folder: Path, into: Path, *, base: Base) -> Path:
     texts = {
         "package.xml": _manifest(name, ElementTree.parse(urdfs[0]).find("credits")),
         "CMakeLists.txt": CMAKE.format(name=name),
-        f"urdf/{urdfs[0].name}": _packaged(urdfs[0].read_text(encoding="utf-8"), name, base),
+        f"urdf/{urdfs[0].name}": _packaged(urdfs[0].read_text(encoding="utf-8"), name, base, _handles(folder)),
     }
     for path, text in texts.items():
         (package / path).write_text(text, encoding="utf-8", newline="\n")
@@ -80,11 +85,26 @@ def _manifest(name: str, credits: ElementTree.Element | None) -> str:
     return document(root)
 
 
-def _packaged(text: str, name: str, base: Base) -> str:
-    """Return the URDF with paths in the package, and with a world link if its base is fixed."""
+def _handles(folder: Path) -> list[dict[str, Any]]:
+    """Return the handles of an asset, with the origins of their links."""
+    joints = (read_json(folder / "asset.json") or {}).get("joints", [])
+    origins = {j["child"]: j["origin"] for j in joints}
+    return [j["handle"] | {"origin": origins[j["handle"]["link"]]} for j in joints if "handle" in j]
+
+
+def _packaged(text: str, name: str, base: Base, handles: list[dict[str, Any]]) -> str:
+    """Return the URDF with paths in the package, a link per handle, and a world link if its base is fixed."""
     robot = ElementTree.fromstring(text)
     for mesh in robot.iter("mesh"):
         mesh.set("filename", f"package://{name}/{mesh.get('filename')}")
+    for handle in handles:
+        place, (y, z) = np.subtract(handle["place"], handle["origin"]), (np.array(handle[k]) for k in ("closing", "approach"))
+        ElementTree.SubElement(robot, "link", name=handle["name"])
+        joint = ElementTree.SubElement(robot, "joint", name=f"{handle['name']}_joint", type="fixed")
+        turned = vector(rpy(np.stack([np.cross(y, z), y, z], 1)))
+        ElementTree.SubElement(joint, "origin", xyz=vector(place), rpy=turned)
+        ElementTree.SubElement(joint, "parent", link=handle["link"])
+        ElementTree.SubElement(joint, "child", link=handle["name"])
     if base is Base.FIXED:
         children = {str(c.get("link")) for c in robot.iter("child")}
         root = next(str(link.get("name")) for link in robot.iter("link") if link.get("name") not in children)

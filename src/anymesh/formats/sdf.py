@@ -68,6 +68,10 @@ def sdf_text(model: Model) -> str:
         _leaf(fixed, "child", model.bodies[0].name)
     for joint in asset.joints:
         _add_joint(element, joint, names[joint.name], model)
+    taken = [*origins, *names.values()]
+    for handle, name in zip(model.handles, legal_names([*taken, *(h.name for h in model.handles)])[len(taken) :], strict=True):
+        frame = ElementTree.SubElement(element, "frame", name=name, attached_to=handle.link)
+        _leaf(frame, "pose", _pose(handle.place - origins[handle.link], handle.R))
     return document(root)
 
 

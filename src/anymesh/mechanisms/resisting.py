@@ -11,9 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.motion.handle import handle_point
+from anymesh.mechanisms.handles import find_protrusion
 from anymesh.physics.inertia import Inertia
-from anymesh.physics.resistance import GRAVITY, Pull, Resistance, ResistanceLevel, crossing
+from anymesh.physics.resistance import GRAVITY, FoundHandle, Pull, Resistance, ResistanceLevel, crossing
 from anymesh.types import Asset, Joint, JointType
 from anymesh.vocabulary import recognize, words_of
 
@@ -162,6 +162,11 @@ def _spatial(body: Inertia, origin: Float[np.ndarray, " 3"]) -> Float[np.ndarray
     return np.block([[body.tensor + C @ C.T / body.mass, C], [C.T, body.mass * np.eye(3)]])
 
 
+def _whole(tree: _Tree, part: str, way: Float[np.ndarray, " 3"]) -> FoundHandle:
+    """Return a part that is a handle as a whole, which a hand reaches against a direction of any length."""
+    return FoundHandle(part, np.arange(len(tree.triangles[part])), way / max(float(np.linalg.norm(way)), 1e-12))
+
+
 def _motion(joint: Joint) -> Float[np.ndarray, " 6"]:
     """Return the spatial velocity of a link per unit of its joint's speed."""
     slides = joint.type is JointType.PRISMATIC
@@ -185,7 +190,7 @@ class _Moved:
         self.corners = tree.triangles[joint.child].reshape(-1, 3)
         self.distances = self.distance(self.corners)
         self.radius = float(self.distances.max())
-        self.at = self._handle(tree)
+        self.at, self.found = self._handle(tree)
         mean = np.array([carried[2, 4], carried[0, 5], carried[1, 3]]) / carried[3, 3]
         off = np.array([mean, self.at]) - joint.origin
         self.center, self.handle = off - np.outer(off @ joint.axis, joint.axis)
@@ -204,8 +209,8 @@ class _Moved:
         """Return the distance of points from the axis [m]."""
         return np.linalg.norm(np.cross(self.joint.axis, points - self.joint.origin), axis=1)
 
-    def _handle(self, tree: _Tree) -> Float[np.ndarray, " 3"]:
-        """Return where the joint is opened [m, asset frame].
+    def _handle(self, tree: _Tree) -> tuple[Float[np.ndarray, " 3"], FoundHandle | None]:
+        """Return where the joint is opened [m, asset frame], and its handle.
 
         That is its handle: a part that hangs on it, or a protrusion; else the farthest points from the axis of a turn, and the
         middle of the face of a slide, from which a button is pushed. What is turned by a torque is turned in its middle.
@@ -217,17 +222,32 @@ class _Moved:
         arms = np.cross(joint.axis, rim - joint.origin)
         far = rim[arms @ arms[0] >= 0.5 * arms[0] @ arms[0]].mean(0)  # of one side, else the middle of a rotor is its handle
         usual = middle + (heights.min() if touched else heights.max()) * along if self.slides else far
-        if touched or self.torque:
-            return middle if self.torque else usual
         words = {n: recognize(tree.labels[n]) for n, j in tree.carriers.items() if j.parent == joint.child}
         hanging = [n for n, word in words.items() if word is not None and word.label in HOLDERS]
-        points = [np.stack([c.min(0), c.max(0)]).mean(0) for c in (tree.triangles[n].reshape(-1, 3) for n in hanging)]
-        if not points:
-            outwards = along if self.slides else np.cross(along, far - joint.origin)
-            protruding = handle_point(tree.triangles[joint.child], tree.triangles[joint.parent], outwards)
-            points = [] if protruding is None else [protruding]
-        points = [p for p in points if self.slides or self.distance(p[None])[0] > MIN_REACH * self.radius]
-        return points[0] if points else usual
+        own, held = recognize(tree.labels[joint.child]), None
+        if own is not None and own.label in HOLDERS and not self.slides:
+            held = _whole(tree, joint.child, self._side(tree, middle, far))
+        if touched or self.torque:
+            return middle if self.torque else usual, held
+        outwards = along if self.slides else np.cross(along, far - joint.origin)
+        protruding = find_protrusion(tree.triangles[joint.child], tree.triangles[joint.parent], outwards)
+        mine = [] if protruding is None else [(protruding[1], FoundHandle(joint.child, protruding[0].faces, protruding[0].way))]
+        corners = {n: tree.triangles[n].reshape(-1, 3) for n in hanging}
+        hung = [(np.stack([c.min(0), c.max(0)]).mean(0), _whole(tree, n, outwards)) for n, c in corners.items()]
+        points = [p for p, _ in hung or mine if self._far(p)]
+        held = next((handle for p, handle in (*mine, *hung) if self._far(p)), held)
+        return (points[0] if points else usual), held
+
+    def _far(self, point: Float[np.ndarray, " 3"]) -> bool:
+        """Return whether a point is far enough from the axis to pull there."""
+        return self.slides or bool(self.distance(point[None])[0] > MIN_REACH * self.radius)
+
+    def _side(self, tree: _Tree, middle: Float[np.ndarray, " 3"], far: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " 3"]:
+        """Return the side from which a part that is a handle is held: along its axis, or a bail's far one."""
+        joint, above = self.joint, tree.triangles[self.joint.parent].reshape(-1, 3)
+        if not self.torque and np.ptp(self.corners @ joint.axis) > self.radius:
+            return far - joint.origin - ((far - joint.origin) @ joint.axis) * joint.axis
+        return joint.axis if (middle - (above.min(0) + above.max(0)) / 2) @ joint.axis > 0 else -joint.axis
 
     def friction(self) -> Float[np.ndarray, " 3"]:
         """Return the light, typical and stiff friction of the joint's kind."""
@@ -275,7 +295,7 @@ def _resistance(tree: _Tree, moved: _Moved, level: int) -> Resistance:
     if not (moved.slides or moved.torque):
         direction = np.cross(direction, moved.handle) / max(float(np.linalg.norm(moved.handle)), 1e-12)
     pulls = (friction - moved.opens * moved.rest) / moved.arm
-    pull = Pull("N m" if moved.torque else "N", *(float(pulls[k]) for k in (level, 0, 2)), moved.at, direction)
+    pull = Pull("N m" if moved.torque else "N", *(float(pulls[k]) for k in (level, 0, 2)), moved.at, direction, moved.found)
     words = f"{name}: {FORMS[kind.form]}: {kind.values[1]:g} ({kind.values[0]:g} to {kind.values[2]:g})"
     more = "; more, to hold its weight at rest" if holding[1] > usual[1] else ""
     numbers = (float(v) for v in (damping, effort, velocity, armature, moved.inertia, moved.load))

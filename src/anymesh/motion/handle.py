@@ -5,15 +5,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 from scipy.spatial import KDTree
 
 from anymesh.config import FACING_COSINE
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.topology import label_connected
-from anymesh.geometry.triangle_set import MAX_PROTRUSION_RATIO, TriangleSet, body_obb, points_above, shares_above
+from anymesh.geometry.triangle_set import MAX_PROTRUSION_RATIO, TriangleSet, points_above, shares_above
 from anymesh.types import Brief, Handle
-from anymesh.types.triangles import normals_and_areas
 
 MIN_TAB_GAP_RATIO = 0.01  # of the tolerance length: a tab that is closer to the parent is a hinge barrel
 MAX_HANDLE_GROUPS = 2  # maximum number of separate protrusions of one handle
@@ -24,7 +23,6 @@ MIN_HANDLE_ASPECT = 0.2  # minimum height of a handle over its smaller width
 MIN_HANDLE_HEIGHT_RATIO = 0.012  # minimum height of a handle over the part's diagonal
 MAX_COVERED_SHARE = 0.45  # maximum share of the part's surface in a handle on its face
 GROUPED_POINTS = 500  # sample points of a protrusion that are divided into groups
-MAX_HANDLE_FACES = 20_000  # of a part and its parent, for a handle to be looked for
 GAP_POINTS = 200  # sample points of a protrusion whose distance to the parent is measured
 
 
@@ -52,32 +50,12 @@ def find_handle(
     return _face_handle(part, core, parent, scale, opening_direction) or _tab(part, core, parent, scale, opening_direction)
 
 
-def handle_point(
-    part: Float[np.ndarray, "F 3 3"], parent: Float[np.ndarray, "G 3 3"], direction: Float[np.ndarray, " 3"]
-) -> Float[np.ndarray, " 3"] | None:
-    """Return the point of a part's handle on its outer face [m], None if it has none or is too fine to look for one.
-
-    part, parent: triangles [m]; direction: in which the face opens, of any length.
-    """
-    length = float(np.linalg.norm(direction))
-    if max(len(part), len(parent)) > MAX_HANDLE_FACES or length < 1e-9:
-        return None
-    own, other = (TriangleSet(t, normals_and_areas(t)[0], np.zeros(len(t), bool), np.arange(len(t))) for t in (part, parent))
-    core, out = body_obb(own), direction / length
-    handle = find_handle(own, core, other, core.diagonal, out)
-    if handle is None:
-        return None
-    k, face, local = outward_axis(core, out), face_axes(core, out), np.zeros(3)
-    local[k], local[face] = np.sign(core.axes[k] @ out) * core.half[k], np.array(handle.across) * core.half[face]
-    return core.world(local[None])[0]
-
-
 @dataclass(frozen=True, eq=False)
 class _Protrusion(Brief):
     """What lies beyond a level of a part's box.
 
     points: (n, 3) samples in the box frame [m]; corners: (c, 3) in the box frame, exact [m]; share: of the part's surface; gap:
-    distances of some samples to the parent [m]; spacing: mean distance of neighbouring samples [m].
+    distances of some samples to the parent [m]; spacing: mean distance of neighbouring samples [m]; faces: of the part.
     """
 
     points: Float[np.ndarray, "n 3"]
@@ -85,6 +63,7 @@ class _Protrusion(Brief):
     share: float
     gap: Float[np.ndarray, " m"]
     spacing: float
+    faces: Int[np.ndarray, " k"]
 
 
 def _heights(part: TriangleSet, core: OrientedBox, axis: int, sign: float) -> Float[np.ndarray, "F 3"]:
@@ -112,7 +91,7 @@ def _beyond(
     share = float(some.areas @ shares_above(heights[faces], level)) / max(part.area, 1e-300)
     corners = core.local(points_above(some.triangles, heights[faces], level))
     spacing = float(np.sqrt(some.area / len(local)))
-    return _Protrusion(local[out], corners, share, parent.nearest(some.samples.points[few])[0], spacing)
+    return _Protrusion(local[out], corners, share, parent.nearest(some.samples.points[few])[0], spacing, faces)
 
 
 def _tab(
@@ -133,7 +112,8 @@ def _tab(
     row, sign, level, out = tabs[0]
     across = [sign, float(np.clip(level, -1, 1))]
     size = float(np.ptp(out.corners[:, face], axis=0).max() / core.diagonal)
-    return Handle((across[0], across[1]) if row == 0 else (across[1], across[0]), None, size)
+    place = (across[0], across[1]) if row == 0 else (across[1], across[0])
+    return Handle(place, None, size, out.faces, sign * core.axes[face[row]])
 
 
 def _face_handle(
@@ -157,9 +137,8 @@ def _face_handle(
     along = None if size.max() < 1.6 * size.min() + 1e-9 else int(size.argmax())
     if (size > 1.7 * core.half[face]).all() or height < MIN_HANDLE_ASPECT * size.min():
         return None
-    return Handle(
-        (float(np.clip(middle[0], -1, 1)), float(np.clip(middle[1], -1, 1))), along, float(size.max() / core.diagonal)
-    )
+    place = (float(np.clip(middle[0], -1, 1)), float(np.clip(middle[1], -1, 1)))
+    return Handle(place, along, float(size.max() / core.diagonal), out.faces, sign * core.axes[k])
 
 
 def _bulges(

@@ -23,6 +23,7 @@ from anymesh.kinds.usual import kind_of
 from anymesh.openusd.geometry_ import vec
 from anymesh.openusd.layered_ import ENGINES, TEXTURES, LayeredAsset
 from anymesh.openusd.writer_ import bind_surface, load_usd, usd_stage
+from anymesh.physics.mechanism import HandleFrame
 from anymesh.physics.resistance import Pull
 from anymesh.physics.substances import Substance
 from anymesh.rendering.drawing import Window, draw, ground, light_on, material_colors, render_target, sample, smoothed
@@ -119,8 +120,13 @@ def _add_grasps(pxr: Any, stage: Any, model: Model) -> None:
         joint = body.link.joint
         if joint is None or joint.type is JointType.FIXED:
             continue
-        ends = grasp_line(body.link.triangles, model.resistances[joint.name].pull, body.link.origin)
-        path = f"/{model.asset.name}/links/{body.name}/grasp_identifier_{joint.name}"
+        handle = next((h for h in model.handles if h.joint == joint.name), None)
+        on = body if handle is None else next(b for b in model.bodies if b.name == handle.link)
+        if handle is None:
+            ends = grasp_line(body.link.triangles, model.resistances[joint.name].pull, body.link.origin)
+        else:
+            ends = handle_line(handle, on.link.origin)
+        path = f"/{model.asset.name}/links/{on.name}/grasp_identifier_{joint.name}"
         curve = pxr.UsdGeom.BasisCurves.Define(stage, path)
         curve.CreateTypeAttr(pxr.UsdGeom.Tokens.linear)
         curve.CreateCurveVertexCountsAttr([2])
@@ -172,6 +178,16 @@ def _thumbnail(asset: Asset) -> np.ndarray:
     target = render_target(mesh, RayScene(mesh.vertices, mesh.faces), asset.segmentation.face_part)
     samples = sample(target, camera, window)
     return draw(samples, material_colors(mesh, samples), light_on(samples), ground(*window.shape))
+
+
+def handle_line(handle: HandleFrame, origin: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "2 3"]:
+    """Return the ends of a line through a handle in the link frame [m], along which fingers close.
+
+    It is as far below the surface as a round bar's middle, if the handle is that deep.
+    """
+    middle = handle.place - origin + min(handle.size[1], handle.size[2]) / 2 * handle.R[:, 2]
+    half = handle.size[1] / 2 + CLEAR
+    return np.stack([middle - half * handle.R[:, 1], middle + half * handle.R[:, 1]])
 
 
 def grasp_line(triangles: Float[np.ndarray, "m 3 3"], pull: Pull, origin: Float[np.ndarray, " 3"]) -> Float[np.ndarray, "2 3"]:

@@ -24,7 +24,7 @@ from anymesh.formats.packed import EPOCH, PLAIN_FILE
 from anymesh.names import legal_names
 from anymesh.openusd.geometry_ import add_shape, add_visual, place, quat, vec
 from anymesh.openusd.materials_ import UsdMaterials
-from anymesh.physics.mechanism import Mechanism
+from anymesh.physics.mechanism import HandleFrame, Mechanism
 from anymesh.physics.resistance import Resistance
 from anymesh.physics.substances import Substance
 from anymesh.types import Hull, Joint, JointType
@@ -104,6 +104,8 @@ def usd_stage(model: Model, config: ExportConfig, folder: Path, pictures: str) -
         _add_body(pxr, stage, top, body, looks, config)
     _add_exclusions(pxr, stage, top, model)
     _add_root_joint(pxr, stage, top, model)
+    for handle in model.handles:
+        _add_handle(pxr, stage, top, model, handle)
     motors = drives(model)
     for joint in model.asset.joints:
         _add_joint(pxr, stage, top, model, joint, motors)
@@ -167,6 +169,15 @@ def _add_root_joint(pxr: Any, stage: Any, top: str, model: Model) -> None:
     fixed = pxr.UsdPhysics.FixedJoint.Define(stage, f"{top}/joints/{name}")
     fixed.CreateBody0Rel().SetTargets([top])
     fixed.CreateBody1Rel().SetTargets([_link(top, model.bodies[0].name)])
+
+
+def _add_handle(pxr: Any, stage: Any, top: str, model: Model, handle: HandleFrame) -> None:
+    """Add the frame of a handle below its link, with its size [m]."""
+    frame = pxr.UsdGeom.Xform.Define(stage, f"{_link(top, handle.link)}/{handle.name}")
+    place(pxr, frame, handle.place - next(link.origin for link in model.links if link.name == handle.link))
+    frame.AddOrientOp().Set(quat(pxr, handle.R))
+    for name, value in zip(("length", "width", "depth"), handle.size, strict=True):
+        frame.GetPrim().CreateAttribute(f"handle:{name}", pxr.Sdf.ValueTypeNames.Float).Set(float(value))
 
 
 def _add_joint(pxr: Any, stage: Any, top: str, model: Model, joint: Joint, motors: Mapping[str, Drive]) -> None:

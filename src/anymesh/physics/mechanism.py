@@ -1,9 +1,14 @@
-"""Springs, catches and detents of joints, as the formats describe them; `mechanisms`, outside of the core, chooses them."""
+"""Springs, catches, detents and handles of joints, as formats describe them; `mechanisms`, outside of the core, finds them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+
+import numpy as np
+from jaxtyping import Float, Int
+
+from anymesh.types import Brief
 
 
 class MechanismKind(StrEnum):
@@ -38,3 +43,21 @@ class Mechanism:
     slope: float = 0.0
     torque: float = 0.0
     steps: int = 0
+
+
+@dataclass(frozen=True, eq=False)
+class HandleFrame(Brief):
+    """Where a hand takes hold of a part to move a joint, at rest in the asset frame.
+
+    place: a point of the handle's surface that the hand reaches first [m]; R: columns x, y, z, where z is the direction of the
+    approach and y that in which fingers close; size: length along x, width between the fingers, and depth that they reach
+    beyond the place [m]; faces: of the mesh.
+    """
+
+    name: str
+    link: str
+    joint: str
+    place: Float[np.ndarray, " 3"]
+    R: Float[np.ndarray, "3 3"]
+    size: Float[np.ndarray, " 3"]
+    faces: Int[np.ndarray, " k"]

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from anymesh.types import Brief, Joint
 
@@ -27,11 +27,21 @@ class ResistanceLevel(StrEnum):
 
 
 @dataclass(frozen=True, eq=False)
+class FoundHandle(Brief):
+    """Faces of a part that are a handle, by index in its own, and the unit direction in which they protrude."""
+
+    part: str
+    faces: Int[np.ndarray, " k"]
+    way: Float[np.ndarray, " 3"]
+
+
+@dataclass(frozen=True, eq=False)
 class Pull(Brief):
     """What starts the opening motion of a joint at rest.
 
     unit: "N" at the handle or "N m" about the axis; typical: as written; least, most: of the lightest and stiffest such joint;
-    at: the handle [m, asset frame]; direction: unit, of the force, or of the torque by the right-hand rule.
+    at: the handle [m, asset frame]; direction: unit, of the force, or of the torque by the right-hand rule; handle: what was
+    found to take hold of, if anything was.
     """
 
     unit: str
@@ -40,6 +50,7 @@ class Pull(Brief):
     most: float
     at: Float[np.ndarray, " 3"]
     direction: Float[np.ndarray, " 3"]
+    handle: FoundHandle | None = None
 
 
 @dataclass(frozen=True, eq=False)

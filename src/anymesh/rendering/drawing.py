@@ -30,7 +30,6 @@ OUTLINE, CREASE = 0.9, 0.6  # opacity of lines
 COLOR_BITS = 4  # low bits of vertex colours that are ignored: smaller differences need no antialiasing
 LINE_WIDTH = 1  # [px of the finer grid] width of a line beyond the two rays between which it lies
 AMBIENT, KEY, SKY = 0.48, 0.4, 0.18  # strength of ambient, directional and sky light; a surface that faces up gets 0.96
-HEAD_AMBIENT, HEAD, SHOULDER, HEAD_SKY = 0.36, 0.22, 0.30, 0.16  # the same for light that moves with the camera
 BRIGHTNESS = np.array([0.299, 0.587, 0.114], np.float32)  # weights of red, green, blue (ITU-R BT.601)
 CREASE_ANGLE = float(np.deg2rad(35))  # [rad] faces that meet at a larger angle form a crease; wheels of 11 sides are round
 COPLANAR = 1 - 1e-6  # cosine between faces in one plane, whose normals need no averaging
@@ -74,20 +73,6 @@ def light_on(samples: Samples) -> Float32[np.ndarray, " n"]:
     light *= KEY
     light += AMBIENT + SKY / 2 + SKY / 2 * samples.normal[:, 2]
     return light
-
-
-def headlight_on(samples: Samples, camera: Camera) -> Float32[np.ndarray, " n"]:
-    """Return the brightness of each ray's surface under light that moves with the camera.
-
-    One lamp is at the camera and one above its left shoulder; the sky adds the rest. No visible side is dark, and sides of
-    different directions differ in brightness.
-    """
-    right, down, ahead = camera.T_world_camera[:3, :3].T.astype(np.float32)
-    shoulder = -ahead - np.float32(0.9) * down - np.float32(0.7) * right
-    light = np.full(len(samples.normal), HEAD_AMBIENT + HEAD_SKY / 2, np.float32)
-    for lamp, strength in ((-ahead, HEAD), (shoulder / np.linalg.norm(shoulder), SHOULDER)):
-        light += strength * np.maximum(dot(samples.normal, lamp), 0)
-    return light + HEAD_SKY / 2 * samples.normal[:, 2]
 
 
 def draw(

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from anymesh.types.brief import Brief, brief
 
@@ -83,12 +83,14 @@ class Handle:
     """A handle that protrudes from a part's outer face.
 
     across: (2,) position on the face, -1..1 along the face's long and short side; along: side that it is parallel to (0 long, 1
-    short, None for a knob); size: its length relative to the part's diagonal.
+    short, None for a knob); size: its length relative to the part's diagonal; faces: of the part; way: in which it protrudes.
     """
 
     across: tuple[float, float]
     along: int | None
     size: float
+    faces: Int[np.ndarray, " k"] = field(compare=False, repr=False)
+    way: Float[np.ndarray, " 3"] = field(compare=False, repr=False)
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,6 +17,7 @@ from anymesh.export.notation import principal, quaternion, turning_x_to
 from anymesh.export.options import Base, Driven
 from anymesh.formats.gltf.joints import KHR, OMI, OMI_BODY
 from anymesh.names import legal_names
+from anymesh.physics.mechanism import HandleFrame
 from anymesh.physics.substances import Substance
 from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Shape
 
@@ -37,6 +38,8 @@ def add_physics(model: Model, document: dict[str, Any], buffer: GlbBuffer) -> No
         physics.add_body(index + 1, body)
     for joint in model.asset.joints:
         physics.add_joint(joint)
+    for handle in model.handles:
+        physics.add_handle(handle)
     physics.finish()
 
 
@@ -76,6 +79,12 @@ class _Physics:
             placed = _placed(shape.center, shape.rotation @ ALONG_Y) if isinstance(shape, Cylinder) else placed
             collider = {KHR: {"collider": {"geometry": geometry} | kept}, OMI_BODY: {"collider": {"shape": own_shape} | kept}}
             self._below(number, {"name": f"{body.name}_shape_{k}"} | placed | {"extensions": collider})
+
+    def add_handle(self, handle: HandleFrame) -> None:
+        """Add a node for a handle, with its size."""
+        number, sizes = self._number[handle.link], dict(zip(("length", "width", "depth"), _plains(handle.size), strict=True))
+        placed = _placed(handle.place - self._origin[handle.link], handle.R)
+        self._below(number, {"name": handle.name, **placed, "extras": {"handle": {"joint": handle.joint, **sizes}}})
 
     def _surface(self, substance: Substance | None) -> dict[str, int]:
         """Return the friction and restitution of a shape, which both extensions call a physics material."""

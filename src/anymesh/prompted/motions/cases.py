@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.articulation.candidate_motions import Candidate
+from anymesh.articulation.limits import MIN_HINGE_RANGE_RAD, Range
 from anymesh.articulation.part_contexts import (
     descendants,
     in_a_row,
@@ -36,6 +38,8 @@ PLANE_RATIO = 0.001  # of the diagonal: tolerance of the connecting area's plane
 MAX_PART_PICTURES = 16  # pictures per call
 MAX_ASKED_EACH = 4  # copies that turn within limits are asked about each, as doors are, unless there are more: keys
 COPY_RATIO = 0.01  # of the part's diagonal: mean distance of the surfaces of two copies, shifted onto each other
+# free shares of an answered range for reversing the axis: the maximum before, and the minimum after
+MAX_BLOCKED_RATIO, MIN_REVERSED_FREE_RATIO = 0.5, 0.8
 TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
 
 
@@ -328,3 +332,30 @@ def _last_place(name: Sequence[str], label: Sequence[str]) -> int:
     if not label or not set(label) <= set(name):
         return -1
     return len(name) - 1 - list(reversed(name)).index(label[-1])
+
+
+def answered_range(recognized: RecognizedLabel | None, kind: JointType) -> Range | None:
+    """Return the answered range [rad or m] for a joint of this type, None if there is none or it is unusable."""
+    if recognized is None or recognized.limits is None:
+        return None
+    lower, upper = recognized.limits
+    if kind is JointType.REVOLUTE and recognized.moves is JointType.REVOLUTE:
+        return recognized.limits if upper - lower >= MIN_HINGE_RANGE_RAD else None
+    if kind is JointType.PRISMATIC and recognized.moves is JointType.PRISMATIC:
+        return recognized.limits if upper > lower else None
+    return None
+
+
+def opening_as_answered(c: Candidate, answered: Range | None) -> Candidate:
+    """Return the candidate with the opening direction that fits an answered range [rad].
+
+    A lid modelled open closes further than it opens (-105..20 deg). The direction suggested by geometry is reversed only in
+    this case, and only if the sweep leaves more of the range free with the axis reversed.
+    """
+    if answered is None or -answered[0] <= answered[1] or c.motion.kind is JointType.PRISMATIC:
+        return c
+    lower, upper = -answered[0], answered[1]
+    kept, other = min(upper, c.opening) + min(lower, c.closing), min(upper, c.closing) + min(lower, c.opening)
+    if kept > MAX_BLOCKED_RATIO * (lower + upper) or other < MIN_REVERSED_FREE_RATIO * (lower + upper):
+        return c
+    return c.reversed()

@@ -15,10 +15,8 @@ from anymesh.articulation.estimate import joint_of
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import (
     FINE_STEPS,
-    answered_range,
     away_from_closed,
     free_within,
-    opening_as_answered,
     pressed,
 )
 from anymesh.articulation.vetting import faults
@@ -28,10 +26,12 @@ from anymesh.pipeline.results import PLEASE_CHECK
 from anymesh.prompted.motions.cases import (
     TURNING,
     PartCase,
+    answered_range,
     ask_each,
     contradictions,
     labels_by_name,
     make_cases,
+    opening_as_answered,
     relabelled,
     unchanged,
     unlabelled,

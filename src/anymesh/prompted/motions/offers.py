@@ -22,10 +22,10 @@ from anymesh.articulation.candidate_motions import (
     propose,
 )
 from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.limits import STROKE_RATIO, answered_range, pressed
+from anymesh.articulation.limits import STROKE_RATIO, pressed
 from anymesh.articulation.rank_motions import PartMotionScores, motion_scores
 from anymesh.motion.part_context import PartContext
-from anymesh.prompted.motions.cases import PartCase
+from anymesh.prompted.motions.cases import PartCase, answered_range
 from anymesh.prompted.motions.lines import CENTRAL, pivots
 from anymesh.prompted.questions.prompting import JointAppearance, MotionTable
 from anymesh.types import JointType, Motion

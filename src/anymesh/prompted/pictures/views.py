@@ -5,16 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from jaxtyping import Bool, Float, Int, UInt8
+from jaxtyping import Bool, Float, Float32, Int, UInt8
 
 from anymesh.config import REFERENCE_PX
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.rendering.drawing import Window, draw, first_hits, headlight_on, material_colors, render_target, sample
-from anymesh.rendering.render import BACKGROUND, View
+from anymesh.rendering.drawing import Samples, Window, draw, first_hits, material_colors, render_target, sample
+from anymesh.rendering.render import BACKGROUND, View, dot
 from anymesh.rendering.viewpoints import away, framed, zoom
 from anymesh.types import Mesh
 from anymesh.types.camera import Camera
 
+# strength of the light that moves with the camera: ambient, at the camera, above its shoulder, from the sky
+HEAD_AMBIENT, HEAD, SHOULDER, HEAD_SKY = 0.36, 0.22, 0.30, 0.16
 PICTURE_PX = 640  # [px] width and height of a picture
 EYE_RATIO = 1.0  # of the diagonal: distance of a camera from the object's center; 2 for a diagonal of 2 (the paper's)
 FOV_DEG = 60.0  # [deg] vertical, before the camera is zoomed (the paper's implementation)
@@ -131,3 +133,17 @@ def close_up(mesh: Mesh, view: View, face_part: Int[np.ndarray, " F"], part: int
     if not 0 < mask.sum() < least:
         return None
     return shown(mesh, zoom(view.camera, box_of(mask), ZOOM_MARGIN, view.camera.height), scene)
+
+
+def headlight_on(samples: Samples, camera: Camera) -> Float32[np.ndarray, " n"]:
+    """Return the brightness of each ray's surface under light that moves with the camera.
+
+    One lamp is at the camera and one above its left shoulder; the sky adds the rest. No visible side is dark, and sides of
+    different directions differ in brightness.
+    """
+    right, down, ahead = camera.T_world_camera[:3, :3].T.astype(np.float32)
+    shoulder = -ahead - np.float32(0.9) * down - np.float32(0.7) * right
+    light = np.full(len(samples.normal), HEAD_AMBIENT + HEAD_SKY / 2, np.float32)
+    for lamp, strength in ((-ahead, HEAD), (shoulder / np.linalg.norm(shoulder), SHOULDER)):
+        light += strength * np.maximum(dot(samples.normal, lamp), 0)
+    return light + HEAD_SKY / 2 * samples.normal[:, 2]

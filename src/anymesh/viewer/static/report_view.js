@@ -1,7 +1,7 @@
 // One asset in 3D. Lengths are metres; the scene's own frame is the asset frame (Z up), glTF's Y up is turned into it.
 "use strict";
 const AnymeshView = (() => {
-  const T = THREE, AXIS = 0xbe1428, PATH = 0x555555, PICKED = 0x1e6ef5;
+  const T = THREE, AXIS = 0xbe1428, PATH = 0x555555, PICKED = 0x1e6ef5, HELD = 0x00875a;
   const METAL = 0.4; // no more than this: there is no room to be mirrored
   const vector = (a) => new T.Vector3(a[0], a[1], a[2]);
 
@@ -32,6 +32,7 @@ const AnymeshView = (() => {
       this.scene.add(this.root);
       this._adopt(gltf);
       this._marks();
+      this._handles(gltf);
       stage.prepend(this.canvas);
       this.controls = new T.OrbitControls(this.camera, this.canvas);
       this.controls.addEventListener("change", () => { this.dirty = true; });
@@ -111,6 +112,36 @@ const AnymeshView = (() => {
         group.traverse((mark) => { mark.renderOrder = 10; mark.userData.mark = true; });
         return group;
       });
+    }
+
+    // A handle as its node says: an arrow along the approach, and where the two fingers close.
+    _handles(gltf) {
+      const found = [];
+      gltf.scene.traverse((object) => { if (object.userData.handle) found.push(object); });
+      const paint = new T.MeshBasicMaterial({ color: HELD, depthTest: false, transparent: true, opacity: 0.9 });
+      for (const node of found) {
+        const { width, depth } = node.userData.handle, size = this.data.ring, thick = size / 8, group = new T.Group();
+        const bar = (length, turn) => {
+          const mesh = new T.Mesh(new T.CylinderGeometry(thick / 2, thick / 2, length, 8), paint);
+          mesh.rotation.x = turn;
+          return mesh;
+        };
+        const shaft = bar(size, Math.PI / 2), head = new T.Mesh(new T.ConeGeometry(2 * thick, 4 * thick, 12), paint);
+        shaft.position.z = -1.5 * size;
+        head.position.z = -size + 2 * thick;
+        head.rotation.x = Math.PI / 2;
+        const palm = bar(width + thick, 0), reach = size / 2 + Math.min(depth, size);
+        palm.position.z = -size / 2;
+        for (const side of [-1, 1]) {
+          const finger = bar(reach, Math.PI / 2);
+          finger.position.set(0, side * (width + thick) / 2, reach / 2 - size / 2);
+          group.add(finger);
+        }
+        group.add(shaft, head, palm);
+        group.traverse((mark) => { mark.renderOrder = 10; mark.userData.mark = true; });
+        node.add(group);
+        this.marks.push(group);
+      }
     }
 
     _path(joint, frame) {
