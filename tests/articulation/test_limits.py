@@ -11,16 +11,15 @@ from scenes import Piece, Scene, built, door, drawer
 from anymesh.articulation.candidate_motions import Candidate
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import (
-    answered_range,
     away_from_closed,
     closing_angle,
     closing_travel,
     ends_near,
     limits,
-    opening_as_answered,
 )
 from anymesh.articulation.part_contexts import part_context
 from anymesh.motion.part_context import PartContext
+from anymesh.prompted.motions.cases import answered_range, opening_as_answered
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import JointType, Motion
 from anymesh.types.motion import RecognizedLabel
