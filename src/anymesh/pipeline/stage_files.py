@@ -135,8 +135,7 @@ def _pack_recognition(result: RecognitionResult) -> tuple[Record, dict[str, np.n
 
 def _unpack_recognition(record: Record, arrays: Arrays) -> RecognitionResult:
     def label(stored: Record) -> RecognizedLabel:
-        moves = None if stored["moves"] is None else JointType(stored["moves"])
-        known: Record = {**stored, "moves": moves, "limits": _limits(stored)}
+        known: Record = {**stored, "moves": stored["moves"] and JointType(stored["moves"]), "limits": _limits(stored)}
         return RecognizedLabel(**known)
 
     r, recognition = record["recognition"], None
@@ -183,10 +182,8 @@ def _unpack_joint(kind: type[AnyJoint], record: Record) -> AnyJoint:
 
 
 def _pack_joints(result: JointResult) -> tuple[Record, dict[str, np.ndarray]]:
-    joints = [_pack_joint(joint) for joint in result.joints]
-    exchanges, arrays = _pack_exchanges(result.exchanges)
-    record = {"joints": joints, "answerer": result.answerer, "warnings": list(result.warnings), "exchanges": exchanges}
-    return record, arrays
+    joints, (exchanges, arrays) = [*map(_pack_joint, result.joints)], _pack_exchanges(result.exchanges)
+    return {"joints": joints, "answerer": result.answerer, "warnings": [*result.warnings], "exchanges": exchanges}, arrays
 
 
 def _unpack_joints(record: Record, arrays: Arrays) -> JointResult:
