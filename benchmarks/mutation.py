@@ -48,9 +48,7 @@ FOLDERS = ("geometry", "physics", "segmentation", "articulation")  # of tests
 BUDGET = 25.0  # [s] processor time of the tests of one mutant, as they take without it
 LIMIT = 150  # [s] processor time of one mutant: more counts as noticed
 WALL = 900  # [s]
-LIBRARIES = (
-    "pytest hypothesis numpy scipy.spatial scipy.sparse scipy.optimize scipy.ndimage trimesh mujoco igl networkx PIL.Image"
-)
+LIBRARIES = "pytest hypothesis numpy scipy.spatial scipy.sparse scipy.optimize scipy.ndimage trimesh mujoco igl PIL.Image"
 EQUIVALENT = REPORTS / "mutation_equivalent.json"
 COSTS = """
 import json, os, time, pytest

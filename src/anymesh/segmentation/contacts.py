@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
 from jaxtyping import Float, Float32, Int
-from networkx import DiGraph, immediate_dominators
 from scipy.spatial.distance import cdist
 
 from anymesh.geometry.boxes import box_pairs, within
@@ -218,21 +218,38 @@ def dominated_by(contacts: Contacts, group: Int[np.ndarray, " P"], root: int) ->
     count = int(group.max()) + 1
     pairs = group[np.concatenate([contacts.touch, contacts.near]).astype(np.int64).reshape(-1, 2)]
     pairs = np.unique(np.concatenate([pairs, pairs[:, ::-1]])[np.tile(pairs[:, 0] != pairs[:, 1], 2)], axis=0)
-    island = label_connected(count, pairs)
-    alone = np.flatnonzero(island != island[root])  # without neighbours, a component depends on the root
-    graph = DiGraph(pairs.tolist())
-    graph.add_edges_from((root, node) for node in alone.tolist())
-    graph.add_node(root)
-    children: list[list[int]] = [[] for _ in range(count)]
-    for node, dominator in sorted(immediate_dominators(graph, root).items()):
+    neighbours: list[list[int]] = [[] for _ in range(count)]
+    for a, b in pairs.tolist():
+        neighbours[a].append(b)
+    above = _dominators(neighbours, root)
+    above |= dict.fromkeys(set(range(count)) - above.keys(), root)  # without neighbours, a component depends on the root
+    dominated = {node: [node] for node in range(count)}
+    for node, over in reversed(above.items()):  # from the leaves on
         if node != root:
-            children[dominator].append(node)
-    dominated: dict[int, list[int]] = {}
-    for node in range(count):
-        stack, below = [node], []
-        while stack:
-            at = stack.pop()
-            below.append(at)
-            stack.extend(children[at])
-        dominated[node] = below
+            dominated[over] += dominated[node]
     return dominated
+
+
+def _dominators(neighbours: Sequence[Sequence[int]], root: int) -> dict[int, int]:
+    """Return the immediate dominator of each node that is connected to the root, before what it dominates; the root is its own.
+
+    It is the node nearest to the root of the biconnected component that the node is reached in (Hopcroft and Tarjan, 1973).
+    """
+    order, low, parent = {root: 0}, {root: 0}, {root: root}
+    path = [(root, iter(neighbours[root]))]
+    while path:
+        node, left = path[-1]
+        for other in left:
+            if other not in order:
+                order[other] = low[other] = len(order)
+                parent[other] = node
+                path.append((other, iter(neighbours[other])))
+                break
+            low[node] = min(low[node], order[other])
+        else:
+            path.pop()
+            low[parent[node]] = min(low[parent[node]], low[node])
+    above: dict[int, int] = {}
+    for node, over in parent.items():
+        above[node] = over if low[node] >= order[over] else above[over]
+    return above
