@@ -18,6 +18,7 @@ from anymesh.isolation import ChildError, ChildLimits, ChildPool, Failure
 
 FAULTY = "faulty"
 HERE = Path(__file__).parent
+ONE_THREAD = os.environ | {"OPENBLAS_NUM_THREADS": "1"}
 
 
 @pytest.fixture
@@ -136,17 +137,43 @@ def test_further_children_are_started_when_calls_wait_long(monkeypatch):
         assert len({*threads.map(lambda _: pool.run(FAULTY, "rest", {"seconds": 0.4}), range(8))}) == 2
 
 
+@pytest.mark.skipif(sys.platform != "linux", reason="children are forked on Linux")
+def test_a_process_with_one_thread_forks_children_which_fail_alone():
+    script = textwrap.dedent(f"""
+        import sys
+        sys.path.insert(0, {str(HERE)!r})
+        from anymesh.isolation import ChildError, ChildLimits, ChildPool
+        with ChildPool(4, ChildLimits(memory=3 << 30)) as pool:
+            pool.fork("faulty")
+            forked = [child._process._process.pid for child in pool._live]
+            assert pool.run("faulty", "process", {{}}) in forked and len(forked) == 2
+            for function, arguments, told in (("crash", {{}}, "signal 11"), ("eat", {{"size": 8 << 30}}, "allocate")):
+                try:
+                    pool.run("faulty", function, arguments)
+                except ChildError as error:
+                    assert told in str(error)
+            assert pool.run("faulty", "add", {{"a": 2, "b": 3}}) == 5
+    """)
+    done = subprocess.run([sys.executable, "-c", script], env=ONE_THREAD, capture_output=True, text=True, timeout=60)
+    assert (done.returncode, done.stderr) == (0, "")
+
+
+@pytest.mark.parametrize("start", ["", "shared_pool().fork('faulty')"])
 @pytest.mark.parametrize("how", [signal.SIGINT, signal.SIGKILL])
-def test_children_at_work_end_with_their_parent(how):
+def test_children_at_work_end_with_their_parent(how, start):
     script = textwrap.dedent(f"""
         import signal, sys
         signal.signal(signal.SIGINT, signal.default_int_handler)  # a shell's background jobs start with it ignored
         sys.path.insert(0, {str(HERE)!r})
         from anymesh.isolation import shared_pool
+        {start}
         print(shared_pool().run("faulty", "process", {{}}), flush=True)
         shared_pool().run("faulty", "hang", {{}})
     """)
-    process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
+    env = os.environ | {"OPENBLAS_NUM_THREADS": "1"}
+    process = subprocess.Popen(
+        [sys.executable, "-c", script], env=env, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+    )
     child = int(process.stdout.readline())
     time.sleep(0.5)
     process.send_signal(how)

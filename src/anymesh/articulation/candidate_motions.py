@@ -225,10 +225,6 @@ def _through(box: OrientedBox) -> list[ProposedMotion]:
     return [("center", Motion(JointType.REVOLUTE, a, box.center, "middle line of the part")) for a in box.axes]
 
 
-def _box_directions(box: OrientedBox) -> list[ProposedMotion]:
-    return [("slide", Motion(JointType.PRISMATIC, a, box.center, "direction of the part")) for a in box.axes]
-
-
 def _from_contact(context: PartContext) -> list[ProposedMotion]:
     """Return the paper's candidates: the line along the connecting area, its plane's normal, directions in the plane."""
     contact = context.contact
@@ -312,7 +308,8 @@ def propose(context: PartContext) -> list[ProposedMotion]:
     if context.is_round:
         axis = hinge_about(outline.axis, outline.center, "axis of its round outline")
         proposals.append(("round", axis))
-    proposals += barrels(context) + _edges(core) + _edge_middles(core) + _through(core) + _box_directions(core)
+    proposals += barrels(context) + _edges(core) + _edge_middles(core) + _through(core)
+    proposals += [("slide", Motion(JointType.PRISMATIC, a, core.center, "direction of the part")) for a in core.axes]
     proposals += _from_contact(context) + contact_axes(context)
     if context.pivot is not None:
         proposals += [("edge", hinge_about(a, context.pivot, "line along its box")) for a in core.axes]

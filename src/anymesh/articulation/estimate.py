@@ -29,7 +29,7 @@ from anymesh.motion.part_context import PartContext
 from anymesh.names import GIVEN, NAMED
 from anymesh.runtime import JOINTS, Deadline, Progress, silent
 from anymesh.scoring.classifier import KindPrior
-from anymesh.types import Joint, JointType, Motion, Part, Segmentation
+from anymesh.types import Joint, JointType, Part, Segmentation
 
 MAX_SWEPT = 8  # motions of a part that are swept, the likeliest of the part at rest; more choose no better
 MAX_LATE_SWEPT = 2  # the same when most of the time limit is spent
@@ -196,14 +196,9 @@ def joint_of(
         type=kind,
         parent=parent,
         child=name,
-        origin=_on_part(motion, context),
+        origin=motion.origin + ((context.part.box.center - motion.origin) @ motion.axis) * motion.axis,  # nearest to the part
         axis=motion.axis,
         limits=limits(context, best, kind, answered),
         confidence=confidence,
         reason=reason,
     )
-
-
-def _on_part(motion: Motion, context: PartContext) -> np.ndarray:
-    """Return the point of the axis nearest to the center of the part [m]."""
-    return motion.origin + ((context.part.box.center - motion.origin) @ motion.axis) * motion.axis

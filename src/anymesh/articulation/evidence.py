@@ -147,10 +147,10 @@ def _spins(context: PartContext, motion: Motion) -> bool:
 
 
 def _swept_slide(context: PartContext, c: Candidate, sweep: Sweep, guided: float) -> Candidate:
-    return replace(
-        c, sweep=sweep, opening=sweep.forward / context.tolerance_length, closing=sweep.backward / context.tolerance_length,
-        guided=guided, captured=_captured(context, sweep),
-    )  # fmt: skip
+    scale, room = context.tolerance_length, sweep.forward + sweep.backward
+    captured = not (sweep.clear_forward or sweep.clear_backward) and room > 0.25 * context.part.box.diagonal
+    opening, closing = sweep.forward / scale, sweep.backward / scale
+    return replace(c, sweep=sweep, opening=opening, closing=closing, guided=guided, captured=captured)
 
 
 def initial_direction(context: PartContext, motion: Motion) -> Float[np.ndarray, " 3"]:
@@ -192,11 +192,6 @@ def _guided_share(context: PartContext, prismatic: list[Motion]) -> list[float]:
 
 def _prismatic(context: PartContext, role: Role, motion: Motion) -> Candidate:
     return Candidate(motion, UNSWEPT, role, 1, 0.0, 0.0, outward=float(motion.axis @ context.opening_direction))
-
-
-def _captured(context: PartContext, sweep: Sweep) -> bool:
-    room = sweep.forward + sweep.backward
-    return not (sweep.clear_forward or sweep.clear_backward) and room > 0.25 * context.part.box.diagonal
 
 
 def _handle_side(context: PartContext, motion: Motion) -> float:

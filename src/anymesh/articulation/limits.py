@@ -71,7 +71,9 @@ def closing_angle(context: PartContext, c: Candidate) -> float | None:
         return None
     if is_closed(context, context.gap):
         return 0.0
-    if _far_gap(context, c) < MIN_OPEN_RATIO * context.tolerance_length or _closes(context, c.reversed()):
+    off = c.motion.distance(context.part.samples.points)
+    far_gap = float(np.median(context.gap[off >= END_FRACTION * off.max()]))  # of the rim opposite the hinge
+    if far_gap < MIN_OPEN_RATIO * context.tolerance_length or _closes(context, c.reversed()):
         return None
     if _at_stop(c):
         return 0.0
@@ -85,12 +87,6 @@ def _closes(context: PartContext, c: Candidate) -> bool:
     T = c.motion.transform(-c.opening_sign * c.closing)
     moved = context.part.samples.points @ T[:3, :3].T + T[:3, 3]
     return is_closed(context, context.parent.tree.distance(moved))
-
-
-def _far_gap(context: PartContext, c: Candidate) -> float:
-    """Return the median distance of the rim opposite the hinge to the parent [m]."""
-    off = c.motion.distance(context.part.samples.points)
-    return float(np.median(context.gap[off >= END_FRACTION * off.max()]))
 
 
 def closing_travel(context: PartContext, c: Candidate) -> float:

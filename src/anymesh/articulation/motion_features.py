@@ -134,7 +134,7 @@ def line_features(
     reach, length = max(float(off.max()), 1e-9), max(float(np.ptp(points @ axis)), 1e-9)
     outline = context.outline_about(axis)
     held = motion.distance(contact)
-    low, high = context.parent.bounds
+    (low, high), (bottom, top) = context.parent.bounds, context.part.bounds[:, 2]
     beside = np.abs(np.minimum(motion.origin - low, high - motion.origin))[np.abs(axis) < ALONG_COSINE]
     return {
         "off along length": float(local[0]),
@@ -153,17 +153,11 @@ def line_features(
         "off the parent's border": float(beside.min() / context.diagonal) if len(beside) else MISSING,
         "log2 reach over length": float(np.log2(reach / length)),
         "contact proximity": 1 - float(np.median(held)) / reach,
-        "above": _height(context, motion),
+        "above": float(np.clip(2 * (motion.origin[2] - bottom) / max(top - bottom, 1e-9) - 1, -1, 1)),  # of the part, -1 to 1
         "pair": pair_side(context, motion, adjacent),
         "outer": outer_side(context, motion),
         **_handle_place(context, motion, reach),
     }  # fmt: skip
-
-
-def _height(context: PartContext, motion: Motion) -> float:
-    """Return the height of a line between the lowest (-1) and the highest (1) point of the part."""
-    low, high = context.part.bounds[:, 2]
-    return float(np.clip(2 * (motion.origin[2] - low) / max(high - low, 1e-9) - 1, -1, 1))
 
 
 def _handle_place(context: PartContext, motion: Motion, reach: float) -> dict[str, float]:

@@ -111,7 +111,8 @@ def rank_motions(motions: CandidateMotions) -> MotionChoice:
     order = [int(i) for i in np.lexsort((-scores, ~fits))]
     same = same_joints(motions.part, motions.candidates, order[0])
     if motions.candidates[order[0]].is_endless:
-        order.sort(key=lambda k: _order_of_endless(motions.candidates[k], same=bool(same[k])))
+        outlined = [bool(s) and c.role == "round" and c.is_endless for s, c in zip(same, motions.candidates, strict=True)]
+        order.sort(key=lambda k: (not outlined[k], outlined[k] and motions.candidates[k].opening_sign < 0))
     ranking, best, plain = tuple(order), motions.candidates[order[0]], _scores_by_geometry(motions)
     if not best.is_free:
         free = any(c.is_free for c in motions.candidates)
@@ -144,12 +145,6 @@ def fits_label(label: str, candidates: Sequence[Candidate]) -> Bool[np.ndarray, 
     return next(some for some in (fits & better, fits, every) if some.any())
 
 
-def _order_of_endless(c: Candidate, *, same: bool) -> tuple[bool, bool]:
-    """Order candidates: first the same joint about the axis of the round outline, along this axis before against it."""
-    outlined = same and c.role == "round" and c.is_endless
-    return not outlined, outlined and c.opening_sign < 0
-
-
 def _scores_by_geometry(motions: CandidateMotions) -> Float[np.ndarray, " k"]:
     """Return the log-odds of each candidate, with a penalty for blocked motions and for those off the pivot."""
     penalty = np.array([0.0 if c.is_free else by_hand.BLOCKED_SCORE for c in motions.candidates])
@@ -158,13 +153,8 @@ def _scores_by_geometry(motions: CandidateMotions) -> Float[np.ndarray, " k"]:
         slides = np.array([c.motion.kind is JointType.PRISMATIC for c in motions.candidates])
         penalty += np.where(at_pivot, 0.0, np.where(slides, by_hand.PIVOT_SLIDE_SCORE, by_hand.OFF_PIVOT_SCORE))
         penalty[np.where(at_pivot, motions.scores, -np.inf).argmax()] = 0.0
-    stuck = [not motions.part.pressed and _stuck(c) for c in motions.candidates]
-    return motions.scores + np.where(stuck, by_hand.STUCK_SCORE, penalty)
-
-
-def _stuck(c: Candidate) -> bool:
-    """Return whether a slide goes into a body that leaves it no room."""
-    return c.slide_direction is SlideDirection.INWARDS and c.opening < MIN_FREE_TRAVEL_RATIO
+    stuck = [c.slide_direction is SlideDirection.INWARDS and c.opening < MIN_FREE_TRAVEL_RATIO for c in motions.candidates]
+    return motions.scores + np.where(np.array(stuck) & (not motions.part.pressed), by_hand.STUCK_SCORE, penalty)
 
 
 def motion_scores(motions: CandidateMotions) -> Float[np.ndarray, " k"]:
@@ -215,7 +205,8 @@ def joint_type(c: Candidate, label: str = "part") -> JointType:
 def reason(c: Candidate) -> str:
     """Describe a motion in a short note: how the part moves, how far, and what holds it."""
     if c.motion.kind is JointType.PRISMATIC:
-        return f"slides {_centimetres(c.opening_sweep.forward)} {c.slide_direction}, guided {SIDES[round(4 * c.guided)]}"
+        way = 100 * c.opening_sweep.forward
+        return f"slides {way:.{int(way < 10)}f} cm {c.slide_direction}, guided {SIDES[round(4 * c.guided)]}"
     range_ = "endlessly" if c.is_endless else f"from {-round(np.degrees(c.closing))} to {round(np.degrees(c.opening))} degrees"
     if c.spins:
         return f"turns {range_} about the {c.motion.source}"
@@ -229,10 +220,6 @@ def reason(c: Candidate) -> str:
     if c.hinge_support > 0.5:
         notes.append("held all along it")
     return ", ".join(notes)
-
-
-def _centimetres(length: float) -> str:
-    return f"{100 * length:.0f} cm" if length >= 0.1 else f"{100 * length:.1f} cm"
 
 
 def label_of(context: PartContext, best: Candidate) -> str:

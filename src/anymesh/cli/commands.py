@@ -75,7 +75,7 @@ def articulate(
     verbose: Verbose = False,
 ) -> None:
     """Turn MESH into an articulated asset in DIR; --batch takes many, --scene split its objects."""
-    shared_pool().warm(*AHEAD)  # the child processes import while this process does
+    shared_pool().fork("anymesh.pipeline.api", *AHEAD)
     from anymesh import pipeline
 
     options: dict[str, Any] = {"parts": parts, **placement, **writing, **running, **answering}

@@ -141,12 +141,9 @@ def share_in_place(surface: SurfacePoints, axis: Float[np.ndarray, " 3"], origin
 
 def _weights(surface: SurfacePoints, lines: Axes, min_radius: float) -> Float[np.ndarray, "k n"]:
     """Return for each line how far each point turns in place: 1 if it does, towards 0 if it moves along its normal."""
-    return 1 / (1 + (_normal_speeds(surface, lines) / (IN_PLACE * _radii(surface, lines, min_radius))) ** 2)
-
-
-def _normal_speeds(surface: SurfacePoints, lines: Axes) -> Float[np.ndarray, "k n"]:
     axes, origins = lines
-    return axes @ surface.moments.T + np.cross(origins, axes) @ surface.normals.T
+    normal_speeds = axes @ surface.moments.T + np.cross(origins, axes) @ surface.normals.T
+    return 1 / (1 + (normal_speeds / (IN_PLACE * _radii(surface, lines, min_radius))) ** 2)
 
 
 def _radii(surface: SurfacePoints, lines: Axes, least: float) -> Float[np.ndarray, "k n"]:

@@ -205,7 +205,8 @@ def without_copies(
     left = kept[originals(of_components)]
     of_faces = np.arange(len(faces))
     if len(_repeated(place[left])):
-        of_faces[left] = left[_same_faces(corner[left])]
+        wound = _number_wound(corner[left])
+        of_faces[left] = left[np.unique(wound, return_index=True)[1][wound]]
     first = of_faces[kept[of_components]][np.searchsorted(kept, first)]
     last = originals(first)
     return first, parts if len(last) == len(kept) else components(vertices, faces[last])
@@ -280,12 +281,6 @@ def _same_components(
         else:
             first[mine] = like[TriangleTree(triangles[like]).nearest(triangles[mine].mean(1))[1]]
     return first
-
-
-def _same_faces(corner: Int[np.ndarray, "L 3"]) -> Int[np.ndarray, " L"]:
-    """Return the copies of faces with the same corners and winding."""
-    wound = _number_wound(corner)
-    return np.unique(wound, return_index=True)[1][wound]
 
 
 def _places(corner: Int[np.ndarray, "n 3"]) -> Int[np.ndarray, " n"]:

@@ -244,14 +244,10 @@ class Obstacles:
         there = np.array([m.transforms(a) for m, a in zip(motions, signed, strict=True)])
         back = np.array([m.transforms(-a) for m, a in zip(motions, signed, strict=True)])
         outward, mine, theirs = self.part_normals, self.part_points, self.rest_points
-
-        def off_rest(point: np.ndarray, face: np.ndarray) -> np.ndarray:
-            return -outward[mine.faces[point]]
-
-        def off_part(point: np.ndarray, face: np.ndarray) -> np.ndarray:
-            return outward[face]
-
-        ways = (mine, self.part, there, self.rest, off_rest), (theirs, self.rest, back, self.part, off_part)
+        ways = (
+            (mine, self.part, there, self.rest, lambda point, face: -outward[mine.faces[point]]),
+            (theirs, self.rest, back, self.part, lambda point, face: outward[face]),
+        )
         return [
             Passage.of(at.points, at.normals * own.solid[at.faces, None], poses, amounts, target, self.tolerance, off)
             for at, own, poses, target, off in ways

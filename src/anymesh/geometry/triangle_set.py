@@ -278,8 +278,10 @@ def body_obb(shape: TriangleSet) -> OrientedBox:
             if level >= sign * edge[axis] - tolerance:
                 continue
             share = float(shape.areas @ shares_above(heights, level + tolerance / 2)) / area
+            if not 0 < share < MAX_PROTRUSION_RATIO:
+                continue
             beyond = np.clip(points_above(local, heights, level + tolerance / 2), low, high)
-            if 0 < share < MAX_PROTRUSION_RATIO and _is_narrow(beyond, high - low, axis):
+            if np.delete(np.ptp(beyond, axis=0) / np.maximum(high - low, 1e-12), axis).min() < 0.6:  # it is narrow
                 edge[axis] = sign * level
     return box_in_frame(box_corners(np.stack([low, high])) @ frame, frame)
 
@@ -292,8 +294,3 @@ def _side_level(heights: Float[np.ndarray, "F 3"], areas: Float[np.ndarray, " F"
     order = np.argsort(-middle, kind="stable")
     outer = np.cumsum(areas[order])
     return float(middle[order[np.searchsorted(outer, SIDE_LEVEL_RATIO * outer[-1], side="right")]])
-
-
-def _is_narrow(beyond: Float[np.ndarray, "n 3"], sides: Float[np.ndarray, " 3"], axis: int) -> bool:
-    """Return whether what is beyond a level is narrower than the body in one direction."""
-    return bool(np.delete(np.ptp(beyond, axis=0) / np.maximum(sides, 1e-12), axis).min() < 0.6)

@@ -10,9 +10,10 @@ import faulthandler
 import math
 import os
 import pickle
-import sys
 import threading
+from collections.abc import Sequence
 from importlib import import_module
+from pathlib import Path
 from typing import IO, Any
 
 from anymesh.errors import AnymeshError
@@ -53,14 +54,11 @@ class Reporter:
 
 def limit_memory(size: int) -> None:
     """Limit the address space of this process to `size` bytes (0: no limit), if the system can (not on Windows)."""
-    if size == 0:
-        return
-    try:
-        import resource
+    if size:
+        with contextlib.suppress(ImportError, ValueError, OSError):
+            import resource
 
-        resource.setrlimit(resource.RLIMIT_AS, (size, size))
-    except (ImportError, ValueError, OSError):
-        return
+            resource.setrlimit(resource.RLIMIT_AS, (size, size))
 
 
 def limit_time(seconds: float | None) -> None:
@@ -70,13 +68,11 @@ def limit_time(seconds: float | None) -> None:
     """
     if seconds == math.inf:
         return
-    try:
+    with contextlib.suppress(ImportError, ValueError, OSError):
         import resource
 
         used, most = sum(resource.getrusage(resource.RUSAGE_SELF)[:2]), resource.getrlimit(resource.RLIMIT_CPU)[1]
         resource.setrlimit(resource.RLIMIT_CPU, (most if seconds is None else math.ceil(used + seconds), most))
-    except (ImportError, ValueError, OSError):
-        return
 
 
 def end_with_parent(lifeline: int) -> None:
@@ -87,17 +83,13 @@ def end_with_parent(lifeline: int) -> None:
     """
     if lifeline < 0:
         return
-    try:
+    with contextlib.suppress(ImportError, AttributeError, OSError):  # BlockingIOError: the parent is alive
         import fcntl
 
         fcntl.fcntl(lifeline, fcntl.F_SETOWN, os.getpid())
         fcntl.fcntl(lifeline, fcntl.F_SETFL, os.O_ASYNC | os.O_NONBLOCK)
         if os.read(lifeline, 1) == b"":  # the parent had already ended
             os._exit(1)
-    except BlockingIOError:
-        return  # the parent is alive
-    except (ImportError, AttributeError, OSError):
-        return
 
 
 def call(module: str, function: str, arguments: dict[str, Any]) -> tuple[str, Any]:
@@ -117,23 +109,34 @@ def call(module: str, function: str, arguments: dict[str, Any]) -> tuple[str, An
         return "error", f"{type(error).__name__}: {error}"
 
 
-def main() -> None:
+def main(memory: int, modules: Sequence[str], lifeline: int) -> None:
     """Serve calls until standard input ends. Output of native code is discarded.
 
-    Arguments of the process: the memory limit [bytes], modules to import at once (separated by spaces), and the lifeline.
+    memory: limit [bytes]; modules: to import at once; lifeline: as for `end_with_parent`.
     """
-    end_with_parent(int(sys.argv[3]))
-    requests, replies = sys.stdin.buffer, os.fdopen(os.dup(1), "wb")
+    end_with_parent(lifeline)
+    requests, replies = os.fdopen(os.dup(0), "rb"), os.fdopen(os.dup(1), "wb")
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
     os.dup2(nowhere, 2)
-    limit_memory(int(sys.argv[1]))
-    for module in sys.argv[2].split():
+    limit_memory(memory)
+    for module in modules:
         with contextlib.suppress(ImportError):  # the call that needs it reports the error
             import_module(module)
     with contextlib.suppress(EOFError):
         while True:
             serve(read_message(requests), replies)
+
+
+def forked(requests: int, replies: int, memory: int, lifeline: int) -> None:
+    """Run `main` in a forked process, which keeps no other open file of its parent."""
+    os.setsid()
+    os.dup2(requests, 0)
+    os.dup2(replies, 1)
+    for descriptor in {int(path.name) for path in Path("/proc/self/fd").iterdir()} - {0, 1, 2, lifeline}:
+        with contextlib.suppress(OSError):  # the listing itself was one
+            os.close(descriptor)
+    main(memory, (), lifeline)
 
 
 def serve(request: tuple[Any, ...], replies: IO[bytes]) -> None:

@@ -14,12 +14,15 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from functools import cache
+from importlib import import_module
+from pathlib import Path
 from typing import Any
 
-from anymesh.isolation.child import PATIENCE, read_message, write_message
+from anymesh.isolation.child import PATIENCE, forked, read_message, write_message
 from anymesh.runtime import usable_cores
 
 START_AFTER = 0.3  # [s] total waiting time of calls before another child is started, which takes about as long
+FORKED = 2  # children that are forked at once
 ONE_THREAD = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")  # sums would depend on the number of threads
 
 
@@ -122,6 +125,20 @@ class ChildPool:
             child = self._started(modules)
         self._give_back(child)
 
+    def fork(self, *modules: str) -> None:
+        """Import modules and fork the first children, which share them; where this process may not fork, `warm` one.
+
+        Only for a process whose memory is within the limit. A process with several threads may not fork.
+        """
+        alone = sys.platform == "linux" and all(map(import_module, modules)) and len([*Path("/proc/self/task").iterdir()]) == 1
+        if not alone:
+            self.warm(*modules)
+        with self._changed:
+            count = min(self._room, FORKED) if alone and self._room == self.size else 0
+            self._room -= count
+        for _ in range(count):
+            self._give_back(self._started(None))
+
     def _free_child(self) -> _Child | None:
         """Wait for an idle child; return None if a new one must be started.
 
@@ -152,7 +169,7 @@ class ChildPool:
         for child in list(self._live):
             self._end(child)
 
-    def _started(self, modules: Sequence[str]) -> _Child:
+    def _started(self, modules: Sequence[str] | None) -> _Child:
         if self._closed:
             raise ChildError(Failure.ERROR, "the pool is closed")
         child = _Child(self.limits.memory, modules)
@@ -170,21 +187,34 @@ class ChildPool:
         self.close()
 
 
-class _Child:
-    """One child process."""
+class _Forked:
+    """A forked child process, with those methods of `subprocess.Popen` that are used."""
 
-    def __init__(self, memory: int, modules: Sequence[str]) -> None:
+    def __init__(self, memory: int, lifeline: int) -> None:
+        from multiprocessing import get_context  # import on use: help does without
+
+        (requests, to), (back, replies) = os.pipe(), os.pipe()
+        self.stdin, self.stdout = os.fdopen(to, "wb"), os.fdopen(back, "rb")
+        arguments = (requests, replies, memory, lifeline)
+        self._process = get_context("fork").Process(target=forked, args=arguments, daemon=True)
+        self._process.start()
+        os.close(requests)
+        os.close(replies)
+        self.kill = self._process.kill
+
+    def wait(self) -> int:
+        self._process.join()
+        return self._process.exitcode or 0
+
+
+class _Child:
+    """One child process. modules: what it imports at once, None to fork it."""
+
+    def __init__(self, memory: int, modules: Sequence[str] | None) -> None:
         self.calls, self._lock = 0, threading.Lock()
-        places = os.pathsep.join(filter(None, sys.path))
-        environment = {**os.environ, **dict.fromkeys(ONE_THREAD, "1"), "PYTHONPATH": places}
         theirs, self._lifeline = os.pipe() if os.name == "posix" else (-1, -1)
-        inherited = (theirs,) if theirs >= 0 else ()
-        program = "from anymesh.isolation.child import main; main()"
         try:
-            self._process = subprocess.Popen(
-                [sys.executable, "-c", program, str(memory), " ".join(modules), str(theirs)],
-                stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment, start_new_session=True, pass_fds=inherited,
-            )  # fmt: skip
+            self._process = _Forked(memory, theirs) if modules is None else _spawned(memory, modules, theirs)
         except OSError as error:
             _close(self._lifeline)
             raise ChildError(Failure.ERROR, f"a child process cannot be started: {error}") from None
@@ -230,6 +260,16 @@ class _Child:
         with self._lock:  # two threads may end it
             _close(self._lifeline)
             self._lifeline = -1
+
+
+def _spawned(memory: int, modules: Sequence[str], lifeline: int) -> subprocess.Popen[bytes]:
+    environment = {**os.environ, **dict.fromkeys(ONE_THREAD, "1"), "PYTHONPATH": os.pathsep.join(filter(None, sys.path))}
+    program = f"from anymesh.isolation.child import main; main({memory}, {list(modules)}, {lifeline})"
+    return subprocess.Popen(
+        [sys.executable, "-c", program],
+        stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment, start_new_session=True,
+        pass_fds=(lifeline,) if lifeline >= 0 else (),
+    )  # fmt: skip
 
 
 def _close(descriptor: int) -> None:

@@ -126,8 +126,8 @@ class SetNetwork(Brief):
             return np.zeros(0)
         tokens = np.concatenate([scaled(own, self.knots), place_tokens(place)], 1, dtype=np.float32)
         pairs = np.concatenate([relations, place_pairs(place)], 2, dtype=np.float32)
-        state = self._linear("second", _relu(self._linear("first", tokens)))
-        bias = self._linear("pair_second", _relu(self._linear("pair_first", pairs)))
+        state = self._linear("second", np.maximum(self._linear("first", tokens), 0))
+        bias = self._linear("pair_second", np.maximum(self._linear("pair_first", pairs), 0))
         for k, layer in enumerate(self._layers):
             state = self._attend(layer, state, bias[..., k * HEADS : (k + 1) * HEADS])
         return np.round(self._linear("score", self._norm("norm", state))[:, 0].astype(float), DIGITS)
@@ -158,7 +158,7 @@ class SetNetwork(Brief):
         likely = np.exp(logits - logits.max(2, keepdims=True))
         taken = (likely / likely.sum(2, keepdims=True)) @ value
         state = state + self._linear(f"{layer}.out", taken.transpose(1, 0, 2).reshape(count, width))
-        inner = _relu(self._linear(f"{layer}.up", self._norm(f"{layer}.norm_up", state)))
+        inner = np.maximum(self._linear(f"{layer}.up", self._norm(f"{layer}.norm_up", state)), 0)
         return state + self._linear(f"{layer}.down", inner)
 
     def _linear(self, name: str, x: Float32[np.ndarray, "... i"]) -> Float32[np.ndarray, "... o"]:
@@ -203,10 +203,6 @@ def place_pairs(place: Float[np.ndarray, "n 12"]) -> Float[np.ndarray, "n n 4"]:
     """Return the offset of the second candidate's center from the first's, and the cosine of their opening directions."""
     center, opening = place[:, :3], place[:, 6:9]
     return np.concatenate([center[None] - center[:, None], (opening @ opening.T)[..., None]], 2)
-
-
-def _relu(x: np.ndarray) -> np.ndarray:
-    return np.maximum(x, 0)
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.config import SAME_AXIS_COSINE
-from anymesh.geometry.boxes import OrientedBox, fit_box
+from anymesh.geometry.boxes import fit_box
 from anymesh.geometry.distance_ import TriangleTree
 from anymesh.geometry.surface import MeshSurface, ObjectShape
 from anymesh.geometry.topology import label_connected
@@ -139,18 +139,14 @@ def _surface_handle(surface: MeshSurface, faces: np.ndarray, host: int, foot: np
     if out < MIN_HANDLE_SIZE_RATIO * surface.diagonal or turned > MAX_HANDLE_FLATNESS * surface.shape.areas[faces].sum():
         return None
     box = fit_box(points, surface.shape.normals[faces], surface.shape.areas[faces])
-    bar = _is_bar(box, normal)
+    parallel = abs(box.axes[0] @ normal) < np.sqrt(1 - SAME_AXIS_COSINE**2)
+    bar = bool(box.half[0] >= MIN_BAR_ASPECT * box.half[1] and parallel)
     if not bar and box.diagonal > MAX_KNOB_SIZE_RATIO * surface.diagonal:
         return None
     width = float(np.ptp(points @ np.cross(box.axes[0], normal))) if bar else 2 * float(box.half[1])
     if 2 * box.half[1] < MIN_HANDLE_SIZE_RATIO * surface.diagonal or out < MIN_HEIGHT_WIDTH_RATIO * width:
         return None
     return SurfaceHandle(host, normal, box.axes[0] if bar else None, points, faces, foot)
-
-
-def _is_bar(box: OrientedBox, normal: np.ndarray) -> bool:
-    """Return whether a handle is long and parallel to the face that it is on."""
-    return bool(box.half[0] >= MIN_BAR_ASPECT * box.half[1] and abs(box.axes[0] @ normal) < np.sqrt(1 - SAME_AXIS_COSINE**2))
 
 
 def aligned(a: SurfaceHandle, b: SurfaceHandle) -> bool:
