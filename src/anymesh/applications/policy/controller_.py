@@ -51,7 +51,7 @@ def move_joint(object_: TaskObject, *, seed: int = 0, tries: int = TRIES) -> Att
     """Try grasps and pushes, the most promising first, until one moves the joint to its goal."""
     best = Attempt(0.0, InteractionFailure.NO_PLACE, None, 0, None)
     for number, target in enumerate(_targets(object_, seed, tries)[:tries], start=1):
-        made = _attempt(object_, target)
+        made = follow_target(object_, target)
         if best.simulation is None or made.failure is None or made.share > best.share:
             best = made
         best = Attempt(best.share, best.failure, best.contact, number, best.simulation)
@@ -72,7 +72,7 @@ def _targets(object_: TaskObject, seed: int, tries: int) -> list[Target]:
     return [some[k] for k in range(longest) for some in lists if k < len(some)]
 
 
-def _attempt(object_: TaskObject, target: Target) -> Attempt:
+def follow_target(object_: TaskObject, target: Target) -> Attempt:
     """Move the gripper to a target, close it, and lead it along the joint."""
     pushes = target.contact is GripperContact.PUSH
     T = object_.T_world_asset @ target.T_asset_tool
