@@ -1,35 +1,37 @@
-"""Times, peak memory and the time of each stage on synthetic objects with more and more faces or components.
+"""Processor time of whole processes, a revision and the working tree in turns, and how it grows with the size of an object.
 
-python -m benchmarks.speed [NAME[:SIZE,...] ...]      writes benchmarks/reports/speed.md
+python -m benchmarks.speed --against REV [--quick] [--only WORK ...] [--pairs 5] [--data NAME=FOLDER[:COUNT] ...]
 
-Names: pot (by faces), boards, chandelier and shelf (by connected components). The slope is that of
-a line fitted to log(processor time) over log(size), sizes below a tenth of the largest left out: 1 is linear.
+REV runs from a worktree in a temporary folder with the same interpreter. Each pair runs REV, then the working tree, each in a
+process of its own with empty caches and compiled modules; the ratio is the median over the pairs of the processor time of the
+process and its children. Works: import, help, examples, boards, shelf and chandelier (by components), smooth (torus, tube,
+gear), pot (by faces; peak memory too), visual (the prompted road with the reference answerer), annotate (the examples on two
+cores), and every --data: COUNT meshes of a folder, evenly spaced by name. --quick takes a few small ones. Slope: exponent of
+the growth of the processor time with the size, sizes below a tenth of the largest left out. Writes benchmarks/reports/speed.md.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import os
 import subprocess
 import sys
 import tempfile
-import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from statistics import median
+from typing import Any
 
 import numpy as np
 import trimesh
-from trimesh.creation import box, cylinder, icosphere, revolve
+from trimesh.creation import box, cylinder, icosphere, revolve, torus
 from trimesh.util import concatenate
 
-from benchmarks import REPORTS, made_with, parser_of, table_head, table_row
+from benchmarks import EXAMPLES, REPORTS, ROOT, made_with, parser_of, table_head, table_row, worktree
 
-STAGES = ("load", "segment", "joints", "export")
 Z_TO_Y = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])  # GLB files are Y up
-LIMIT = 600.0  # [s] for one object
-WARM_UP = 100  # faces of the pot that compiles the modules
+LIMIT = 1200.0  # [s] for one process
 TAIL = 0.1  # of the largest size: smaller ones do not count in the slope
 SEED = 0
 POT_LINES = 12  # segments of the three profiles of a pot, before they are divided
@@ -37,6 +39,10 @@ POT_POLES = 6  # ends of profiles on the axis, whose last row has triangles for 
 POT_SECTIONS = 6  # sections round the axis, per row of a segment
 TUBE_SHARE = 0.1  # of the components of a chandelier; the rest are beads
 RING = 40  # items on one board of a shelf
+SIDES = 256  # of a smooth solid
+TEETH = 24  # of a cycloidal gear
+MESHES = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae", ".fbx", ".usd", ".usdz")
+CLI = ("-m", "anymesh.cli")
 
 
 def pot(faces: int) -> trimesh.Trimesh:
@@ -113,105 +119,159 @@ def _box(size: tuple[float, ...], middle: tuple[float, ...]) -> trimesh.Trimesh:
     return box(size).apply_translation(middle)
 
 
-OBJECTS: dict[str, Callable[[int], trimesh.Trimesh]] = {f.__name__: f for f in (pot, boards, chandelier, shelf)}
-SIZES = dict.fromkeys(OBJECTS, (1, 10, 100, 500, 2_000, 5_000)) | {"pot": (1_000, 10_000, 61_000, 250_000, 1_000_000)}
+def smooth(kind: str) -> trimesh.Trimesh:
+    """Make a smooth solid: a torus, a tube, or a gear with cycloidal teeth."""
+    if kind == "torus":
+        return torus(0.2, 0.06, major_sections=SIDES, minor_sections=SIDES // 4)
+    if kind == "tube":
+        return trimesh.creation.annulus(0.05, 0.06, 0.3, sections=SIDES)
+    turn = np.linspace(0, 2 * np.pi, 16 * TEETH, endpoint=False)
+    ring = np.stack([np.cos(turn), np.sin(turn)], 1) * (0.1 + 0.01 * np.abs(np.sin(TEETH / 2 * turn)))[:, None]
+    count = len(ring)
+    after = (np.arange(count) + 1) % count
+    low, high = np.column_stack([ring, np.zeros(count)]), np.column_stack([ring, np.full(count, 0.03)])
+    points = np.concatenate([low, high, [[0, 0, 0], [0, 0, 0.03]]])
+    k = np.arange(count)
+    sides = [[k, after, after + count], [k, after + count, k + count]]
+    ends = [[after, k, np.full(count, 2 * count)], [k + count, after + count, np.full(count, 2 * count + 1)]]
+    return trimesh.Trimesh(points, np.concatenate([np.stack(f, 1) for f in (*sides, *ends)]), process=False)
+
+
+OBJECTS: dict[str, Callable[[Any], trimesh.Trimesh]] = {f.__name__: f for f in (boards, shelf, chandelier, smooth, pot)}
+SIZES: dict[str, tuple[Any, ...]] = {
+    "boards": (10, 100, 500), "shelf": (10, 100, 500), "chandelier": (10, 100, 500, 5_000),
+    "smooth": ("torus", "tube", "gear"), "pot": (1_000, 10_000, 100_000, 1_000_000),
+}  # fmt: skip
+WORKS = ("import", "help", "examples", *SIZES, "visual", "annotate")
+QUICK = {"boards": (100,), "smooth": ("tube",)}
+FEW = ("cabinet", "toy_car", "valve")  # examples of --quick
+AIMS = dict.fromkeys(("boards", "shelf", "chandelier", "smooth"), 0.2)
+AIMS |= {"examples": 0.5, "pot": 0.5, "visual": 0.4, "annotate": 0.4}  # ratios
 
 
 @dataclass(frozen=True)
-class Run:
-    """One object through all stages: times [s] and memory [GiB] of the child process."""
+class Work:
+    """Commands that are timed together, as arguments of Python; {out} stands for a new folder. size: None without a slope."""
 
     name: str
-    size: int
-    faces: int
-    joints: int
-    wall: float
-    cpu: float
+    commands: tuple[tuple[str, ...], ...]
+    size: float | None = None
+
+
+@dataclass(frozen=True)
+class Cost:
+    """Processor time [s] of processes and their children, and the largest resident memory of one process [GiB]."""
+
+    seconds: float
     peak: float
-    stages: tuple[float, ...]
-
-    @property
-    def row(self) -> str:
-        """One row of the table."""
-        seconds = (f"{self.wall:.1f}", f"{self.cpu:.1f}", f"{self.peak:.2f}", *(f"{s:.1f}" for s in self.stages))
-        return table_row((self.name, self.size, self.faces, self.joints, *seconds))
 
 
-def timed(name: str, size: int, byte_code: Path) -> Run:
-    """Run `anymesh articulate` on one object in a child process with empty caches. Raises SystemExit where it fails or takes
-    too long.
+def articulated(mesh: Path, *more: str) -> tuple[str, ...]:
+    """Return the arguments that articulate a mesh."""
+    return (*CLI, "articulate", str(mesh), "-o", "{out}/asset", "-q", *more)
 
-    byte_code: a folder that keeps compiled modules between calls, as an installed package does.
-    """
-    with tempfile.TemporaryDirectory() as folder:
-        path, out = Path(folder) / f"{name}.glb", Path(folder) / "out"
-        mesh = OBJECTS[name](size).apply_transform(Z_TO_Y)
-        mesh.export(path)
-        command = [sys.executable, "-m", "anymesh.cli", "articulate", str(path), "-o", str(out), "-q"]
-        kept = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
-        settings = {"ANYMESH_CACHE": str(Path(folder) / "cache"), "PYTHONPYCACHEPREFIX": str(byte_code)}
-        begin = time.perf_counter()
-        child = subprocess.Popen(["timeout", str(LIMIT), *command], env=kept | settings)
-        _, status, usage = os.wait4(child.pid, 0)
-        wall = time.perf_counter() - begin
+
+def works(folder: Path, wanted: Sequence[str], data: Sequence[str], quick: bool) -> Iterator[Work]:
+    """Yield what is timed; meshes that are made go to the folder."""
+    meshes = [EXAMPLES / "meshes" / f"{n}.glb" for n in FEW] if quick else sorted((EXAMPLES / "meshes").glob("*.glb"))
+    sizes = QUICK if quick else SIZES
+    for name in wanted:
+        if name == "import":
+            yield Work("`import anymesh`", (("-c", "import anymesh"),) * 5)
+        elif name == "help":
+            yield Work("`anymesh --help`", ((*CLI, "--help"),) * 5)
+        elif name == "examples":
+            yield Work(f"examples: {len(meshes)}", tuple(map(articulated, meshes)))
+        elif name == "visual":
+            only = ("--only", ",".join(FEW)) if quick else ()
+            yield Work(
+                "visual: examples", ((*CLI, "eval", "examples", "--answerer", "oracle", "-o", "{out}/asset", "-q", *only),)
+            )
+        elif name == "annotate" and not quick:
+            source = str(EXAMPLES / "meshes")
+            yield Work("annotate: examples", ((*CLI, "annotate", source, "-o", "{out}/asset", "-j", "2", "-q"),))
+        for size in sizes.get(name, ()):
+            path = folder / f"{name}_{size}.glb"
+            OBJECTS[name](size).apply_transform(Z_TO_Y).export(path)
+            yield Work(f"{name}: {size}", (articulated(path),), None if isinstance(size, str) else size)
+    for word in data:
+        name, _, place = word.partition("=")
+        source, _, count = place.partition(":")
+        found = sorted(p for p in Path(source).rglob("*") if p.suffix.lower() in MESHES)
+        if not found:
+            print(f"{name}: left out, no mesh in {source}", flush=True)
+            continue
+        chosen = found[:: max(1, len(found) // int(count or len(found)))][: int(count or len(found))]
+        yield Work(f"{name}: {len(chosen)}", tuple(map(articulated, chosen)))
+
+
+def cost(work: Work, tree: Path, byte_code: Path) -> Cost:
+    """Run the commands of a work with the code of a tree. Raises SystemExit where one fails or takes too long."""
+    seconds = peak = 0.0
+    kept = {k: v for k, v in os.environ.items() if k != "PYTHONDONTWRITEBYTECODE"}
+    for command in work.commands:
+        with tempfile.TemporaryDirectory() as out:
+            settings = {"ANYMESH_CACHE": f"{out}/cache", "PYTHONPYCACHEPREFIX": str(byte_code), "PYTHONPATH": str(tree / "src")}
+            arguments = ["timeout", str(LIMIT), sys.executable, *(a.replace("{out}", out) for a in command)]
+            child = subprocess.Popen(arguments, env=kept | settings, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            _, status, usage = os.wait4(child.pid, 0)
         if status:
-            raise SystemExit(f"{name} {size}: failed, or took longer than {LIMIT:g} s")
-        seconds = json.loads((out / "timing.json").read_text())
-        joints = len(json.loads((out / "asset.json").read_text())["joints"])
-    stages = tuple(float(seconds.get(s, 0)) for s in STAGES)
-    return Run(name, size, len(mesh.faces), joints, wall, usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 2**20, stages)
+            raise SystemExit(f"{work.name}: {' '.join(command)} failed, or took longer than {LIMIT:g} s")
+        seconds += usage.ru_utime + usage.ru_stime
+        peak = max(peak, usage.ru_maxrss / 2**20)
+    return Cost(seconds, peak)
 
 
-def slope(runs: list[Run]) -> float:
+def slope(points: Sequence[tuple[float, float]]) -> float:
     """Return the exponent of the growth of processor time with size, NaN for fewer than two sizes."""
-    tail = [r for r in runs if r.size >= TAIL * runs[-1].size]
-    if len(tail) < 2:
-        return float("nan")
-    return float(np.polyfit(np.log([r.size for r in tail]), np.log([r.cpu for r in tail]), 1)[0])
+    tail = [(size, seconds) for size, seconds in points if size >= TAIL * points[-1][0]]
+    return float(np.polyfit(*np.log(tail).T, 1)[0]) if len(tail) > 1 else float("nan")
 
 
-def requested(word: str) -> tuple[str, tuple[int, ...]]:
-    """Return the name and the sizes in NAME or NAME:SIZE,..."""
-    name, _, sizes = word.partition(":")
-    if name not in SIZES:
-        raise argparse.ArgumentTypeError(f"found {name!r}; valid are {', '.join(SIZES)}")
-    return name, tuple(int(s) for s in sizes.split(",")) if sizes else SIZES[name]
-
-
-def main() -> None:
-    """Time all that is asked for; the table is written after each object."""
-    parser = parser_of(__doc__)
-    parser.add_argument("objects", nargs="*", type=requested, default=list(SIZES.items()), metavar="NAME[:SIZE,...]")
-    options = parser.parse_args()
-    lines: list[str] = []
-    with tempfile.TemporaryDirectory() as byte_code:
-        timed("pot", WARM_UP, Path(byte_code))
-        for name, sizes in options.objects:
-            runs = []
-            for size in sorted(sizes):
-                runs.append(timed(name, size, Path(byte_code)))
-                print(runs[-1].row, flush=True)
-                write([*lines, *(r.row for r in runs)])
-            lines += [r.row for r in runs] + [f"| {name} | slope | | | {slope(runs):.2f} | | | | | | |"]
+def compare(how: argparse.Namespace) -> None:
+    """Time all works in pairs; the table is written after each."""
+    lines, growth = list[str](), dict[str, list[tuple[float, float]]]()
+    with worktree(how.against) as old, tempfile.TemporaryDirectory() as scratch:
+        trees = (old, Path(scratch) / "old"), (ROOT, Path(scratch) / "new")
+        for tree, code in trees:  # compile the modules
+            cost(Work("warm up", (articulated(EXAMPLES / "meshes" / f"{FEW[0]}.glb"),)), tree, code)
+        for work in works(Path(scratch), how.only or WORKS, how.data, how.quick):
+            runs = [[cost(work, tree, code) for tree, code in trees] for _ in range(how.pairs)]
+            before, after = (median(run[k].seconds for run in runs) for k in (0, 1))
+            ratio, memory = median(n.seconds / o.seconds for o, n in runs), median(n.peak / o.peak for o, n in runs)
+            kind = work.name.partition(":")[0]
+            cells = f"{before:.2f}", f"{after:.2f}", f"{ratio:.2f}", f"{memory:.2f}"
+            lines.append(table_row((work.name, *cells, AIMS.get(kind, ""))))
             print(lines[-1], flush=True)
-            write(lines)
+            if work.size is not None:
+                growth.setdefault(kind, []).append((work.size, after))
+            write(lines + [f"Slope of {k}: {slope(sorted(v)):.2f}." for k, v in growth.items() if len(v) > 1], how)
 
 
-def write(lines: list[str]) -> None:
+def write(lines: list[str], how: argparse.Namespace) -> None:
     """Write the table to speed.md."""
+    rows, slopes = [x for x in lines if x.startswith("|")], [x for x in lines if not x.startswith("|")]
     head = [
         "# Speed",
         "",
-        f"`python -m benchmarks.speed {' '.join(sys.argv[1:])}`, {made_with('articulate-anymesh')}, {os.cpu_count()} cores. "
-        "Synthetic objects; size: requested number of faces (pot), connected components (the others). Slope: "
-        "exponent of the growth of the processor time with the size, over the largest tenfold range. cpu: processor time of "
-        "the process and its children. Load average of the machine at the end: "
-        f"{os.getloadavg()[1]:.1f}; above the number of cores, other jobs ran too, and both times are longer than on an idle "
-        "machine.",
+        f"`python -m benchmarks.speed {' '.join(sys.argv[1:])}`, {made_with('articulate-anymesh')}, {os.cpu_count()} cores, "
+        f"median of {how.pairs} pairs. Load average at the end: {os.getloadavg()[1]:.1f}; above the number of cores, other "
+        "jobs ran too, and all times are longer than on an idle machine.",
         "",
-        *table_head(["object", "size", "faces", "joints", "wall [s]", "cpu [s]", "peak [GiB]", *(f"{s} [s]" for s in STAGES)]),
+        *table_head(["work", f"{how.against[:9]} [s]", "now [s]", "ratio", "peak memory, ratio", "aim"]),
     ]
-    (REPORTS / "speed.md").write_text("\n".join([*head, *lines, ""]), encoding="utf-8")
+    (REPORTS / "speed.md").write_text("\n".join([*head, *rows, "", *slopes, ""]), encoding="utf-8")
+
+
+def main() -> None:
+    """Compare times with a revision."""
+    parser = parser_of(__doc__)
+    parser.add_argument("--against", metavar="REV", required=True)
+    parser.add_argument("--quick", action="store_true")
+    parser.add_argument("--only", nargs="+", choices=WORKS)
+    parser.add_argument("--pairs", type=int, default=5)
+    parser.add_argument("--data", nargs="+", default=[], metavar="NAME=FOLDER[:COUNT]")
+    compare(parser.parse_args())
 
 
 if __name__ == "__main__":
