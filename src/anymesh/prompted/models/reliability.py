@@ -57,6 +57,11 @@ def trust(probed: Iterable[ProbeCount] = ()) -> Trust:
     return Trust(grid, levels.T, own[np.arange(4)[:, None], levels].sum(0))
 
 
+def given_answer(right: Float[np.ndarray, " n"], reliability: float, choices: int) -> Float[np.ndarray, " n"]:
+    """Return the probability of an answer. right: of a reliable answerer; choices: number of possible answers."""
+    return reliability * right + (1 - reliability) / choices
+
+
 def confidence_in_marks(usual: float, probed: Iterable[ProbeCount]) -> float:
     """Return the confidence in a part that was marked. usual: without a probe."""
     right, asked = next(((r, n) for question, r, n, _ in probed if question == MARKS), (0, 0))

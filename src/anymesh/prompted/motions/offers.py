@@ -82,6 +82,14 @@ class MotionOffers:
         )
 
 
+@dataclass(frozen=True)
+class ShownPick:
+    """A pick among motions. shown: indices of the motions in the picture; picked: one of them, None for none of these."""
+
+    shown: tuple[int, ...]
+    picked: int | None
+
+
 def make_offers(case: PartCase, max_motions: int, seed: int) -> MotionOffers:
     """Propose, sweep, score and select the motions of a part.
 

@@ -25,10 +25,10 @@ from anymesh.articulation.rank_motions import (
     shipped_classifier,
 )
 from anymesh.config import FACING_COSINE, Config
-from anymesh.prompted.models.reliability import ProbeCount, in_words, trust
+from anymesh.prompted.models.reliability import ProbeCount, given_answer, in_words, trust
 from anymesh.prompted.motions.cases import PartCase, ask_each
 from anymesh.prompted.motions.lines import prismatic
-from anymesh.prompted.motions.offers import FEW, MotionOffers, fits, make_offers, moves_as, nearest_motion
+from anymesh.prompted.motions.offers import FEW, MotionOffers, ShownPick, fits, make_offers, moves_as, nearest_motion
 from anymesh.prompted.pictures.sides import UNNAMED, SeenFrom, Sides
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.prompting import JointAppearance, MotionPick, MotionTable, PartFit, WhichMotions
@@ -46,14 +46,6 @@ BLOCKED_RATIO = 0.5  # factor on the confidence in an answered motion that the s
 OFFERED_SHARE = 0.98  # share of the parts whose true motion is among the candidates (benchmarks/reports/motions.md)
 LINE_RIGHT = 0.6  # share of right answers whose points and arrows lead to exactly the right one of the motions shown
 MISSED = 0.02  # probability that the right motion is not recognized although it is shown
-
-
-@dataclass(frozen=True)
-class ShownPick:
-    """A pick among motions. shown: indices of the motions in the picture; picked: one of them, None for none of these."""
-
-    shown: tuple[int, ...]
-    picked: int | None
 
 
 @dataclass(frozen=True, eq=False)
@@ -81,10 +73,10 @@ class PartAnswers:
         by_kind = np.array([*(float(fits(c, case.kind)) for c in motions), 0.0 if fixed else 1 / (KINDS - 1), float(fixed)])
         each = np.zeros((4, len(by_kind)))
         if case.kind is not None and not self._picked_its_kind:
-            each[0] += np.log(_answered(by_kind, reliability, KINDS))
+            each[0] += np.log(given_answer(by_kind, reliability, KINDS))
         if case.moves is not None:
             as_recognized = np.array([*(float(moves_as(c, case.moves)) for c in motions), 0.5, 0.0])
-            each[1] += np.log(_answered(as_recognized, reliability, 2))
+            each[1] += np.log(given_answer(as_recognized, reliability, 2))
         if answered is not None and answers_a_line(case) and by_kind[answered]:
             each[2] += np.log(self._line(by_kind == 1, answered, reliability))
         for pick in self.picks:
@@ -111,11 +103,6 @@ class PartAnswers:
         none, one = np.where(shown, MISSED, 1.0), np.where(index == pick.picked, 1 - MISSED, 0.0)
         right = none if pick.picked is None else one
         return reliability * right + (1 - reliability) / (len(pick.shown) + 1)
-
-
-def _answered(right: Float[np.ndarray, " n"], reliability: float, choices: int) -> Float[np.ndarray, " n"]:
-    """Return the probability of an answer. right: of a reliable answerer; choices: number of possible answers."""
-    return reliability * right + (1 - reliability) / choices
 
 
 def answers_a_line(case: PartCase) -> bool:
