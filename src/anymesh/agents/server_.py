@@ -109,7 +109,13 @@ def _making(work: ToolRunner) -> tuple[Callable[..., Any], ...]:
         ] = 0,
         formats: Formats | None = None,
         force: Annotated[bool, Field(description="Replace an existing output.")] = False,
-        time_limit: Annotated[float, Field(description="Seconds.", gt=0)] = 600.0,
+        time_limit: Annotated[
+            float,
+            Field(
+                description="Seconds of work, without the time of answers; near it, work is left out.",
+                gt=0,
+            ),
+        ] = 600.0,
         answers: Annotated[list[dict[str, Any]] | None, Field(description=ANSWERS)] = None,
     ) -> Content:
         """Turn a rigid mesh into an articulated asset. Stops at each open question: call again as before, with its answer."""
