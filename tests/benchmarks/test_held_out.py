@@ -17,7 +17,7 @@ from training.kinds import registry as kinds
 def test_no_shipped_classifier_was_trained_on_a_kind_for_measuring() -> None:
     names = {name.partition("/")[2] for name in trained_objects()}
     assert len(names) > 500
-    measured = kinds.RESERVED | kinds.TEST | kinds.UNTRAINED
+    measured = kinds.RESERVED | kinds.TEST
     assert not set(measured) & set(kinds.KINDS)
     assert not [name for name in names for kind in measured if name.startswith(f"{kind}-")]
 
@@ -28,7 +28,6 @@ def test_kinds_for_training_are_written_by_default(monkeypatch: pytest.MonkeyPat
     for options, expected in (
         ([], kinds.KINDS),
         (["--test"], kinds.TEST),
-        (["--untrained"], kinds.UNTRAINED),
         (["--reserved"], kinds.RESERVED),
     ):
         monkeypatch.setattr(sys, "argv", ["kinds.py", str(tmp_path), "--count", "1", *options])

@@ -10,10 +10,9 @@ from shapely.geometry import Polygon
 from trimesh import Trimesh
 
 from training.kinds.model import Model
-from training.kinds.solids import Point, Span, ball, box, cut, prism, rod, together, vec
+from training.kinds.solids import Point, Span, box, cut, prism, rod, together, vec
 
 WAYS = ("low", "sheet", "cad", "round", "sunk", "old")
-AXES = {"x": np.array([1.0, 0, 0]), "y": np.array([0, 1.0, 0]), "z": np.array([0, 0, 1.0])}
 
 
 @dataclass
@@ -85,16 +84,6 @@ def oval(half: tuple[float, float], n: int, power: float = 2.0, at: tuple[float,
     return Polygon(np.c_[half[0] * x + at[0], half[1] * y + at[1]])
 
 
-def shaped(solid: Trimesh, belt: float, top: float, lean: float, bow: float) -> Trimesh:
-    """A body narrowed above its belt (share `lean` at the top) and towards both ends (share `bow`)."""
-    fine = solid.subdivide().subdivide() if bow else solid
-    points = fine.vertices.copy()
-    end = max(np.abs(points[:, 1]).max(), 1e-6)
-    points[:, 0] *= 1 - lean * np.clip((points[:, 2] - belt) / (top - belt), 0, 1)
-    points[:, 0] *= 1 - bow * (np.abs(points[:, 1]) / end) ** 3
-    return Trimesh(points, fine.faces, process=True)
-
-
 def carve(body: Trimesh, outline: Polygon, axis: str, depth: Span, gap: float) -> tuple[Trimesh, Trimesh]:
     """Takes a lid or door out of a body: (what the outline cuts out, less a gap all around; what is left)."""
     inner = outline.buffer(-max(gap, 1e-4), join_style=2)
@@ -135,34 +124,3 @@ def _spokes(c: np.ndarray, out: float, radius: float, thick: float, count: int) 
     turns = 2 * np.pi * np.arange(count) / count
     ends = [np.array([0, np.cos(t), np.sin(t)]) for t in turns]
     return [rod(c + vec(out, 0, 0) + 0.1 * radius * e, c + vec(out, 0, 0) + 0.56 * radius * e, thick * radius, 6) for e in ends]
-
-
-def bolts(centre: Point, axis: str, radius: float, size: float, count: int = 6) -> list[Trimesh]:
-    """Screw heads in a ring about an axis."""
-    e = AXES[axis]
-    u = np.roll(e, 1)
-    v = np.cross(e, u)
-    turns = 2 * np.pi * np.arange(count) / count
-    spots = [np.asarray(centre, float) + radius * (np.cos(t) * u + np.sin(t) * v) for t in turns]
-    return [rod(p - size * e, p + size * e, size, 6) for p in spots]
-
-
-def knob(a: Look, at: Point, out: Point, radius: float, tall: float) -> list[Trimesh]:
-    """Something to turn or press that stands out of a face."""
-    p, e = np.asarray(at, float), np.asarray(out, float)
-    body = rod(p - 0.2 * tall * e, p + tall * e, radius, a.n)
-    if a.way == "round":
-        return [body, ball(p + tall * e, np.abs(e) * 0.3 * tall + (1 - np.abs(e)) * 0.98 * radius, 12)]
-    if a.way == "old":
-        return [rod(p - 0.2 * tall * e, p + 0.6 * tall * e, 0.5 * radius, a.n), ball(p + tall * e, [radius] * 3, 12)]
-    return [body]
-
-
-def bow_handle(a: Look, low: Point, high: Point, out: Point, thick: float) -> list[Trimesh]:
-    """A bar on two feet between two points of a face."""
-    p, q, e = (np.asarray(v, float) for v in (low, high, out))
-    n = 4 if a.way in ("low", "sheet") else a.n
-    reach = 3.2 * thick * e
-    along = (q - p) / np.linalg.norm(q - p) * thick
-    feet = [rod(v - thick * e, v + reach, 0.8 * thick, n) for v in (p, q)]
-    return [rod(p + reach - along, q + reach + along, thick, n), *feet]

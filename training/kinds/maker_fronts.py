@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from shapely.geometry import Polygon
 from trimesh import Trimesh
 from trimesh.geometry import align_vectors
 
 from training.kinds.maker_style import FRONT, Cell, Maker, only
 from training.kinds.model import BASE
-from training.kinds.solids import Point, Span, box, prism, rod, vec
+from training.kinds.solids import Point, Span, box, rod, vec
 
 AXES = {"left": (0, 0, -1), "right": (0, 0, 1), "below": (1, 0, 0), "above": (-1, 0, 0)}
 
@@ -72,22 +71,10 @@ def screen(k: Maker, x: Span, z: Span, y: float) -> Trimesh:
     return only(solid, FRONT) if k.way == "sheet" else solid
 
 
-def vents(k: Maker, x: Span, z: Span, y: float, count: int) -> list[Trimesh]:
-    """Slots of a grille, drawn as thin strips on a front."""
-    step = (z[1] - z[0]) / count
-    return [screen(k, x, (z[0] + (i + 0.25) * step, z[0] + (i + 0.7) * step), y) for i in range(count)]
-
-
 def wires(x: Span, y: Span, z: float, count: int, r: float = 0.003) -> list[Trimesh]:
     """A rack of wires: a frame and bars from front to back."""
     bars = [rod((u, y[0], z), (u, y[1], z), r, 6) for u in np.linspace(*x, count)]
     return bars + [rod((x[0], w, z), (x[1], w, z), 1.2 * r, 6) for w in y]
-
-
-def cornice(x: Span, y: Span, z: float, high: float, out: float) -> Trimesh:
-    """A moulding along the front of a body at height z."""
-    profile = [(y[0] - out, z + high), (y[0] - out, z + 0.7 * high), (y[0] - 0.4 * out, z), (y[1], z), (y[1], z + high)]
-    return prism(Polygon(profile), "x", (x[0] - out, x[1] + out))
 
 
 def _standing(axis: Point) -> np.ndarray:

@@ -23,9 +23,7 @@ from training.kinds.solids import (
     rectangle,
     ring,
     rod,
-    rounded,
     tube,
-    turned,
     vec,
 )
 
@@ -234,11 +232,6 @@ def lathe(profile: list[tuple[float, float]], n: int) -> Trimesh:
     return loft(np.array([np.c_[r * np.cos(t), r * np.sin(t), np.full(n, z)] for r, z in profile]))
 
 
-def laid(solids: list[Trimesh]) -> list[Trimesh]:
-    """Fronts laid down to face up: what was at height z lies at y, what was at y lies at -z."""
-    return [turned(s, (1, 0, 0), -90, (0, 0, 0)) for s in solids]
-
-
 def _framed(x: Span, z: Span, y: Span, pane: Cell) -> list[Trimesh]:
     """A frame of real boards about a double pane on washers."""
     (a, b), (c, d) = pane
@@ -250,16 +243,3 @@ def _framed(x: Span, z: Span, y: Span, pane: Cell) -> list[Trimesh]:
 
 def z_spots(z: Span) -> tuple[float, float]:
     return z[0] + 0.1 * (z[1] - z[0]), z[1] - 0.1 * (z[1] - z[0])
-
-
-def plate(outline: Polygon, axis: str, depth: Span, k: Maker) -> Trimesh:
-    """An outline as a solid, or as its outer sheet where the artist draws sheets."""
-    solid = prism(outline, axis, depth)
-    if k.way != "sheet":
-        return solid
-    return only(solid, {"x": (1, 0, 0), "y": (0, -1, 0), "z": (0, 0, 1)}[axis])
-
-
-def pill(x: Span, y: Span, part: float = 1.0) -> Polygon:
-    """A rectangle with corners round by a share of its half width."""
-    return rounded(x, y, max(0.05, min(part, 0.98)) * min(np.ptp(x), np.ptp(y)) / 2)

@@ -89,14 +89,6 @@ def pillow(x: Span, y: Span, z: Span, by: float) -> Trimesh:
     return trimesh.convex.convex_hull(np.concatenate(points))
 
 
-def superbox(x: Span, y: Span, z: Span, power: float) -> Trimesh:
-    """A subdivided box swollen into a superellipsoid."""
-    solid = trimesh.creation.icosphere(3)
-    points = solid.vertices / (np.abs(solid.vertices) ** power).sum(1, keepdims=True) ** (1 / power)
-    spans = np.array([x, y, z], float)
-    return Trimesh(points * (spans[:, 1] - spans[:, 0]) / 2 + spans.mean(1), solid.faces, process=False)
-
-
 def block(s: Style, x: Span, y: Span, z: Span, leave: str = "b") -> Trimesh:
     """A body of this style; open sheets lack the sides named in `leave`."""
     small = min(b - a for a, b in (x, y, z))

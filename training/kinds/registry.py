@@ -36,8 +36,8 @@ def _named(section: str) -> Kinds:
     }
 
 
-KINDS, TEST, UNTRAINED, RESERVED = map(_named, ("train", "test", "untrained", "reserved"))
-ALL = KINDS | TEST | UNTRAINED | RESERVED
+KINDS, TEST, RESERVED = map(_named, ("train", "test", "reserved"))
+ALL = KINDS | TEST | RESERVED
 
 
 def build(kind: str, seed: int, number: int) -> Model:

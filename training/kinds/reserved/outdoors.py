@@ -11,8 +11,6 @@ from training.kinds.kitchen_trims import lathe
 from training.kinds.model import BASE, Model
 from training.kinds.solids import box, prism, ring, rod, rounded, tube, vec
 
-FRONT = vec(0, -1, 0)
-
 
 def barbecue(m: Model) -> None:
     """A kettle or a box on legs with a lid hinged at its back, wheels, perhaps a side shelf that folds down."""

@@ -1,1 +1,0 @@
-"""Hospital and laboratory equipment."""

@@ -1,1 +1,0 @@
-"""Playgrounds, games and sports equipment."""

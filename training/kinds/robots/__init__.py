@@ -1,1 +1,0 @@
-"""Robots and science fiction."""
