@@ -38,9 +38,9 @@ EXAMPLE_KINDS = (
     "tilting_flap", "toaster", "toy_car", "valve",
 )  # fmt: skip
 OTHER_KINDS = (
-    "hinged_door", "garden_gate", "barn_door", "cat_flap", "trapdoor", "casement", "awning", "shutters", "roof_hatch",
+    "hinged_door", "garden_gate", "barn_door", "cat_flap", "casement", "awning", "shutters", "roof_hatch",
     "wardrobe", "filing_cabinet", "blanket_box", "safe", "mailbox", "trash_can", "toilet", "washer", "dishwasher",
-    "tap", "kettle", "switch_panel", "door_lever_set", "parking_barrier", "music_box", "bread_box", "pizza_box",
+    "kettle", "switch_panel", "door_lever_set", "parking_barrier", "bread_box",
 )  # fmt: skip
 SEED = 72
 SLOPE_DEG = 30.0
