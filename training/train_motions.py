@@ -4,11 +4,7 @@ python -m training.train_motions FOLDER            benchmarks/reports/motions.md
 python -m training.train_motions FOLDER --write    also trains on all and writes motion_classifier.npz and
                                                      unswept_classifier.npz with their manifests
 
-FOLDER: rows as `training/motion_rows.py` writes them. Needs lightgbm. For the shipped classifier:
-    python -m training.kinds KINDS --seed 11 --count 4
-    python -m training.motion_rows FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen sweethome3d metaworld libero \
-        examples scene-synthesizer mjcf:ROBOSUITE/models/assets/robots@robosuite mjcf:ROBOSUITE/models/assets/grippers@robosuite
-    python -m training.motion_rows FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen --change fused --most 40
+FOLDER: rows as `training/motion_rows.py` writes them; `training/train.sh` lists those of the shipped file. Needs lightgbm.
 """
 
 from __future__ import annotations

@@ -3,18 +3,8 @@
 python -m training.train_parts FOLDER            benchmarks/reports/parts.md: leave one source out, leave kinds out
 python -m training.train_parts FOLDER --write    also trains on all and writes part_classifier.npz with its manifest
 
-FOLDER: rows as `training/part_rows.py` writes them. Needs lightgbm and torch. For the shipped classifier:
-    python -m training.kinds KINDS --seed 11 --count 6
-    python -m training.part_rows FOLDER urdf:KINDS@kinds labelled:INFINIGEN@infinigen sweethome3d metaworld libero examples \
-        scene-synthesizer static:KINDS@kinds
-    python -m training.part_rows FOLDER urdf:KINDS@kinds --change fused --most 180
-    python -m training.part_rows FOLDER static:KINDS@kinds --change fused --most 60
-    python -m training.part_rows FOLDER labelled:INFINIGEN@infinigen --change fused --most 53
-    python -m training.part_rows FOLDER sweethome3d --change fused --most 12
-    python -m training.part_rows FOLDER urdf:KINDS@kinds --change C --most N  with N = 360 for C = tight, 240 for detailed and
-        misplaced, 80 for furnished
-    python -m training.part_rows FOLDER sweethome3d labelled:INFINIGEN@infinigen static:KINDS@kinds --change C --most 32
-        for C = detailed, misplaced and furnished
+FOLDER: rows as `training/part_rows.py` writes them; `training/train.sh` lists those of the shipped file. Needs lightgbm and
+torch.
 """
 
 from __future__ import annotations
