@@ -27,7 +27,7 @@ from anymesh.evaluation.summary import Summary, group_table, summarize
 from benchmarks import REPORTS, parser_of, table_head, table_row
 from training.error_sources import causes_table, proposed_parts
 from training.kinds import registry as kinds
-from training.splits import Use, use_of
+from training.splits import Use, first_of_kinds
 
 SEED, COUNT = 23, 2  # of the objects; COUNT of each kind
 SEALED = ("end-to-end", "parts")
@@ -182,12 +182,7 @@ def sealed_table(found: Mapping[str, Figures]) -> list[str]:
 
 def sealed(work: Path, articraft: Path, compare: bool) -> int:
     """Measure the sealed kinds, and write the sums or compare them with the baseline."""
-    of_kind: dict[str, list[str]] = {}
-    for name in LabelledFolder(articraft).objects():
-        kind = name.rsplit("__", 1)[0]
-        if use_of(kind) is Use.SEALED:
-            of_kind.setdefault(kind, []).append(name)
-    names = [name for some in of_kind.values() for name in some[:COUNT]]
+    names = first_of_kinds(Use.SEALED, LabelledFolder(articraft).objects(), COUNT)
     records = {
         what: evaluate(
             f"labelled:{articraft}", work / f"sealed-{what}", protocol=what, only=names, answerer="geometry", force=True
@@ -200,9 +195,7 @@ def sealed(work: Path, articraft: Path, compare: bool) -> int:
     baseline = json.loads(path.read_text())
     if compare:
         left = worse(found, baseline["sealed"])
-        print(
-            "\n".join(left) or f"no figure on {len(names)} sealed objects is worse than the baseline by more than {TOLERANCE}"
-        )
+        print("\n".join(left) or f"no figure on {len(names)} sealed objects is worse by more than {TOLERANCE}")
         return int(bool(left))
     path.write_text(json.dumps({**baseline, "sealed": found}, indent=1) + "\n")
     before, _, rest = page.read_text().partition(f"{SEALED_HEAD}\n")

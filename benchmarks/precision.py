@@ -1,10 +1,10 @@
 """Measure how often written joints are right with `--precision P`, and the weights of articulations.
 
-`python -m benchmarks.precision PLACE... [--work DIR] [--seed S] [--fit] [--markdown FILE]`. A place is a folder of results of
-`anymesh eval`, or a data set as it names one, which is evaluated into a folder of DIR first: end to end, and with its parts
-given. Results end to end give precision and coverage of the written joints against P, with intervals by a bootstrap over kinds
-of objects (95 %), per place and together. Results with parts given say how often the true joint is among the first
-articulations, and how far their weights are from that.
+`python -m benchmarks.precision PLACE... [--work DIR] [--validation N] [--seed S] [--fit] [--markdown FILE]`. A place is a
+folder of results of `anymesh eval`, or a data set as it names one, which is evaluated into a folder of DIR first: end to end,
+and with its parts given. Results end to end give precision and coverage of the written joints against P, with intervals by a
+bootstrap over kinds of objects (95 %), per place and together. Results with parts given say how often the true joint is among
+the first articulations, and how far their weights are from that.
 
 --fit fits the numbers of src/anymesh/correcting/calibration.json to half of the kinds, which the seed chooses, writes them, and
 reports the other half. Refit them after the classifiers, on what is left out of training.
@@ -24,6 +24,7 @@ from scipy.optimize import minimize_scalar
 
 from anymesh.correcting.articulations import calibration
 from anymesh.correcting.proposals import combined
+from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.evaluate_sample import EvalProtocol
 from anymesh.evaluation.evaluating import evaluate
 from anymesh.evaluation.record import SETTINGS, record_of
@@ -32,6 +33,7 @@ from anymesh.names import legal_name
 from anymesh.runtime import usable_cores
 from benchmarks import ROOT, made_with, parser_of, table_head, table_row
 from training.calibration import Scored, fit_confidence, log_odds
+from training.splits import Use, first_of_kinds
 
 NUMBERS = ROOT / "src" / "anymesh" / "correcting" / "calibration.json"
 PRECISIONS = (0.0, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9)
@@ -185,14 +187,15 @@ def half(kinds: Sequence[str], seed: int) -> set[str]:
     return set(order[: len(order) // 2].tolist())
 
 
-def folders_of(place: str, work: Path) -> Iterator[tuple[str, Path]]:
-    """Yield the protocol and the folder of the results of a place; a data set is evaluated first."""
+def folders_of(place: str, work: Path, validation: int = 0) -> Iterator[tuple[str, Path]]:
+    """Yield the protocol and the folder of the results of a place; a data set is evaluated first, as `--validation` says."""
     if (Path(place) / SETTINGS).is_file():
         yield json.loads((Path(place) / SETTINGS).read_text(encoding="utf-8"))["protocol"], Path(place)
         return
+    only = first_of_kinds(Use.VALIDATION, open_dataset(place).objects(), validation) if validation else []
     for protocol in (EvalProtocol.END_TO_END, EvalProtocol.PARTS):
         folder = work / f"{legal_name(place)}-{protocol}"
-        evaluate(place, folder, protocol=protocol, jobs=usable_cores())
+        evaluate(place, folder, protocol=protocol, only=only, jobs=usable_cores())
         yield protocol, folder
 
 
@@ -230,12 +233,13 @@ def main() -> None:
     parser.add_argument("places", nargs="+", metavar="PLACE")
     parser.add_argument("--work", type=Path, default=Path("out/precision"), metavar="DIR")
     parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--validation", type=int, default=0, metavar="N", help="first objects of each kind for validation only")
     parser.add_argument("--fit", action="store_true", help="fit the numbers of the weights to half of the kinds")
     parser.add_argument("--markdown", type=Path, metavar="FILE")
     options: argparse.Namespace = parser.parse_args()
     results: dict[str, list[Place]] = {}
     for place in options.places:
-        for protocol, folder in folders_of(place, options.work):
+        for protocol, folder in folders_of(place, options.work, options.validation):
             results.setdefault(protocol, []).append(Place.of(folder))
     text = report(results, options.seed, fit=options.fit)
     print(text)

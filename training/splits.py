@@ -38,6 +38,14 @@ def use_of(kind: str) -> Use:
     return Use.SEALED if int(sha256(f"sealed {kind}".encode()).hexdigest(), 16) % SEALED_SHARE == 0 else Use.TRAIN
 
 
+def first_of_kinds(use: Use, names: Sequence[str], count: int) -> list[str]:
+    """Return the names of the first objects of each kind of Articraft for a use. names: KIND__NN, sorted."""
+    of_kind: dict[str, list[str]] = {}
+    for name in names:
+        of_kind.setdefault(name.rsplit("__", 1)[0], []).append(name)
+    return [name for kind, some in of_kind.items() if use_of(kind) is use for name in some[:count]]
+
+
 class OfKind(Protocol):
     """Rows of an object."""
 

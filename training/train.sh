@@ -40,4 +40,4 @@ python -m training.train_motions "$work/motions" --write
 
 python -m training.learning_curve "$work/parts"
 python -m training.learning_curve "$work/parts" --ablation
-python -m benchmarks.precision "labelled:$1" --fit
+python -m benchmarks.precision "labelled:$1" --validation 3 --fit
