@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from assets import box
@@ -10,6 +12,7 @@ from sunk import Sunk, chest, cupboard, objects, oven
 
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.rank_motions import fits_label
+from anymesh.names import GIVEN as GIVEN_NAME
 from anymesh.pipeline.solving import Solver
 from anymesh.types import JointType
 
@@ -19,6 +22,7 @@ GIVEN = {
     "oven": oven(knobs=2),
     "doors": cupboard(sunk=0.03, proud=0.02),
 }
+NAMED = {"plain"}  # slabs without a handle, which may also be panels that slide sideways: their names decide
 FOUND = {"topped": chest((0.5, 0.45, 0.5), (2, 1), 0.03, 0.02, "", extra="legs, top")}
 
 
@@ -27,6 +31,8 @@ FOUND = {"topped": chest((0.5, 0.45, 0.5), (2, 1), 0.03, 0.02, "", extra="legs, 
 def test_given_parts_move_out(name: str, bare: bool) -> None:
     thing = GIVEN[name]
     mesh, parts = thing.mesh(bare=bare)
+    if name in NAMED:
+        parts = replace(parts, parts=tuple(replace(p, label=p.name.partition("_")[0], reason=GIVEN_NAME) for p in parts.parts))
     joints = Solver(mesh).joints(parts).joints
     assert [j.child for j in joints if not thing.is_right(j.child, j)] == []
 
