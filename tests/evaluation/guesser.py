@@ -99,7 +99,8 @@ class Guesser:
         for k, label in enumerate(labels):
             drawn = {"label": label, "parent": str(rng.choice([BASE, *labels[: k + 1]]))}
             limits = {"lower": -float(rng.integers(0, 30)), "upper": float(rng.integers(1, 180))}
-            parts.append(cast(dict[str, Any], self._drawn(row, {})) | drawn | limits)
+            part = cast(dict[str, Any], self._drawn(row, {})) | drawn | limits
+            parts.append(part | {"lower": 0.0, "upper": 0.0} if part["moves"] == "continuous" else part)
         size = float(10 ** rng.uniform(-1.5, 0.7))
         front = int(rng.integers(0, len(question.azimuths) + 1))
         return self._drawn(question.schema(), {}) | {

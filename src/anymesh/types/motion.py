@@ -79,7 +79,7 @@ class Sweep:
 
 
 @dataclass(frozen=True)
-class Handle:
+class Handle(Brief):
     """A handle that protrudes from a part's outer face.
 
     across: (2,) position on the face, -1..1 along the face's long and short side; along: side that it is parallel to (0 long, 1

@@ -183,7 +183,8 @@ def test_a_call_about_marks_has_up_to_sixteen_pictures_and_joins_the_parts_of_al
     views = [drawn_view(np.where(blocks(64, (0, 0, 20, 20)) == 0, k, -1)) for k in range(35)]
     who = Answers()
     names = [f"{'inside' if k == 34 else 'view'} {k}" for k in range(35)]
-    found = ask_exact(asking(who, CUBE), Marks(np.arange(1, 36)), views, names, lambda marks, some: marks)
+    mesh = mesh_of([box((k, 0, 0), (k + 0.5, 1, 1)) for k in range(3)])[0]  # of 36 faces
+    found = ask_exact(asking(who, mesh), Marks(np.r_[1:36, -1]), views, names, lambda marks, some: marks)
     assert who.sizes == [16, 16, 3]
     assert who.insides == [False, False, True]
     assert found.parts == (MarkedPart("door", 1, None, tuple(range(1, 36))),)

@@ -16,6 +16,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.runtime import cache_folder, write_whole
+from anymesh.types import Brief
 
 RELIABILITIES = (0.97, 0.9, 0.7, 0.4, 0.1)
 SHARES = (0.55, 0.27, 0.1, 0.05, 0.03)  # of answerers with each reliability, before any of their answers is known
@@ -28,7 +29,7 @@ ProbeCount = tuple[str, int, int, float]  # kind of question, right answers, ans
 
 
 @dataclass(frozen=True, eq=False)
-class Trust:
+class Trust(Brief):
     """Reliabilities that an answerer may have in the four answers that are weighed, and how likely each combination is.
 
     grid: the reliabilities; levels: indices into them; weights: logarithms of probabilities.

@@ -105,13 +105,15 @@ class RecognizeForm(Form):
         self.machine = answer.get("machine", False)
         self.category, self.longest, self.front = answer["category"], float(answer["longest_side_m"]), int(answer["front"])
         self.rows = [
-            LabelRow(p["label"], p["moves"], p["parent"], round(p["lower"], 1), round(p["upper"], 1), p.get("count", 0))
+            LabelRow(
+                p["label"], p["moves"], p["parent"], round(float(p["lower"]), 1), round(float(p["upper"]), 1), p.get("count", 0)
+            )
             for p in answer["parts"]
         ]
 
     def answer(self) -> dict[str, Any]:
         rows = [
-            {**asdict(r), "lower": 0, "upper": 0} if r.moves == JointType.CONTINUOUS.value else asdict(r) for r in self.rows
+            {**asdict(r), "lower": 0.0, "upper": 0.0} if r.moves == JointType.CONTINUOUS.value else asdict(r) for r in self.rows
         ]
         object_ = {"category": self.category, "longest_side_m": self.longest, "front": self.front, "machine": self.machine}
         return {**object_, "parts": rows}
