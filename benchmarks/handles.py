@@ -1,4 +1,4 @@
-"""Every joint of some assets, opened by a floating gripper that knows the frame of its handle in asset.json alone.
+"""Every joint of some assets, opened by a floating gripper that is given only the frame of its handle in asset.json.
 
     python -m benchmarks.handles FOLDER [--out TABLE.md]
 

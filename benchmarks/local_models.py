@@ -33,7 +33,7 @@ HEAD = """# Models that are often wrong
 
 `python -m benchmarks.local_models{names} --markdown FILE`: ground truth answers the questions of `--pictures few` about shipped
 examples, end to end; each mark, motion, kind of joint and point is wrong with probability P, each recognized kind of part with
-half of it. Which P stands for which model is an estimate, as nobody published rates for these questions. The nearest that is
+half of it. Which P stands for which model is an estimate, as no rates are published for these questions. The nearest that is
 published: of questions about several pictures, open models trained on single ones are right on less than 33 %, GPT-4o on 68 %
 ([MuirBench](https://arxiv.org/abs/2406.09411)); of perceptual questions with marked pictures
 ([BLINK](https://arxiv.org/abs/2404.12390)), models of 7 to 17 billion parameters of 2023 on 31 to 42 %, where guessing gives
@@ -48,7 +48,7 @@ COLUMNS = ("answers", "probe", "recall", "right of true", "right of written", "p
 
 
 class Known:
-    """Answerer that knows the answers to the questions of the probe."""
+    """Answerer that has the answers to the questions of the probe."""
 
     name = "known"
     exchanges: tuple[Exchange, ...] = ()

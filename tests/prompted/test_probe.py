@@ -43,7 +43,7 @@ def questions() -> Iterator[list[KnownQuestion]]:
 
 
 class Known:
-    """Answerer that knows the answers."""
+    """Answerer that has the answers."""
 
     name = "known"
     exchanges: tuple[Exchange, ...] = ()
@@ -134,7 +134,7 @@ def test_the_confidence_in_marked_parts_follows_the_marks_that_were_right() -> N
 
 
 class Told:
-    """Model that knows the answers by their text."""
+    """Model that has the answers by their text."""
 
     name = NAME
 

@@ -97,7 +97,7 @@ class UnansweredError(Exception):
 class _Refuses:
     """Fallback of a model that is probed."""
 
-    name, exchanges, warnings = "nobody", (), ()
+    name, exchanges, warnings = "none", (), ()
 
     def ask(self, question: Question[Answer]) -> Answer:
         raise UnansweredError(question.kind)
