@@ -54,8 +54,9 @@ the same way when their surfaces, and with them regions and pictures, were found
 joints were answered before the picture was seen.
 Since then questions changed: kinds and motions are one question, which leaves out joints that geometry is sure of; kinds
 have counts and marks equals; points are drawn in two views. All questions about 002 to 009, 013 and 014 (end to end) were
-answered anew, by a general model, from their pictures alone. It had read this page before, and with it names and results,
-but no labels and no joints; 001, 024 and 027 were left out, as this page tells the truth about them. The others do not
+answered anew, by a general model, from their pictures. It had read this page before, and with it names, results and numbers
+of joints, and had seen the scores of earlier objects before 009, 013 and 014;
+001, 024 and 027 were left out, as this page tells the truth about them. The others do not
 replay until they are answered anew; the exceptions are 018, 022 and 065, whose points in two views were answered by an
 answerer who had seen the examples before. With parts given, nothing was answered anew.
 
