@@ -8,27 +8,39 @@ process and its children. Works: import, help, examples, boards, shelf and chand
 gear), pot (by faces; peak memory too), visual (the prompted road with the reference answerer), annotate (the examples on two
 cores), and every --data: COUNT meshes of a folder, evenly spaced by name. --quick takes a few small ones. Slope: exponent of
 the growth of the processor time with the size, sizes below a tenth of the largest left out. Writes benchmarks/reports/speed.md.
+
+python -m benchmarks.speed --count [--renew]
+
+Counts the work on three objects (`benchmarks/recordings/work.json`) and fails where a count is over 1.2 times the recorded one:
+rays and calls of the ray caster, points and calls of exact distances, candidates with features, and calls of Python functions.
+--renew records the present counts.
 """
 
 from __future__ import annotations
 
 import argparse
+import cProfile
+import json
 import os
+import pstats
 import subprocess
 import sys
 import tempfile
+from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 from typing import Any
+from unittest.mock import patch
 
 import numpy as np
 import trimesh
 from trimesh.creation import box, cylinder, icosphere, revolve, torus
 from trimesh.util import concatenate
 
-from benchmarks import EXAMPLES, REPORTS, ROOT, made_with, parser_of, table_head, table_row, worktree
+from benchmarks import EXAMPLES, RECORDINGS, REPORTS, ROOT, made_with, parser_of, table_head, table_row, worktree
 
 Z_TO_Y = np.array([[1.0, 0, 0, 0], [0, 0, 1, 0], [0, -1, 0, 0], [0, 0, 0, 1]])  # GLB files are Y up
 LIMIT = 1200.0  # [s] for one process
@@ -42,7 +54,10 @@ RING = 40  # items on one board of a shelf
 SIDES = 256  # of a smooth solid
 TEETH = 24  # of a cycloidal gear
 MESHES = (".glb", ".gltf", ".obj", ".ply", ".stl", ".off", ".dae", ".fbx", ".usd", ".usdz")
+WORK = RECORDINGS / "work.json"
+COUNTED = ("table", "drill", "toy_car")
 CLI = ("-m", "anymesh.cli")
+MAX_MORE = 1.2  # a count may be so many times the recorded one
 
 
 def pot(faces: int) -> trimesh.Trimesh:
@@ -263,15 +278,85 @@ def write(lines: list[str], how: argparse.Namespace) -> None:
     (REPORTS / "speed.md").write_text("\n".join([*head, *rows, "", *slopes, ""]), encoding="utf-8")
 
 
+def counts(name: str) -> dict[str, int]:
+    """Count the work of one example in this process; child processes do not count."""
+    from anymesh import articulate
+    from anymesh.geometry.distance_ import TriangleTree
+    from anymesh.geometry.raycast_ import RayScene
+    from anymesh.segmentation import segment
+
+    found: Counter[str] = Counter()
+
+    def counted(function: Callable[..., Any], calls: str, size: str = "") -> Callable[..., Any]:
+        def call(*arguments: Any, **named: Any) -> Any:
+            found[calls] += 1
+            if size:
+                found[size] += len(arguments[1])
+            return function(*arguments, **named)
+
+        return call
+
+    profile = cProfile.Profile()
+    with ExitStack() as stack, tempfile.TemporaryDirectory() as folder:
+        stack.enter_context(patch.dict(os.environ, {"ANYMESH_CACHE": f"{folder}/cache"}))
+        stack.enter_context(patch.object(RayScene, "first_hit", counted(RayScene.first_hit, "ray calls", "rays")))
+        stack.enter_context(patch.object(TriangleTree, "nearest", counted(TriangleTree.nearest, "distance calls", "distances")))
+        stack.enter_context(patch.object(segment, "part_features", counted(segment.part_features, "candidate features")))
+        stack.enter_context(patch.object(segment, "ThreadPoolExecutor", InTurn))
+        profile.runcall(articulate, EXAMPLES / "meshes" / f"{name}.glb", Path(folder) / name)
+    found["python calls"] = sum(calls for _, calls, *_ in pstats.Stats(profile).stats.values())  # ty: ignore[unresolved-attribute]
+    return dict(found)
+
+
+class InTurn:
+    """A pool without threads, which a profile would not see into."""
+
+    def __init__(self, _size: int) -> None: ...
+
+    def __enter__(self) -> InTurn:
+        return self
+
+    def __exit__(self, *_: object) -> None: ...
+
+    map = staticmethod(map)
+
+
+def count(renew: bool) -> None:
+    """Compare the counts with the recorded ones, or record them. Raises SystemExit where one has grown too much."""
+    counts(COUNTED[0])  # imports, and what is kept between runs
+    now = {name: counts(name) for name in COUNTED}
+    if renew:
+        WORK.write_text(json.dumps(now, indent=1) + "\n", encoding="utf-8")
+        return
+    known = json.loads(WORK.read_text(encoding="utf-8"))
+    more = [
+        f"{name}: {amount} {what}, recorded {known[name].get(what, 0)}"
+        for name, found in now.items()
+        for what, amount in found.items()
+        if amount > MAX_MORE * known[name].get(what, 0)
+    ]
+    if more:
+        what_to_do = "find what does it (cProfile); where it must be, say so in the commit and run with --count --renew"
+        raise SystemExit("\n".join([f"more than {MAX_MORE:g} times the recorded work; {what_to_do}:", *more]))
+
+
 def main() -> None:
-    """Compare times with a revision."""
+    """Compare times with a revision, or count work."""
     parser = parser_of(__doc__)
-    parser.add_argument("--against", metavar="REV", required=True)
+    parser.add_argument("--against", metavar="REV")
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--only", nargs="+", choices=WORKS)
     parser.add_argument("--pairs", type=int, default=5)
     parser.add_argument("--data", nargs="+", default=[], metavar="NAME=FOLDER[:COUNT]")
-    compare(parser.parse_args())
+    parser.add_argument("--count", action="store_true")
+    parser.add_argument("--renew", action="store_true")
+    how = parser.parse_args()
+    if how.count:
+        count(how.renew)
+    elif how.against:
+        compare(how)
+    else:
+        parser.error("one of --against and --count is needed")
 
 
 if __name__ == "__main__":

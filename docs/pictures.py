@@ -175,7 +175,7 @@ def draw_tutorials(images: Path) -> None:
         for picture, name in PREVIEWS.items():
             shutil.copyfile(work / "all" / name / "preview.png", images / picture)
     for exchange in asked("laptop"):
-        if exchange.kind in ("marks", "points", "motions"):
+        if exchange.kind in ("marks", "motions"):
             (images / "tutorials" / f"{exchange.kind}.png").write_bytes(question_sheet(list(exchange.pictures)).png)
 
 
