@@ -4,6 +4,7 @@ import io
 import json
 import shutil
 from pathlib import Path
+from threading import Event
 from typing import ClassVar
 
 import numpy as np
@@ -33,7 +34,7 @@ class FakeWork(tools.ArticulationWork):
 
     def __init__(self, mesh: Path, out: Path, *, answerer: str, **options: object) -> None:
         self.folder, self.stage, self.item = Path(answerer.removeprefix("files:")), "segment", ""
-        self.done, self.cancelled, self.error = False, False, None
+        self.done, self.cancelled, self.error, self.ended = False, False, None, Event()
         FakeWork.started.append(self)
 
     def wait(self, seconds: float) -> None:
@@ -47,6 +48,7 @@ class FakeWork(tools.ArticulationWork):
 
     def cancel(self) -> None:
         self.cancelled = True
+        self.ended.set()
 
 
 @pytest.fixture
@@ -115,5 +117,4 @@ def test_an_idle_run_is_ended(runs, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(tools, "MAX_IDLE", 0.01)
     runs()
     (work,) = FakeWork.started
-    while not work.cancelled:
-        pass
+    assert work.ended.wait(10)

@@ -26,9 +26,10 @@ from anymesh.prompted.models.reliability import confidence_in_marks, interval, k
 from anymesh.prompted.models.vision import Reply, Request
 from anymesh.prompted.probe import KnownQuestion, UnansweredError, compared, known_objects, known_questions, probe, probe_model
 from anymesh.prompted.questions.saved_question import answer_object
-from anymesh.types import Exchange, JointType
+from anymesh.types import JointType
 from anymesh.types.motion import RecognizedLabel
 from anymesh.types.questions import Answer, Question
+from benchmarks.local_models import Known
 
 NAME = "openai-compatible:http://127.0.0.1:9/v1#m"
 COUNTS = (("marks", 2, 7, 0.0), ("motions", 0, 4, 0.1))
@@ -40,20 +41,6 @@ def questions() -> Iterator[list[KnownQuestion]]:
     window = next(known for known in known_objects() if known.name == "window")
     with smaller(120, 4_000), patch.object(probing, "known_objects", lambda: [window]):
         yield list(known_questions())
-
-
-class Known:
-    """Answerer that has the answers."""
-
-    name = "known"
-    exchanges: tuple[Exchange, ...] = ()
-    warnings: tuple[str, ...] = ()
-
-    def __init__(self, questions: list[KnownQuestion]) -> None:
-        self._answers = {id(asked): answer for q in questions for asked, answer in q.calls}
-
-    def ask(self, question: Question[Answer]) -> Any:
-        return self._answers[id(question)]
 
 
 class Silent(Known):
