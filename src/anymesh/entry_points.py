@@ -42,7 +42,8 @@ REMEDY = "formats.advice:remedy"
 ADVISE = "formats.advice:advise"
 ADVISE_ON_CONTENT = "formats.advice:advise_on_content"
 
-# The writers of USD and SDF, the visuals of DAE, and the physics of glTF.
+# The writers of MJCF, USD and SDF, the visuals of DAE, and the physics of glTF.
+WRITE_MJCF = "formats.mjcf.writer_:write_mjcf"
 WRITE_USD = "openusd.writer_:write_usd"
 WRITE_USDZ = "openusd.writer_:write_usdz"
 WRITE_SIMREADY = "openusd.simready_:write_simready"

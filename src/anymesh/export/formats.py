@@ -6,9 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
-from anymesh.entry_points import GLTF_PHYSICS, LOAD_USD, WRITE_SDF, WRITE_SIMREADY, WRITE_USD, WRITE_USDZ, resolve
+from anymesh.entry_points import GLTF_PHYSICS, LOAD_USD, WRITE_MJCF, WRITE_SDF, WRITE_SIMREADY, WRITE_USD, WRITE_USDZ, resolve
 from anymesh.export.glb import glb_bytes
-from anymesh.export.mjcf_ import write_mjcf
 from anymesh.export.model import ExportConfig, Model
 from anymesh.export.options import Format, Profile
 from anymesh.export.urdf import urdf_text
@@ -54,7 +53,7 @@ def _by_name(place: str, model: Model, folder: Path, config: ExportConfig) -> No
 
 WRITERS: Mapping[Format, Writer] = {
     Format.URDF: _write_urdf,
-    Format.MJCF: write_mjcf,
+    Format.MJCF: partial(_by_name, WRITE_MJCF),
     Format.USD: partial(_by_name, WRITE_USD),
     Format.SDF: partial(_by_name, WRITE_SDF),
     Format.GLB: _write_glb,

@@ -11,9 +11,9 @@ from assets import cabinet, slanted
 from models import CONFIG, desk, model_of, with_meshes
 
 from anymesh.errors import OutputError
-from anymesh.export.mjcf_ import write_mjcf
 from anymesh.export.model import WITHIN, Exclusion, drives
 from anymesh.export.options import Base, Driven
+from anymesh.formats.mjcf.writer_ import write_mjcf
 from anymesh.types import Hull, Material
 
 
