@@ -63,11 +63,12 @@ USUAL_SIZE = "kinds.usual:usual_size"
 USUAL_PARTS = "kinds.moving_parts:usual_parts"
 DESCRIBED = "kinds.pieces:described"
 
-# Resistance, springs, catches, detents and handles of joints.
+# Resistance, springs, catches, detents, handles and states of joints.
 CHOOSE_MECHANISMS = "mechanisms.choosing:choose_mechanisms"
 RESISTANCES = "mechanisms.resisting:resistances"
 HANDLE_FRAMES = "mechanisms.handles:handle_frames"
 PARSE_MECHANISMS = "mechanisms.choosing:parse_mechanisms"
+NAMED_STATES = "mechanisms.states:named_states"
 
 # Scenes of several objects.
 SCENE_WARNING = "applications.scenes.objects:scene_warning"

@@ -27,7 +27,7 @@ TIMING_FILE = "timing.json"  # separate, so that everything else is the same in 
 
 def asset_record(model: Model) -> dict[str, Any]:
     """Return the content of asset.json as plain values."""
-    asset = model.asset
+    asset, states = model.asset, model.states
     return {
         "schema_version": SCHEMA_VERSION,
         "generator": {"name": "articulate-anymesh", "version": anymesh.__version__},
@@ -42,6 +42,7 @@ def asset_record(model: Model) -> dict[str, Any]:
         "parts": [_part(asset, body) for body in model.bodies],
         "joints": [_joint(model, joint) for joint in asset.joints],
         **({"proposals": [_proposal(asset, p) for p in asset.proposals]} if model.how.precision else {}),
+        **({"states": {name: {j: _round(v) for j, v in at.items()} for name, at in states.items()}} if states else {}),
         "no_contact": [{"links": [e.a, e.b], "reason": e.why} for e in model.exclusions],
         "answerer": asset.answerer,
         "usage": usage(asset.exchanges),

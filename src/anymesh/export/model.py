@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from anymesh.entry_points import CHOOSE_MECHANISMS, HANDLE_FRAMES, RESISTANCES, USUAL_BODIES, resolve
+from anymesh.entry_points import CHOOSE_MECHANISMS, HANDLE_FRAMES, NAMED_STATES, RESISTANCES, USUAL_BODIES, resolve
 from anymesh.export.flat_looks import losses, tiled, tinted, with_materials
 from anymesh.export.links import Link, split_links, with_legal_names
 from anymesh.export.options import Driven, ExportOptions, Shapes, Visuals
@@ -99,7 +99,8 @@ class Exclusion:
 class Model:
     """An asset with legal names and a material for each face, ready for export.
 
-    bodies: in the order of the parts, the root first; resistances: of the moving joints, by name.
+    bodies: in the order of the parts, the root first; resistances: of the moving joints, by name; states: by name, positions of
+    joints [rad or m].
     """
 
     asset: Asset
@@ -109,6 +110,7 @@ class Model:
     exclusions: tuple[Exclusion, ...] = ()
     mechanisms: Mapping[str, Mechanism] = field(default_factory=dict)
     handles: tuple[HandleFrame, ...] = ()
+    states: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
     @property
     def links(self) -> Sequence[Link]:
@@ -177,7 +179,8 @@ def build_model(
     resistances = resolve(RESISTANCES)(asset, inertias, how.resistance)
     chosen, resisting = resolve(CHOOSE_MECHANISMS)(asset, inertias, resistances, how.mechanisms)
     handles = resolve(HANDLE_FRAMES)(asset, resisting)
-    return Model(asset, tuple(bodies), resisting, how, tuple(excluded), chosen, handles)
+    states = resolve(NAMED_STATES)(asset, {b.name: b.shapes for b in bodies}, [(e.a, e.b) for e in excluded])
+    return Model(asset, tuple(bodies), resisting, how, tuple(excluded), chosen, handles, states)
 
 
 def _weighing(bodies: Sequence[ExportLink], mass: float, config: InertiaConfig) -> list[ExportLink]:

@@ -24,6 +24,7 @@ from anymesh.formats.packed import EPOCH, PLAIN_FILE
 from anymesh.names import legal_names
 from anymesh.openusd.geometry_ import add_shape, add_visual, place, quat, vec
 from anymesh.openusd.materials_ import UsdMaterials
+from anymesh.openusd.states_ import add_states
 from anymesh.physics.mechanism import HandleFrame, Mechanism
 from anymesh.physics.resistance import Resistance
 from anymesh.physics.substances import Substance
@@ -56,6 +57,7 @@ def write_usd(model: Model, folder: Path, config: ExportConfig) -> None:
     Raise MissingExtraError without OpenUSD.
     """
     stage = usd_stage(model.tinted, config, folder, FOLDER)
+    add_states(load_usd(), stage, model)
     stage.GetRootLayer().Export(str(folder / f"{model.asset.name}.usdc"))
 
 

@@ -69,10 +69,10 @@ def write_mjcf(model: Model, folder: Path, config: ExportConfig) -> None:
     for name, drive in motors.items():
         _add_drive(mujoco, spec, model, name, drive)
     try:
-        spec.compile()
+        compiled = spec.compile()
     except ValueError as error:
         raise OutputError(f"MuJoCo cannot compile {model.asset.name}: {error}") from error
-    text = with_digits(spec.to_xml(), model, motors)
+    text = with_digits(spec.to_xml(), model, motors, compiled)
     (folder / f"{model.asset.name}.xml").write_text(text, encoding="utf-8", newline="\n")
 
 
@@ -249,8 +249,8 @@ def _png(data: bytes) -> bytes:
     return file.getvalue()
 
 
-def with_digits(text: str, model: Model, motors: Mapping[str, Drive]) -> str:
-    """Return the MJCF of a model with its numbers at full precision; elements are found by name."""
+def with_digits(text: str, model: Model, motors: Mapping[str, Drive], compiled: Any) -> str:
+    """Return the MJCF of a model, as compiled, with its numbers at full precision; elements are found by name."""
     root = ElementTree.fromstring(text)
     origins = {link.name: link.origin for link in model.links}
     bodies = {element.get("name"): element for element in root.iter("body")}
@@ -275,12 +275,25 @@ def with_digits(text: str, model: Model, motors: Mapping[str, Drive]) -> str:
     if actuators is not None:
         _actuators(actuators, model, motors)
         _catches(actuators, model)
+    _add_keyframes(root, model.states, compiled)
     if credits := model.asset.source.credits:  # by MuJoCo's spec, some texts would be written as XML that is broken
         custom = ElementTree.SubElement(root, "custom")
         for key, value in credits.items():
             ElementTree.SubElement(custom, "text", name=f"credits_{key}", data=value)
     ElementTree.indent(root)
     return ElementTree.tostring(root, encoding="unicode") + "\n"
+
+
+def _add_keyframes(root: ElementTree.Element, states: Mapping[str, Mapping[str, float]], compiled: Any) -> None:
+    """Add a keyframe for each state, in which position drives are commanded to stay there."""
+    driven = [str(e.get("joint")) if e.tag == "position" else "" for e in root.iterfind("actuator/*")]
+    keys = ElementTree.SubElement(root, "keyframe") if states else root
+    for name, at in states.items():
+        qpos = compiled.qpos0.copy()
+        for joint, position in at.items():
+            qpos[compiled.joint(joint).qposadr[0]] = position
+        ctrl = {"ctrl": vector([at.get(joint, 0.0) for joint in driven])} if any(driven) else {}
+        ElementTree.SubElement(keys, "key", {"name": name, "qpos": vector(qpos), **ctrl})
 
 
 def _inertial(element: ElementTree.Element, body: ExportLink) -> None:
