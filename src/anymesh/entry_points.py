@@ -63,9 +63,10 @@ USUAL_SIZE = "kinds.usual:usual_size"
 USUAL_PARTS = "kinds.moving_parts:usual_parts"
 DESCRIBED = "kinds.pieces:described"
 
-# Resistance, springs, catches, detents, handles and states of joints.
+# Resistance, springs, catches, detents, closed loops, handles and states of joints.
 CHOOSE_MECHANISMS = "mechanisms.choosing:choose_mechanisms"
 RESISTANCES = "mechanisms.resisting:resistances"
+CLOSED = "mechanisms.closing:closed"
 HANDLE_FRAMES = "mechanisms.handles:handle_frames"
 PARSE_MECHANISMS = "mechanisms.choosing:parse_mechanisms"
 NAMED_STATES = "mechanisms.states:named_states"

@@ -14,6 +14,7 @@ import trimesh
 import yourdfpy
 from assets import cabinet, checker, mesh_of, slanted, source
 from contract import faults
+from mechanical import MECHANISMS
 from models import CONFIG, desk, model_of, with_meshes
 
 from anymesh.errors import InputError, OutputError
@@ -21,8 +22,11 @@ from anymesh.export import write_asset
 from anymesh.export.asset_json import asset_record, schema
 from anymesh.export.formats import write_formats
 from anymesh.export.links import split_links, unique_rows
+from anymesh.export.model import build_model
 from anymesh.export.options import DEFAULT, Base, ExportOptions
 from anymesh.formats.packed import check_zip, write_package, write_zip
+from anymesh.pipeline.results import JointResult
+from anymesh.pipeline.stage_files import JOINTS, read_stage, write_stage
 from anymesh.types import Asset, Hull, Part, Segmentation
 
 SHARED = Path(__file__).parents[3] / "shared" / "check_contract.py"
@@ -255,3 +259,17 @@ def test_a_zip_holds_the_folder_and_its_bytes_do_not_depend_on_when(written, tmp
     del whole["Desk__No_7/.hidden"]
     assert found == whole
     assert list(found) == sorted(found)
+
+
+@pytest.mark.parametrize("make", MECHANISMS)
+def test_mechanisms_are_stated_by_the_schema_and_kept_by_stages(make, tmp_path):
+    asset = make()
+    model = build_model(asset, ExportOptions(), config=CONFIG, cache=None)
+    record = asset_record(model)
+    jsonschema.Draft202012Validator(schema()).validate(record)
+    assert [j.get("mimic", {}).get("joint") for j in record["joints"]] == [j.mimic and j.mimic.joint for j in asset.joints]
+    write_stage(tmp_path, JOINTS, "key", JointResult(asset.joints, "geometry", loops=asset.loops))
+    again = read_stage(tmp_path, JOINTS, "key")
+    assert again is not None
+    assert list(map(repr, again.joints + again.loops)) == list(map(repr, asset.joints + asset.loops))
+    assert [(j.mimic, j.pitch) for j in again.joints] == [(j.mimic, j.pitch) for j in asset.joints]

@@ -189,7 +189,7 @@ def save_asset(opened: Opened) -> Opened:
 def _write(run: RunFolder, history: History) -> None:
     stage, log, asset = run.editing(), pack_log(history.done), history.asset
     key = stage_key(stage, previous=run.last_key(edited=False), config={"log": log})
-    run.save(stage, key, CorrectionResult(asset.segmentation, asset.joints, asset.warnings, tuple(log)))
+    run.save(stage, key, CorrectionResult(asset.segmentation, asset.joints, asset.warnings, tuple(log), asset.loops))
     with run.timed("export"):
         how = run.how()
         write_asset(run.asset(), run.folder, how, cache=cache_folder("shapes"))

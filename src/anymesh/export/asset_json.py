@@ -18,7 +18,7 @@ from anymesh.export.options import Format
 from anymesh.physics.mechanism import HandleFrame, Mechanism
 from anymesh.physics.resistance import Resistance
 from anymesh.rendering.viewpoints import away
-from anymesh.types import Asset, Exchange, Joint, ProposedJoint, Source
+from anymesh.types import Asset, Exchange, Joint, Loop, ProposedJoint, Source
 
 SCHEMA_VERSION = "1.4"
 STATED = ("name", "density", "static_friction", "dynamic_friction", "restitution")  # of substances
@@ -41,6 +41,7 @@ def asset_record(model: Model) -> dict[str, Any]:
         "mass_range": [_round(sum(b.inertia.mass * b.inertia.spread[k] for b in model.bodies)) for k in (0, 1)],
         "parts": [_part(asset, body) for body in model.bodies],
         "joints": [_joint(model, joint) for joint in asset.joints],
+        **({"loops": [_loop(loop) for loop in asset.loops]} if asset.loops else {}),
         **({"proposals": [_proposal(asset, p) for p in asset.proposals]} if model.how.precision else {}),
         **({"states": {name: {j: _round(v) for j, v in at.items()} for name, at in states.items()}} if states else {}),
         "no_contact": [{"links": [e.a, e.b], "reason": e.why} for e in model.exclusions],
@@ -126,13 +127,21 @@ def _motion(joint: Joint) -> dict[str, Any]:
     axis = {"origin": [_round(v) for v in joint.origin], "axis": [_round(v) for v in joint.axis]}
     limits = None if joint.limits is None else [_round(v) for v in joint.limits]
     links = {"parent": joint.parent, "child": joint.child}
-    return {"name": joint.name, "type": str(joint.type), **links, **axis, "limits": limits}
+    more: dict[str, Any] = {"pitch": _round(joint.pitch)} if joint.pitch else {}
+    if (m := joint.mimic) is not None:
+        more |= {"mimic": {"joint": m.joint, "ratio": _round(m.ratio), "offset": _round(m.offset)}}
+    return {"name": joint.name, "type": str(joint.type), **links, **axis, "limits": limits, **more}
+
+
+def _loop(loop: Loop) -> dict[str, Any]:
+    place = {"origin": [_round(v) for v in loop.origin], "axis": [_round(v) for v in loop.axis]}
+    return {"name": loop.name, "type": str(loop.kind), "links": [loop.first, loop.second], **place}
 
 
 def _certainty(joint: Joint) -> dict[str, Any]:
     """Return confidence and reason, and the weighted articulations where there are several: the joint's own first."""
     every = [_motion(way) | {"weight": _round(way.confidence)} for way in (joint, *joint.others)]
-    ways = [{k: way[k] for k in ("weight", "type", "origin", "axis", "limits")} for way in every]
+    ways = [{k: way[k] for k in ("weight", "type", "origin", "axis", "limits", "pitch") if k in way} for way in every]
     articulations = {"articulations": ways} if joint.others else {}
     return {"confidence": _round(joint.confidence), "reason": joint.reason, **articulations}
 

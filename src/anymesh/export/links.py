@@ -55,17 +55,28 @@ def with_legal_names(asset: Asset) -> Asset:
     """Return the asset with names that are legal in every format and file system; it is returned unchanged if they are."""
     parts = asset.segmentation.parts
     renamed = dict(zip((p.name for p in parts), legal_names([p.name for p in parts]), strict=True))
-    joints = legal_names([j.name for j in asset.joints], fallback="joint")
+    named = [*(j.name for j in asset.joints), *(loop.name for loop in asset.loops)]
+    joints = legal_names(named, fallback="joint")
     name = legal_name(asset.name, fallback="asset")
-    if name == asset.name and list(renamed) == list(renamed.values()) and joints == [j.name for j in asset.joints]:
+    if name == asset.name and list(renamed) == list(renamed.values()) and joints == named:
         return asset
+    new = dict(zip(named, joints, strict=True))
     return replace(
         asset,
         name=name,
         segmentation=replace(asset.segmentation, parts=tuple(replace(p, name=renamed[p.name]) for p in parts)),
         joints=tuple(
-            replace(j, name=new, parent=renamed[j.parent], child=renamed[j.child])
-            for j, new in zip(asset.joints, joints, strict=True)
+            replace(
+                j,
+                name=new[j.name],
+                parent=renamed[j.parent],
+                child=renamed[j.child],
+                mimic=j.mimic and replace(j.mimic, joint=new[j.mimic.joint]),
+            )
+            for j in asset.joints
+        ),
+        loops=tuple(
+            replace(loop, name=new[loop.name], first=renamed[loop.first], second=renamed[loop.second]) for loop in asset.loops
         ),
     )
 

@@ -25,13 +25,14 @@ from anymesh.physics.mechanism import HandleFrame, Mechanism
 from anymesh.physics.resistance import Resistance, crossing
 from anymesh.physics.substances import Substance, substance_of, usual_substance
 from anymesh.runtime import Deadline
-from anymesh.types import Asset, Hull, Joint, Mesh, Shape
+from anymesh.types import Asset, Hull, Joint, JointType, Mesh, Shape
 from anymesh.types.triangles import normals_and_areas
 
 FOLDER = "meshes"
 VOTERS = 5000  # maximum number of triangles that decide on the substances of shapes
 OVERLAP = "their surfaces overlap at rest"
 TIGHT = "their collision shapes touch where the surfaces do not, or while one moves"
+LOOPED = "a loop joins them"
 WITHIN = 0.02  # of a joint's range: maximum steady-state error of a drive under its load
 
 
@@ -175,6 +176,8 @@ def build_model(
     asset = replace(asset, warnings=tuple(dict.fromkeys((*asset.warnings, *doubts))))
     excluded = [Exclusion(a, b, OVERLAP) for a, b in collision.overlapping]
     excluded += [Exclusion(a, b, TIGHT) for a, b in collision.tight]
+    apart = {pair for e in excluded for pair in ((e.a, e.b), (e.b, e.a))}
+    excluded += [Exclusion(a, b, LOOPED) for a, b in sorted({(loop.first, loop.second) for loop in asset.loops} - apart)]
     inertias = {body.name: body.inertia for body in bodies}
     resistances = resolve(RESISTANCES)(asset, inertias, how.resistance)
     chosen, resisting = resolve(CHOOSE_MECHANISMS)(asset, inertias, resistances, how.mechanisms)
@@ -225,19 +228,21 @@ class Drive:
 
 
 def drives(model: Model) -> Mapping[str, Drive]:
-    """Return a drive for each moving joint, by name. A passive one has neither stiffness nor damping.
+    """Return a drive for each moving joint that follows none, by name. A passive one has neither stiffness nor damping.
 
     Damping over stiffness is the time in which the joint crosses its range at its velocity, at least .1 s.
     The stiffness keeps the error due to friction and weight within a share of the range. It is at least that of critical
     damping, so that no drive oscillates or overshoots.
     """
-    if model.how.drives is Driven.PASSIVE:
-        return {name: Drive(0.0, 0.0, r.effort) for name, r in model.resistances.items()}
-    return {j.name: _drive(j, model.resistances[j.name]) for j in model.asset.joints if j.name in model.resistances}
+    resisting = {j: r for j in model.asset.joints if (r := model.resistances.get(j.name))}
+    leading = {j: r for j, r in resisting.items() if j.mimic is None and j.type is not JointType.BALL}
+    return {j.name: _drive(j, r, passive=model.how.drives is Driven.PASSIVE) for j, r in leading.items()}
 
 
-def _drive(joint: Joint, r: Resistance) -> Drive:
-    span = 2 * np.pi if joint.limits is None else joint.limits[1] - joint.limits[0]
+def _drive(joint: Joint, r: Resistance, *, passive: bool) -> Drive:
+    if passive:
+        return Drive(0.0, 0.0, r.effort)
+    span = joint.span[1] - joint.span[0]
     seconds = crossing(joint, r.velocity)
     stiffness = max(4 * (r.inertia + r.armature) / seconds**2, (r.friction + r.load) / (WITHIN * span))
     return Drive(float(stiffness), float(stiffness * seconds), r.effort)

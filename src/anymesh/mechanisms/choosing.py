@@ -11,7 +11,7 @@ from anymesh.errors import OptionError
 from anymesh.physics.inertia import Inertia
 from anymesh.physics.mechanism import Mechanism, MechanismKind
 from anymesh.physics.resistance import GRAVITY, Resistance
-from anymesh.types import Asset, Joint, JointType, Part
+from anymesh.types import MOVING, Asset, Joint, JointType, Part
 from anymesh.vocabulary import recognize, words_of
 
 SURE = 0.8  # minimum confidence of what is written unasked
@@ -81,7 +81,9 @@ def choose_mechanisms(
     """
     asked, parts, resisting = parse_mechanisms(choice), {p.name: p for p in asset.segmentation.parts}, dict(resistances)
     chosen: dict[str, Mechanism] = {}
-    for joint in [] if choice == "off" else [j for j in asset.joints if j.name in resisting]:
+    for joint in (
+        [] if choice == "off" else [j for j in asset.joints if j.name in resisting and j.type in MOVING and j.mimic is None]
+    ):
         part = parts[joint.child]
         rule, reason = _usual(f"{asset.name} {asset.category}", part, joint) if asked is None else _asked(part, joint, asked)
         if rule is not None and (rule.confidence >= SURE or choice == "all"):

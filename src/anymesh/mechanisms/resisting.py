@@ -6,11 +6,12 @@ Sources of the values: docs/resistance.md.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.geometry.kinematics import joint_motion
 from anymesh.mechanisms.handles import find_protrusion
 from anymesh.physics.inertia import Inertia
 from anymesh.physics.resistance import GRAVITY, FoundHandle, Pull, Resistance, ResistanceLevel, crossing
@@ -84,7 +85,8 @@ WORDS = {
     "rotor": "rotor propeller fan blade turbine", "turntable": "turntable carousel", "lever": "handle",
 }  # fmt: skip
 BY_WORD = {word: name for name, words in WORDS.items() for word in words.split()}
-BY_TYPE = {JointType.PRISMATIC: "slide", JointType.REVOLUTE: "hinge", JointType.CONTINUOUS: "spin"}
+ENDLESS = (JointType.CONTINUOUS, JointType.SCREW)
+BY_TYPE = {JointType.PRISMATIC: "slide", JointType.REVOLUTE: "hinge"}  # others: "spin"
 SLIDING = {"knob": "button", "tap": "button", "crank": "slide", "wheel": "slide", "rotor": "slide", "turntable": "slide"}
 WHEELED = frozenset(("tire", "tyre", "caster", "castor"))
 FOLDING = frozenset(("laptop", "notebook", "netbook"))  # objects whose lids have friction hinges
@@ -105,12 +107,12 @@ def kind_of(asset: Asset, joint: Joint) -> str:
     word = recognize(part.label) or recognize(part.name)
     kind = next((BY_WORD[w] for w in reversed(words) if w in BY_WORD), word.label if word else "")
     if kind == "lid":
-        kind = "screen" if FOLDING & {*words, *whole} else "tap" if joint.type is JointType.CONTINUOUS else kind
+        kind = "screen" if FOLDING & {*words, *whole} else "tap" if joint.type in ENDLESS else kind
     if kind == "wheel" and not WHEELED & {*words, *whole}:  # a valve's, a fan's
         kind = next((BY_WORD[w] for w in whole if w in BY_WORD), kind)
     if joint.type is JointType.PRISMATIC:
         kind = SLIDING.get(kind, kind)
-    return kind if kind in KINDS else BY_TYPE[joint.type]
+    return kind if kind in KINDS else BY_TYPE.get(joint.type, "spin")
 
 
 class _Tree:
@@ -121,8 +123,8 @@ class _Tree:
         order = np.argsort(asset.segmentation.face_part, kind="stable")
         cuts = np.searchsorted(asset.segmentation.face_part[order], np.arange(1, len(self.labels)))
         self.triangles = dict(zip(self.labels, (mesh.triangles[own] for own in np.split(order, cuts)), strict=True))
-        self.carriers = {j.child: j for j in asset.joints}
-        self.joints = [j for j in asset.joints if j.type is not JointType.FIXED]
+        self.carriers = {j.child: _single(j) for j in asset.joints}
+        self.joints = [j for j in self.carriers.values() if j.type not in (JointType.FIXED, JointType.FREE)]
         origins = {j.child: j.origin for j in asset.joints}
         own = {name: _spatial(body, origins.get(name, np.zeros(3))) for name, body in inertias.items()}
         self.carried = {name: inertia.copy() for name, inertia in own.items()}
@@ -167,10 +169,21 @@ def _whole(tree: _Tree, part: str, way: Float[np.ndarray, " 3"]) -> FoundHandle:
     return FoundHandle(part, np.arange(len(tree.triangles[part])), way / max(float(np.linalg.norm(way)), 1e-12))
 
 
+def _single(joint: Joint) -> Joint:
+    """Return a joint of one axis: of a ball, across its arm, and level where that is not upright."""
+    if joint.type is not JointType.BALL:
+        return joint
+    level = np.cross(joint.axis, (0.0, 0.0, 1.0))
+    length = float(np.linalg.norm(level))
+    axis = level / length if length > UPRIGHT else joint_motion(joint).axis
+    return replace(joint, type=JointType.REVOLUTE, axis=axis, limits=joint.span)
+
+
 def _motion(joint: Joint) -> Float[np.ndarray, " 6"]:
     """Return the spatial velocity of a link per unit of its joint's speed."""
     slides = joint.type is JointType.PRISMATIC
-    return np.r_[np.zeros(3), joint.axis] if slides else np.r_[joint.axis, np.cross(joint.origin, joint.axis)]
+    along = joint.pitch / (2 * np.pi) * joint.axis
+    return np.r_[np.zeros(3), joint.axis] if slides else np.r_[joint.axis, np.cross(joint.origin, joint.axis) + along]
 
 
 class _Moved:

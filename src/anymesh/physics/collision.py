@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.entry_points import CLOSED, resolve
 from anymesh.geometry.kinematics import carried_links, joint_transform, link_transforms
 from anymesh.geometry.simplify_ import simplify
 from anymesh.isolation import ChildPool, shared_pool
@@ -19,7 +20,8 @@ from anymesh.physics.convex import as_hull, engine_shape, fitted, hull_of, thinn
 from anymesh.physics.decompose import FACES, Component, Decomposer, Fallback, Resolution, smallest_box, split_components
 from anymesh.physics.openings import Openings, merged_hulls, openings_of
 from anymesh.runtime import COLLISION, Deadline
-from anymesh.types import Asset, Joint, JointType, Shape
+from anymesh.types import Asset, Joint, Shape
+from anymesh.types.motion import STILL, leaders
 
 MAX_CROSSING_FACES = 50_000  # faces of a link for tests of crossing surfaces
 MAX_POSES, MIN_POSES = 2000, 3  # sampled poses: maximum in all, minimum per joint
@@ -154,7 +156,7 @@ def _rubbing(
 ) -> set[tuple[str, str]]:
     """Return pairs of a link and its parent that touch on the way, also between sampled poses, while the surfaces do not."""
     pairs = set()
-    for joint in (j for j in asset.joints if j.type is not JointType.FIXED):
+    for joint in (j for j in asset.joints if j.span != STILL):
         a, b = sorted((joint.parent, joint.child))
         bench = ContactBench({name: shapes[name] for name in (a, b)}, margin=scene.contact)
         way = joint_poses(asset, origins, joint, RUBBING_POSES)[1:]  # rest is no place on the way
@@ -209,25 +211,31 @@ def sampled_poses(
 ) -> list[dict[str, Float[np.ndarray, "4 4"]]]:
     """Return the poses of link frames at rest, with each joint alone over its range, and with all joints open.
 
+    Followers move with their leader, and links of loops with each other: with loops, all joints are not opened at once.
     Each joint has `count` positions, or fewer if the total would exceed MAX_POSES, but at least MIN_POSES. Links that a joint
     does not move share their transform with the rest pose.
     """
-    moving = [j for j in asset.joints if j.type is not JointType.FIXED]
+    moving = [j for j in asset.joints if j.span != STILL and j.mimic is None]
     count = int(np.clip(MAX_POSES // max(len(moving), 1), min(MIN_POSES, count), count))
     rest = _placed(asset, origins, {})
     alone = [pose for joint in moving for pose in _alone(asset, rest, joint, count)]
-    opened = {j.name: np.pi if j.limits is None else j.limits[1] for j in moving}
-    return [rest, *alone, _placed(asset, origins, opened)]
+    opened = {j.name: j.span[1] for j in moving}
+    return [rest, *alone, *([] if asset.loops else [_placed(asset, origins, opened)])]
 
 
 def _alone(
     asset: Asset, rest: dict[str, Float[np.ndarray, "4 4"]], joint: Joint, count: int
 ) -> list[dict[str, Float[np.ndarray, "4 4"]]]:
     """Return poses with one joint at positions of its range other than 0."""
-    lower, upper = (-np.pi, np.pi) if joint.limits is None else joint.limits
-    carried = carried_links(asset, joint)
-    moved = [joint_transform(joint, float(v)) for v in np.linspace(lower, upper, count) if v != 0]
-    return [rest | {name: T @ rest[name] for name in carried} for T in moved]
+    ways = leaders(asset.joints)
+    name = ways[joint.name].joint if joint.name in ways else joint.name
+    span = next(j.span for j in asset.joints if j.name == name)
+    amounts = [float(v) for v in np.linspace(*span, count) if v != 0]
+    if not ways and not asset.loops:
+        carried, moved = carried_links(asset, joint), (joint_transform(joint, amount) for amount in amounts)
+        return [rest | {name: T @ rest[name] for name in carried} for T in moved]
+    led = (link_transforms(asset, resolve(CLOSED)(asset, {name: amount})) for amount in amounts)
+    return [{link: at if (T[link] == np.eye(4)).all() else T[link] @ at for link, at in rest.items()} for T in led]
 
 
 def _placed(

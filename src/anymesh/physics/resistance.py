@@ -77,5 +77,4 @@ class Resistance:
 
 def crossing(joint: Joint, velocity: float) -> float:
     """Return the time constant of a drive [s]: in which the joint crosses its range, or a turn, at a velocity."""
-    span = 2 * np.pi if joint.limits is None else joint.limits[1] - joint.limits[0]
-    return max(span / velocity, 0.1)
+    return max((joint.span[1] - joint.span[0]) / velocity, 0.1)

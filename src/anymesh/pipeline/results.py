@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from anymesh.names import confidence_word
-from anymesh.types import Brief, Exchange, Joint, Mesh, Segmentation, Source
+from anymesh.types import Brief, Exchange, Joint, Loop, Mesh, Segmentation, Source
 from anymesh.types.motion import Recognition
 
 Record = dict[str, Any]  # a JSON object
@@ -76,6 +76,7 @@ class JointResult:
     warnings: tuple[str, ...] = ()
     exchanges: tuple[Exchange, ...] = ()
     segmentation: Segmentation | None = None
+    loops: tuple[Loop, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -104,6 +105,7 @@ class CorrectionResult:
     joints: tuple[Joint, ...]
     warnings: tuple[str, ...]
     log: tuple[Record, ...]
+    loops: tuple[Loop, ...] = ()
 
 
 def segmentation_result(

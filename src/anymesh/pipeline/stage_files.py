@@ -26,7 +26,22 @@ from anymesh.pipeline.results import (
     SegmentationResult,
 )
 from anymesh.runtime import read_json, write_json
-from anymesh.types import Asset, Exchange, Joint, JointType, Material, Mesh, Node, Part, Picture, Segmentation, Source, Texture
+from anymesh.types import (
+    Asset,
+    Exchange,
+    Joint,
+    JointType,
+    Loop,
+    Material,
+    Mesh,
+    Mimic,
+    Node,
+    Part,
+    Picture,
+    Segmentation,
+    Source,
+    Texture,
+)
 from anymesh.types.mesh import REPEAT
 from anymesh.types.motion import Recognition, RecognizedLabel, StatedJoint
 
@@ -35,6 +50,7 @@ AnyJoint = TypeVar("AnyJoint", Joint, StatedJoint)
 Arrays = Mapping[str, np.ndarray]
 MESH_ARRAYS = tuple(f.name for f in fields(Mesh) if f.name not in ("nodes", "materials", "joints"))
 USUAL = (("wrap", (REPEAT, REPEAT)), ("uv_set", 0), ("strength", 1.0), ("nearest", False), ("unlit", False))  # not stored
+UNCOUPLED = (("pitch", 0.0), ("mimic", None), ("follows", None), ("ratio", 1.0))  # of joints, not stored
 UNSAID = (("joint", -1), ("path", ()), ("pivot", None))  # of nodes, not stored
 log = logging.getLogger("anymesh")
 FOLDER = "stages"
@@ -165,8 +181,25 @@ def _unpack_segmentation(record: Record, arrays: Arrays) -> SegmentationResult:
     return SegmentationResult(segmentation, record["answerer"], tuple(record["warnings"]), exchanges)
 
 
+def _pack_loops(loops: tuple[Loop, ...]) -> Record:
+    made = [
+        asdict(loop) | {"kind": str(loop.kind), "origin": loop.origin.tolist(), "axis": loop.axis.tolist()} for loop in loops
+    ]
+    return {"loops": made} if loops else {}
+
+
+def _unpack_loops(record: Record) -> tuple[Loop, ...]:
+    def loop(stored: Record) -> Loop:
+        kind, origin, axis = JointType(stored["kind"]), *(np.array(stored[key], float) for key in ("origin", "axis"))
+        return Loop(stored["name"], stored["first"], stored["second"], origin, axis, kind)
+
+    return tuple(map(loop, record.get("loops", ())))
+
+
 def _pack_joint(joint: Joint | StatedJoint) -> Record:
     record = {f.name: getattr(joint, f.name) for f in fields(joint) if f.name != "others"}
+    record = {k: v for k, v in record.items() if (k, v) not in UNCOUPLED}
+    record |= {"mimic": asdict(record["mimic"])} if "mimic" in record else {}
     others = {"others": [_pack_joint(other) for other in joint.others]} if isinstance(joint, Joint) and joint.others else {}
     return record | others | {"type": str(joint.type), "origin": joint.origin.tolist(), "axis": joint.axis.tolist()}
 
@@ -176,6 +209,7 @@ def _unpack_joint(kind: type[AnyJoint], record: Record) -> AnyJoint:
     values: dict[str, Any] = {name: value for name, value in record.items() if name in known}
     values |= {"type": JointType(record["type"]), "limits": _limits(record)}
     values["origin"], values["axis"] = np.array(record["origin"], float), np.array(record["axis"], float)
+    values |= {"mimic": Mimic(**record["mimic"])} if "mimic" in record else {}
     if "others" in values:
         values["others"] = tuple(_unpack_joint(kind, other) for other in values["others"])
     return kind(**values)
@@ -183,12 +217,14 @@ def _unpack_joint(kind: type[AnyJoint], record: Record) -> AnyJoint:
 
 def _pack_joints(result: JointResult) -> tuple[Record, dict[str, np.ndarray]]:
     joints, (exchanges, arrays) = [*map(_pack_joint, result.joints)], _pack_exchanges(result.exchanges)
-    return {"joints": joints, "answerer": result.answerer, "warnings": [*result.warnings], "exchanges": exchanges}, arrays
+    record = {"joints": joints, "answerer": result.answerer, "warnings": [*result.warnings], "exchanges": exchanges}
+    return record | _pack_loops(result.loops), arrays
 
 
 def _unpack_joints(record: Record, arrays: Arrays) -> JointResult:
     joints = tuple(_unpack_joint(Joint, j) for j in record["joints"])
-    return JointResult(joints, record["answerer"], tuple(record["warnings"]), _unpack_exchanges(record["exchanges"], arrays))
+    exchanges = _unpack_exchanges(record["exchanges"], arrays)
+    return JointResult(joints, record["answerer"], tuple(record["warnings"]), exchanges, loops=_unpack_loops(record))
 
 
 def _pack_completed(result: CompletionResult) -> tuple[Record, dict[str, np.ndarray]]:
@@ -203,13 +239,13 @@ def _unpack_completed(record: Record, arrays: Arrays) -> CompletionResult:
 def _pack_corrected(result: CorrectionResult) -> tuple[Record, dict[str, np.ndarray]]:
     parts, joints = map(asdict, result.segmentation.parts), map(_pack_joint, result.joints)
     record = {"parts": [*parts], "joints": [*joints], "warnings": list(result.warnings), "log": list(result.log)}
-    return record, {"face_part": result.segmentation.face_part}
+    return record | _pack_loops(result.loops), {"face_part": result.segmentation.face_part}
 
 
 def _unpack_corrected(record: Record, arrays: Arrays) -> CorrectionResult:
     segmentation = Segmentation(arrays["face_part"], tuple(Part(**part) for part in record["parts"]))
     joints = tuple(_unpack_joint(Joint, j) for j in record["joints"])
-    return CorrectionResult(segmentation, joints, tuple(record["warnings"]), tuple(record["log"]))
+    return CorrectionResult(segmentation, joints, tuple(record["warnings"]), tuple(record["log"]), _unpack_loops(record))
 
 
 MESH = Stage("mesh", _pack_load, _unpack_load)
@@ -306,6 +342,7 @@ def assemble(
         mesh=loaded.mesh,
         segmentation=segmentation.segmentation,
         joints=joints.joints,
+        loops=joints.loops,
         answerer=joints.answerer,
         warnings=_once((*loaded.warnings, *recognition.warnings, *segmentation.warnings, *joints.warnings)),
         timing=timing,
@@ -326,7 +363,7 @@ def assemble(
 
 
 def _corrected(asset: Asset, by: CorrectionResult) -> Asset:
-    return replace(asset, segmentation=by.segmentation, joints=by.joints, warnings=_once(by.warnings))
+    return replace(asset, segmentation=by.segmentation, joints=by.joints, loops=by.loops, warnings=_once(by.warnings))
 
 
 def _once(warnings: tuple[str, ...]) -> tuple[str, ...]:

@@ -81,7 +81,9 @@ def joints_of_bodies(
         number[joint.b] = len(made)
         parent, name = None if above < 0 else above, names.get(joint.b, "")
         kind, known = joint.type, joint.range_known
-        made.append(StatedJoint(kind, joint.origin, joint.axis, joint.limits, known, name, joint.reason, parent))
+        made.append(
+            StatedJoint(kind, joint.origin, joint.axis, joint.limits, known, name=name, reason=joint.reason, parent=parent)
+        )
     if loops:
         folder.warn(f"{loops} joints that close a loop are left out: an asset is a tree of links")
     nodes = tuple(replace(node, joint=number.get(b, -1)) for node, b in zip(mesh.nodes, of_node, strict=True))

@@ -42,7 +42,9 @@ def joints_with_stated(
     on_joints = joint_result(result.joints, "").warnings
     final, general = result.segmentation or segmentation, tuple(w for w in result.warnings if w not in on_joints)
     joints = with_stated_joints(mesh, final, result.joints, () if whole else geometry.motions(final))
-    return replace(joint_result(joints, result.answerer, general, result.exchanges), segmentation=result.segmentation)
+    return replace(
+        joint_result(joints, result.answerer, general, result.exchanges), segmentation=result.segmentation, loops=result.loops
+    )
 
 
 def _owner(mesh: Mesh) -> Int[np.ndarray, " F"]:

@@ -4,7 +4,7 @@ from anymesh.types.asset import Asset, Part, ProposedJoint, Segmentation, Source
 from anymesh.types.brief import Brief
 from anymesh.types.exchange import Exchange, Picture
 from anymesh.types.mesh import Box, Cylinder, Hull, Material, Mesh, Node, Shape, Texture
-from anymesh.types.motion import MOVING, Handle, Joint, JointType, KnownJoint, Motion, StatedJoint, Sweep
+from anymesh.types.motion import MOVING, Handle, Joint, JointType, KnownJoint, Loop, Mimic, Motion, StatedJoint, Sweep
 
 __all__ = [
     "MOVING",
@@ -18,8 +18,10 @@ __all__ = [
     "Joint",
     "JointType",
     "KnownJoint",
+    "Loop",
     "Material",
     "Mesh",
+    "Mimic",
     "Motion",
     "Node",
     "Part",

@@ -12,7 +12,7 @@ from anymesh.entry_points import ASSET_HTML, resolve
 from anymesh.types.brief import Brief
 from anymesh.types.exchange import Exchange
 from anymesh.types.mesh import Mesh
-from anymesh.types.motion import Joint
+from anymesh.types.motion import Joint, Loop, with_implied_limits
 
 SHOWN = 7  # parts or joints that are printed
 
@@ -117,15 +117,23 @@ class Asset:
     category: str = ""  # kind of object as given or answered, "" if only the name tells
     front: float | None = None  # answered azimuth that shows the front [deg], 0 looks along +y
     proposals: tuple[ProposedJoint, ...] = ()  # with --precision
+    loops: tuple[Loop, ...] = ()
 
     def __post_init__(self) -> None:
         names = [p.name for p in self.segmentation.parts]
         children = [j.child for j in self.joints]
         if sorted(children) != sorted(names[1:]):
             raise ValueError(f"each part but the root {names[0]!r} needs one joint; parts {names[1:]}, joints for {children}")
-        joints = [j.name for j in self.joints]
+        joints = [*(j.name for j in self.joints), *(loop.name for loop in self.loops)]
         if len(set(joints)) != len(joints):
             raise ValueError(f"joint names must be unique, found {sorted(n for n in joints if joints.count(n) > 1)}")
+        for loop in self.loops:
+            if {loop.first, loop.second} - {*names}:
+                raise ValueError(f"loop {loop.name!r} joins {loop.first!r} and {loop.second!r}; parts are {names}")
+        for joint, implied in zip(self.joints, with_implied_limits(self.joints), strict=True):
+            if joint.type is not implied.type or not np.allclose(joint.limits or (), implied.limits or (), 1e-6, 1e-9):
+                limits = f"it is {implied.type} with limits {implied.limits}, found {joint.type} with {joint.limits}"
+                raise ValueError(f"joint {joint.name!r} follows {joint.mimic}: {limits}")
         parent = {j.child: j.parent for j in self.joints}
         for name in names[1:]:
             seen, at = set(), name

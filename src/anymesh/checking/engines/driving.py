@@ -199,13 +199,13 @@ def drive(world: EngineWorld, robot: Robot) -> SweepReport:
         else:
             missing = ("the engine does not know this joint",)
             sweeps.append(JointSweep(joint.name, joint.type, *joint.range, 0.0, 0.0, None, "", 0.0, 0.0, missing))
-    undriven = tuple((name, f"follows {m.leader}") for name, m in followers.items())
+    undriven = tuple((name, f"follows {m.joint}") for name, m in followers.items())
     return SweepReport(world.engine, tuple(_pushed(world, robot, s, motors[s.name].seconds) for s in sweeps), (), undriven)
 
 
 def _pushed(world: EngineWorld, robot: Robot, sweep: JointSweep, seconds: float) -> JointSweep:
     """Add the faults of a push, if the joint has none so far and leads no other."""
-    if sweep.faults or sweep.name in {m.leader for m in robot.followers.values()}:
+    if sweep.faults or sweep.name in {m.joint for m in robot.followers.values()}:
         return sweep
     joint = next(j for j in robot.moving if j.name == sweep.name)
     resisting = resisting_of(robot, joint, robot.placements({}))

@@ -15,10 +15,11 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.checking.engines.locate import find_file
-from anymesh.checking.engines.robot import Geometry, Inertial, Mimic, Robot, RobotJoint, RobotLink, shape_triangles
+from anymesh.checking.engines.robot import Geometry, Inertial, Robot, RobotJoint, RobotLink, shape_triangles
 from anymesh.errors import InputError
 from anymesh.formats.in_metres import read_in_metres
 from anymesh.mujoco_ import load_mujoco, name_elements
+from anymesh.types import Mimic
 
 READ = (".obj", ".stl", ".msh")  # mesh formats that MuJoCo reads
 

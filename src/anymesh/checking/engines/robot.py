@@ -8,14 +8,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
 from xml.etree import ElementTree
 
 import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.errors import InputError
-from anymesh.types import Brief, JointType, Motion
+from anymesh.types import Brief, JointType, Mimic, Motion
 
 MOVING = ("revolute", "continuous", "prismatic")
 SIZES = {"box": ("size",), "sphere": ("radius",), "cylinder": ("radius", "length"), "capsule": ("radius", "length")}
@@ -58,14 +57,6 @@ class RobotLink:
     visuals: tuple[Geometry, ...] = ()
     collisions: tuple[Geometry, ...] = ()
     inertial: Inertial | None = None
-
-
-class Mimic(NamedTuple):
-    """How a joint follows another one: its position is offset + multiplier * that of the leader [rad or m]."""
-
-    leader: str
-    multiplier: float = 1.0
-    offset: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -134,16 +125,16 @@ class Robot:
     def followers(self) -> dict[str, Mimic]:
         """Return the moving joints that follow a moving one, and how."""
         names = {j.name for j in self.moving}
-        return {j.name: j.mimic for j in self.moving if j.mimic is not None and j.mimic.leader in names - {j.name}}
+        return {j.name: j.mimic for j in self.moving if j.mimic is not None and j.mimic.joint in names - {j.name}}
 
     def coupled(self, positions: Mapping[str, float]) -> dict[str, float]:
         """Return positions of joints with those of the joints that follow them, within their limits, added if not given."""
         result, joints = dict(positions), {j.name: j for j in self.moving}
         waiting = {name: m for name, m in self.followers.items() if name not in result}
         for _ in range(len(waiting)):
-            for name, m in [(n, m) for n, m in waiting.items() if m.leader not in waiting]:
+            for name, m in [(n, m) for n, m in waiting.items() if m.joint not in waiting]:
                 low, high = joints[name].range
-                result[name] = min(max(m.offset + m.multiplier * result.get(m.leader, 0.0), low), high)
+                result[name] = min(max(m.offset + m.ratio * result.get(m.joint, 0.0), low), high)
                 del waiting[name]
         return result
 
