@@ -56,7 +56,7 @@ def test_motions_are_described_by_what_a_person_sees():
     asset = cabinet()
     words = {j.child: motion_words(asset, j) for j in asset.joints}
     assert words["door"] == "hinge right, vertical"
-    assert words["drawer"] == "slides out, towards the front"
+    assert words["drawer"] == "slides out, to the front"
     assert words["knob"] == "turns endlessly, axis front to back"
 
 
@@ -66,9 +66,9 @@ SEEN = [
     ("revolute", (0, 0, 1), (0.3, -0.01, 0.3), (-1.0, 1.0), "turns, axis vertical"),
     ("prismatic", (-1, 0, 0), (0.3, -0.01, 0.3), (0.0, 0.2), "slides out, to the left"),
     ("prismatic", (0, 0, 1), (0.3, -0.01, 0.3), (-0.1, 0.1), "slides, up and down"),
-    ("prismatic", (0, 1, 0), (0.3, -0.01, 0.3), (0.0, 0.01), "is pushed in, towards the back"),
-    ("prismatic", (0, 1, 0), (0.3, -0.01, 0.3), (0.0, 1.0), "slides out, towards the back"),  # as a drawer behind a door
-    ("prismatic", (0, -1, 1), (0.3, -0.01, 0.3), (0.0, 0.1), "slides, towards the front and up"),
+    ("prismatic", (0, 1, 0), (0.3, -0.01, 0.3), (0.0, 0.01), "is pushed in, to the back"),
+    ("prismatic", (0, 1, 0), (0.3, -0.01, 0.3), (0.0, 1.0), "slides out, to the back"),  # as a drawer behind a door
+    ("prismatic", (0, -1, 1), (0.3, -0.01, 0.3), (0.0, 0.1), "slides, up and to the front"),
     ("fixed", (0, 0, 1), (0.3, -0.01, 0.3), None, "does not move"),
 ]
 
@@ -94,9 +94,9 @@ def test_motions_with_the_same_words_are_told_apart_by_what_differs():
     c = replace(a, limits=(0.0, 0.7))
     d = replace(a, origin=(0.595, 0.0, 0.3))
     assert told_apart(asset, (a, b)) == (
-        "hinge right, vertical, opens towards the front",
-        "hinge right, vertical, opens towards the back",
+        "hinge right, vertical, opens to the front",
+        "hinge right, vertical, opens to the back",
     )
     assert told_apart(asset, (a, c)) == ("hinge right, vertical, 0..86°", "hinge right, vertical, 0..40°")
-    assert told_apart(asset, (a, d)) == ("hinge right, vertical", "hinge right, vertical, 2.0 cm further towards the back")
+    assert told_apart(asset, (a, d)) == ("hinge right, vertical", "hinge right, vertical, 2.0 cm further to the back")
     assert len(set(told_apart(asset, (a, a, b, c, d)))) == 5

@@ -76,7 +76,7 @@ def test_all_formats_have_the_written_joints_alone(tmp_path) -> None:
         "drawer",
     )
     assert (proposal["probability"], proposal["confidence"], proposal["part_confidence"]) == (0.4, 0.5, 0.8)
-    assert proposal["motion"] == "slides out, towards the front"
+    assert proposal["motion"] == "slides out, to the front"
     faces = np.load(tmp_path / proposal["faces"])
     assert len(faces) == proposal["face_count"] > 0
     base = set(np.load(tmp_path / record["parts"][0]["faces"]).tolist())
@@ -88,9 +88,7 @@ def test_the_report_lists_proposals(tmp_path) -> None:
     shown = read_asset(tmp_path)
     assert [p.part.name for p in shown.proposals] == ["drawer"]
     table = proposal_table(shown)
-    assert all(
-        words in table for words in ("slides out, towards the front", "0.40 guess", "anymesh correct DIR drawer --accept")
-    )
+    assert all(words in table for words in ("slides out, to the front", "0.40 guess", "anymesh correct DIR drawer --accept"))
     assert proposal_table(cabinet()) == ""
 
 

@@ -30,7 +30,8 @@ from anymesh.prompted.questions.asking import (
 )
 from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.prompted.questions.prompting import JointAppearance, WhichPoints
-from anymesh.prompted.questions.recognition import ask_recognition, parse_labels
+from anymesh.prompted.questions.recognition import RecognizeRegions, ask_recognition, parse_labels
+from anymesh.types import JointType
 from anymesh.types.exchange import DrawnPictures
 from anymesh.types.motion import Recognition, RecognizedLabel
 from anymesh.types.questions import VisualAnswerer
@@ -311,6 +312,17 @@ def test_kinds_of_every_region_need_an_entry_and_those_found_before_are_told() -
         with pytest.raises(BadAnswerError, match=told):
             asked.question.parse(lacking)
     assert asked.question.parse({"regions": [{"region": k, "labels": []} for k in (1, 2)], "parts": []}) == asked.question.known
+
+
+def test_a_kind_is_withdrawn_and_what_hangs_on_it_moves_up() -> None:
+    known = tuple(RecognizedLabel(n, JointType.REVOLUTE, p, (0.0, 1.0)) for n, p in (("arm", "base"), ("hand", "arm")))
+    asked = RecognizeRegions((), (1,), known)
+    answer = {"regions": [{"region": 1, "labels": []}], "parts": [], "withdrawn": ["Arm"]}
+    assert asked.parse(answer) == (RecognizedLabel("hand", JointType.REVOLUTE, "base", (0.0, 1.0)),)
+    with pytest.raises(BadAnswerError, match=r"withdrawn must be of .'arm', 'hand'., found .'leg'."):
+        asked.parse({**answer, "withdrawn": ["leg"]})
+    with pytest.raises(BadAnswerError, match=r"missing .'arm'."):
+        asked.parse({**answer, "regions": [{"region": 1, "labels": ["arm"]}]})
 
 
 def test_equal_marks_and_counts_are_told_and_pairs_are_named_one_by_one() -> None:

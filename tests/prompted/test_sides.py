@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from anymesh.prompted.pictures.sides import UNNAMED, Sides, emptiest_corner
+from anymesh.prompted.pictures.sides import UNNAMED, Sides, emptiest_corner, with_compass
 from anymesh.types import JointType, Motion
 from anymesh.types.camera import Camera
 
@@ -38,6 +38,14 @@ def test_motions_are_named_from_the_front(motion, amount, words):
     assert AHEAD.words(motion, amount, DOOR) == words
 
 
+def test_motions_in_the_same_words_are_told_apart():
+    near, same, far = (turn(-Z, (x, 0, 0)) for x in (-0.5, -0.5, -0.4))
+    first = "turns about an upright axis at its left, to the front and left"
+    size = np.linalg.norm(np.ptp(DOOR, axis=0))
+    told = AHEAD.all_words((near, same, far), (0.9, 0.9, 0.9), DOOR)
+    assert told == (first, f"{first} (2)", f"{first}, its axis {10 / size:.0f} % of its size further to the right")
+
+
 def test_the_names_turn_with_the_front_and_do_without_one():
     motion = turn(-Z, (-0.5, 0, 0))
     assert Sides(180.0).words(motion, 0.9, DOOR) == "turns about an upright axis at its right, to the back and right"
@@ -54,3 +62,5 @@ def test_the_compass_has_an_arrow_up_and_lies_where_nothing_is_covered():
     used = np.zeros((400, 400), bool)
     used[-40:] = True
     assert emptiest_corner(used) == (False, True)
+    panel = with_compass(np.zeros((400, 400, 3), np.uint8), plain.astype(np.uint8), (False, True))
+    assert not panel[:66].any()  # the place of the words

@@ -10,10 +10,13 @@ from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.answerers.question_files import QuestionStore
 from anymesh.prompted.models.vision import Request
 from anymesh.prompted.questions.asking import BadAnswerError
+from anymesh.prompted.questions.recognition import RecognizeRegions
 from anymesh.prompted.questions.saved_question import answer_object, pack_question
-from anymesh.viewer.questions.desk_ import SUGGESTED, WAITING, OpenQuestion, find_open_question
+from anymesh.types import JointType
+from anymesh.types.motion import RecognizedLabel
+from anymesh.viewer.questions.desk_ import SUGGESTED, WAITING, OpenQuestion, find_open_question, form_of
 from anymesh.viewer.questions.fields_ import marks_table
-from anymesh.viewer.questions.forms import SPLIT, LabelRow, MarksForm, form_of
+from anymesh.viewer.questions.forms import SPLIT, LabelRow, MarksForm, RegionsForm
 from anymesh.viewer.questions.scene_ import (
     asked_faces,
     closer_view,
@@ -43,6 +46,21 @@ def test_a_form_takes_a_suggestion_and_gives_it_back(kind: str) -> None:
     assert again == meant
     assert form.title
     assert form.guide
+
+
+def test_kinds_of_regions_start_with_those_found_and_what_is_removed_is_withdrawn() -> None:
+    known = tuple(
+        RecognizedLabel(name, JointType.REVOLUTE, over, (0.0, 1.0), 2) for name, over in (("leg", "base"), ("foot", "leg"))
+    )
+    question = RecognizeRegions((), (1, 2), known, "robot")
+    form = form_of(question)
+    assert isinstance(form, RegionsForm)
+    assert [r.label for r in form.rows] == ["leg", "foot"]
+    form.rows = [form.rows[0], LabelRow("hatch")]
+    found = question.parse(form.answer())
+    assert [(r.label, r.count) for r in found] == [("leg", 2), ("hatch", None)]
+    form.fill(answer_object(question, (known[1],)))
+    assert [r.label for r in form.rows] == ["foot"]
 
 
 def test_marks_that_differ_from_view_to_view_cannot_be_clicked_on_the_object() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import threading
 from collections.abc import Callable, Sequence
 from functools import partial
@@ -29,6 +30,7 @@ Precision = Annotated[
     float,
     Field(description="Write only joints that are right with this probability, such as 0.9; others are proposals.", ge=0, le=1),
 ]
+OPTION = re.compile(r"(?<!\S)--(parts|category|up|scale|mass|precision|at-least|formats|force|time-limit) ")
 ANSWERS = (
     "Answers to open questions, recorded first, all or none: objects with `question` (its folder; not needed for the only open "
     "question) and `answer` (an object by the schema, or 'geometry' to leave it to geometry)."
@@ -65,11 +67,18 @@ class ToolRunner:
         try:
             shown = await to_thread.run_sync(work)
         except AnymeshError as error:
-            raise ToolError(str(error)) from None
-        content: Content = [json.dumps(shown.record, indent=1)]
+            raise ToolError(_as_arguments(str(error))) from None
+        except Exception as error:
+            raise ToolError(f"{type(error).__name__}: {error}; nothing was written. Please report it") from error
+        content: Content = [_as_arguments(json.dumps(shown.record, indent=1))]
         for caption, png in shown.pictures:
             content += [caption, Image(data=png, format="png")]
         return content
+
+
+def _as_arguments(text: str) -> str:
+    """Return a text with options of the command line as arguments of tools, where there are such."""
+    return OPTION.sub(lambda option: f"{option[1].replace('-', '_')} ", text)
 
 
 def make_server(folders: Sequence[str]) -> MCPServer[Any]:

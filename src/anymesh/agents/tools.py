@@ -362,7 +362,10 @@ class AgentTools:
 def _corrected(history: History, correction: Mapping[str, Any]) -> History:
     """Apply one object of an agent."""
     if "correction" in correction:
-        return history.do(*unpack_log([{"how": "by numbers", **correction, "time": now(), "author": AUTHOR}]))
+        try:
+            return history.do(*unpack_log([{"how": "by numbers", **correction, "time": now(), "author": AUTHOR}]))
+        except (TypeError, ValueError) as error:
+            raise CorrectionError(f"{str(correction)[:200]} has a value of the wrong kind: {error}") from None
     operations, part = {name: value for name, value in correction.items() if name != "part"}, correction.get("part")
     if not (part is None or isinstance(part, str)):
         raise CorrectionError(f"part is the name of a part or joint, found {str(part)[:60]!r}")

@@ -127,14 +127,15 @@ def unpack_log(records: Sequence[Mapping[str, Any]]) -> tuple[HistoryEntry, ...]
 
 
 def _entry(record: Mapping[str, Any]) -> HistoryEntry:
-    kind = KINDS.get(record.get("correction", ""))
+    kind = KINDS.get(str(record.get("correction")))
     if kind is None:
         raise CorrectionError(f"unknown correction {record.get('correction')!r}; valid are {', '.join(KINDS)}")
     try:
         values = {f.name: _typed(f.name, record[f.name]) for f in fields(kind)}
         return HistoryEntry(kind(**values), record["time"], record["author"], bool(record.get("joined", False)))
     except (KeyError, TypeError, ValueError) as error:
-        raise CorrectionError(f"a correction {record['correction']!r} in the log cannot be read: {error!r}") from error
+        names = ", ".join(f.name for f in fields(kind))
+        raise CorrectionError(f"a correction {record['correction']!r} needs {names}; found {error!r}") from error
 
 
 def _typed(name: str, value: Any) -> Any:

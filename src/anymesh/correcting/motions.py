@@ -16,6 +16,8 @@ from anymesh.correcting.edits import choose_motion, joint_of_part, part_number
 from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.surface import ObjectShape
+from anymesh.prompted.pictures.sides import Sides
+from anymesh.prompted.pictures.sides import told_apart as words_told_apart
 from anymesh.segmentation.divide import object_shape
 from anymesh.types import Asset, Brief, Joint, JointType, Mesh
 
@@ -24,12 +26,10 @@ DENSE = 60_000  # number of faces above which an asset's surface is simplified f
 MIN_PART_FACES = 500  # minimum number of faces of a simplified part
 ALIKE = 0.97  # cosine between axes that are equal for a user
 SAME_AXIS_RATIO = 0.02  # share of the object's diagonal: distance of hinge lines that are equal for a user
-# names of the two ends of x, y and z: where a hinge is, and where something moves; the front is where y is least
-SIDES = (("left", "right"), ("front", "back"), ("bottom", "top"))
-WAYS = (("to the left", "to the right"), ("towards the front", "towards the back"), ("down", "up"))
-BOTH = (("left and right",) * 2, ("forwards and back",) * 2, ("up and down",) * 2)
-AXES = ("left to right", "front to back", "vertical")
-STRAIGHT = 0.94  # cosine (20 degrees) from which a direction is called by one name
+# of a line from a side, by its name: how it lies, and how something moves that goes both ways
+AXES = {"right": "left to right", "front": "front to back", "top": "vertical"}
+BOTH = {"right": "left and right", "front": "forwards and back", "top": "up and down"}
+STRAIGHT = 0.94  # cosine (20 degrees) from which a line is called by one name
 BOTH_RATIO = 0.5  # range to the shorter side, relative to that to the other, from which a motion goes both ways
 MIDDLE = 0.3  # offset of an axis from the part's middle, as a share of its reach, up to which it is in the middle
 FLAT = 0.5  # height of a lid, relative to its shorter side
@@ -112,7 +112,7 @@ def _alike(a: ChooseMotion, b: ChooseMotion, diagonal: float) -> bool:
 
 
 def motion_words(asset: Asset, joint: Joint) -> str:
-    """Describe a joint of an asset by how its part moves: "slides out, towards the front", "hinge right, vertical"."""
+    """Describe a joint of an asset by how its part moves: "slides out, to the front", "hinge right, vertical"."""
     return _facets(asset, joint)[0]
 
 
@@ -124,13 +124,14 @@ def told_apart(asset: Asset, motions: Sequence[ChooseMotion]) -> tuple[str, ...]
     for level in (1, 2):
         differ = [len({f[level] for f, other in zip(facets, words, strict=True) if other == w}) > 1 for w in words]
         words = [f"{w}, {f[level]}" if d and f[level] else w for w, f, d in zip(words, facets, differ, strict=True)]
-    told: list[str] = []
-    for joint, word in zip(joints, words, strict=True):
-        first = joints[words.index(word)]
-        off = joint.origin - first.origin
-        text = word if joint is first else f"{word}, {100 * np.linalg.norm(off):.1f} cm further {_way(off)}"
-        told.append(text if text not in told else f"{text} ({len(told) + 1})")
-    return tuple(told)
+    offsets = [joint.origin - joints[words.index(word)].origin for joint, word in zip(joints, words, strict=True)]
+    way = _sides(asset).direction
+    return words_told_apart(words, offsets, lambda off: f"{100 * np.linalg.norm(off):.1f} cm further {way(off)}")
+
+
+def _sides(asset: Asset) -> Sides:
+    """Return the sides of an asset; the front is where y is least, unless another one was answered."""
+    return Sides(asset.front or 0.0)
 
 
 def _facets(asset: Asset, joint: Joint) -> tuple[str, str, str]:
@@ -139,36 +140,35 @@ def _facets(asset: Asset, joint: Joint) -> tuple[str, str, str]:
     lower, upper = joint.limits or (0.0, 0.0)
     opening = (1.0 if upper >= -lower else -1.0) * joint.axis
     both = min(upper, -lower) > BOTH_RATIO * max(upper, -lower)
+    sides = _sides(asset)
     if joint.type is JointType.FIXED:
         return "does not move", "", ""
+    shares = {name: abs(float(joint.axis @ way)) for way, name, _ in sides.axes}
     if joint.type is JointType.PRISMATIC:
-        words = (
-            f"slides, {_way(opening, BOTH)}"
-            if both
-            else f"{_slides(asset, corners, opening, max(upper, -lower))}, {_way(opening)}"
-        )
+        slides = _slides(asset, corners, opening, max(upper, -lower))
+        words = f"slides, {BOTH[max(shares, key=shares.__getitem__)]}" if both else f"{slides}, {sides.direction(opening)}"
         return words, "", f"{100 * lower:.1f}..{100 * upper:.1f} cm"
     range_ = "" if joint.limits is None else f"{np.degrees(lower):.0f}..{np.degrees(upper):.0f}°"
     low, high = corners.min(0), corners.max(0)
     arm = (low + high) / 2 - joint.origin
     arm -= (arm @ joint.axis) * joint.axis
-    along = next((name for name, share in zip(AXES, np.abs(joint.axis), strict=True) if share > STRAIGHT), "slanted")
+    along = next((AXES[name] for name, share in shares.items() if share > STRAIGHT), "slanted")
     off = corners - joint.origin
     reach = np.linalg.norm(off - (off @ joint.axis)[:, None] * joint.axis, axis=1).max()
     central = np.linalg.norm(arm) < MIDDLE * reach
     endless = " endlessly" if joint.type is JointType.CONTINUOUS else ""
     if endless or central:
-        return f"turns{endless}{'' if central else f' about its {_side(-arm)}'}, axis {along}", "", range_
-    swing = "" if both else f"opens {_way(np.cross(opening, arm))}"
-    return _hinge(high - low, along, _side(-arm)), swing, range_
+        return f"turns{endless}{'' if central else f' about its {sides.side(-arm)}'}, axis {along}", "", range_
+    swing = "" if both else f"opens {sides.direction(np.cross(opening, arm))}"
+    return _hinge(high - low, along, sides.side(-arm)), swing, range_
 
 
 def _hinge(size: np.ndarray, along: str, side: str) -> str:
     """Describe a hinge at one side of a part of this size."""
-    if along == AXES[2]:
+    if along == AXES["top"]:
         return f"hinge {side}, vertical"
     words = f"{'lid' if size[2] < FLAT * min(size[:2]) else 'flap'}, hinge at the {side}"
-    return words if along in AXES else f"{words}, slanted"
+    return words if along in AXES.values() else f"{words}, slanted"
 
 
 def _slides(asset: Asset, corners: np.ndarray, opening: np.ndarray, travel: float) -> str:
@@ -179,16 +179,3 @@ def _slides(asset: Asset, corners: np.ndarray, opening: np.ndarray, travel: floa
     if ahead < near or travel > ahead + near:
         return "slides out"
     return "is pushed in" if part.min() - whole.min() < near else "slides"
-
-
-def _side(offset: np.ndarray) -> str:
-    """Return the name of the side on which an offset from the middle lies."""
-    k = int(np.abs(offset).argmax())
-    return SIDES[k][int(offset[k] > 0)]
-
-
-def _way(direction: np.ndarray, names: Sequence[Sequence[str]] = WAYS) -> str:
-    """Return the name of a direction, or of the two that it lies between."""
-    unit = direction / max(float(np.linalg.norm(direction)), 1e-300)
-    order = np.argsort(-np.abs(unit), kind="stable")[: 1 if np.abs(unit).max() > STRAIGHT else 2]
-    return " and ".join(names[k][int(unit[k] > 0)] for k in order)

@@ -27,6 +27,7 @@ from anymesh.prompted.grounding.views import (
     sample_object,
 )
 from anymesh.prompted.motions.joints import Questions, Reground, prompt_joints
+from anymesh.prompted.pictures.views import RECOGNITION_PX, shrunk
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.recognition import GIVEN, RecognizeRegions, answered_scale, ask_recognition, in_size_of
 from anymesh.runtime import Progress, silent
@@ -100,7 +101,7 @@ class PromptedStages:
             chosen = prompts.clearest_inside_views(inside, MAX_INSIDE_VIEWS)
             seen = [*seen, *(prompts.insides(inside)[k] for k in chosen)]
             names += [prompts.inside_names()[k] for k in chosen]
-        return prompts.pictures([view.color for view in seen], names)
+        return prompts.pictures([shrunk(view.color, RECOGNITION_PX) for view in seen], names)
 
     def _regions(self, recognition: Recognition) -> RecognizeRegions:
         """Return the question about kinds of part by regions."""

@@ -146,7 +146,7 @@ def test_what_is_expected_and_not_there_is_told() -> None:
     asked = [RecognizedLabel(label, None, None, None) for label in ("drawer", "trapdoor")]
     found = solver.parts("auto", Recognition("cabinet", None, tuple(asked)))
     assert [p.label for p in found.segmentation.parts] == ["base", "drawer"]
-    assert found.warnings == ("no trapdoor was found, though oracle expects one",)
+    assert found.warnings == ("no trapdoor was found, though the answer of oracle has one",)
 
 
 def test_where_nothing_moves_nothing_is_asked() -> None:

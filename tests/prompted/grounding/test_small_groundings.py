@@ -125,14 +125,14 @@ def test_uncertain_marks_lower_the_confidence_of_their_part_alone() -> None:
 
 def test_a_label_without_a_part_gives_a_warning() -> None:
     _, _, warnings, _ = grounded({("door", 1): [5]}, "door", "lid")
-    assert warnings == ("no lid was found, though scripted expects one",)
+    assert warnings == ("no lid was found, though the answer of scripted has one",)
     _, _, warnings, _ = grounded({("door", 1): range(7)}, "door")
     assert warnings == ("no door was found, the marks cover all of the object, or too little of it",)
 
 
 def test_parts_that_were_lost_or_miscounted_give_a_warning() -> None:
     _, _, warnings, _ = grounded({("door", 1): [5], ("door", 2): []}, "door", count=2)
-    assert warnings == ("scripted recognized 2 parts door, but 1 is marked",)
+    assert warnings == ("the answer of scripted has 2 parts door, but 1 is marked",)
     _, _, warnings, _ = grounded({("lid", 1): [1], ("lid", 2): [0, 2, 3, 4, 5, 6]}, "lid", count=2)
     assert warnings == ("1 of 2 marked parts lid are left: others took the surface of the rest, or all of it",)
 
@@ -163,6 +163,9 @@ def test_equal_marks_are_those_of_one_shape_turned_or_mirrored() -> None:
     assert len(set(found.group.tolist())) == 1
     assert found.middle[0] == pytest.approx([0.2, 0.1, 0.05])
     assert equal_marks(np.where(mark == 1, 1, -1), mesh) is None
+    walls = [*(box((0, 0, z), (1, 1, z + 0.02)) for z in (0, 0.98)), *(box((0, y, 0), (1, y + 0.02, 1)) for y in (0, 0.98))]
+    mesh, number = mesh_of([*walls, box((0, 0, 2), (1, 1, 2.02))])
+    assert equal_marks(number + 1, mesh).group.tolist() == [0, 0, 1, 1, 0]
 
 
 def test_a_machine_is_shown_region_by_region_in_close_up() -> None:

@@ -18,7 +18,7 @@ from anymesh.articulation.evidence import sweep_candidates
 from anymesh.prompted.grounding.faces import stays_free
 from anymesh.prompted.motions import lines
 from anymesh.prompted.motions.cases import PartCase, contradictions, labels_by_name, make_cases, relabelled, unlabelled
-from anymesh.prompted.motions.joints import _joint, normal_outwards
+from anymesh.prompted.motions.joints import _joint
 from anymesh.prompted.motions.lines import (
     axis_points,
     cluster_points,
@@ -29,7 +29,7 @@ from anymesh.prompted.motions.lines import (
     round_patches,
     with_more,
 )
-from anymesh.prompted.motions.offers import MAX_SHOWN_ANGLE_RAD, make_offers, scored_motions, shown_amount
+from anymesh.prompted.motions.offers import MAX_SHOWN_ANGLE_RAD, make_offers, normal_outwards, scored_motions, shown_amount
 from anymesh.prompted.motions.verify import Choice, answered_confidence, as_answered
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer
 from anymesh.runtime import Deadline

@@ -10,7 +10,8 @@ from scenes import Scene, prism, wheel
 
 from anymesh.pipeline.solving import Solver
 from anymesh.prompted.motions.cases import labels_by_name, make_cases
-from anymesh.prompted.motions.joints import PromptedJoints, Questions, normal_outwards, opening_slide, prompt_joints
+from anymesh.prompted.motions.joints import PromptedJoints, Questions, prompt_joints
+from anymesh.prompted.motions.offers import normal_outwards, opening_slide
 from anymesh.prompted.questions.prompting import JointAppearance, KindAnswer, MotionPick, PartFit
 from anymesh.types import JointType, Part, Segmentation
 from anymesh.types.motion import Recognition, RecognizedLabel

@@ -14,7 +14,6 @@ from scipy.spatial.distance import pdist
 from scipy.spatial.transform import Rotation
 
 from anymesh.geometry.triangle_set import sample_surface
-from anymesh.prompted.motions.joints import opening_slide
 from anymesh.prompted.motions.lines import (
     MAX_POINTS,
     MIN_LABEL_DISTANCE,
@@ -27,6 +26,7 @@ from anymesh.prompted.motions.lines import (
     surface_directions,
     with_more,
 )
+from anymesh.prompted.motions.offers import opening_slide
 from anymesh.types import JointType, Motion
 from anymesh.types.camera import Camera
 

@@ -47,7 +47,8 @@ def offered(
     monkeypatch.setattr(offers, "scored_motions", lambda _: scored)
     monkeypatch.setattr(offers, "FEW", 0)
     told = RecognizedLabel("part", moves, None, None) if moves else None
-    return make_offers(replace(door_case(), answer=KindAnswer(kind), recognized=told), most, 0)
+    answer = None if kind is None else KindAnswer(kind)
+    return make_offers(replace(door_case(), answer=answer, recognized=told), most, 0)
 
 
 def order(found: MotionOffers, motions: list[Candidate]) -> list[int]:
@@ -204,3 +205,22 @@ def test_a_door_that_is_sunk_into_the_wall_at_its_hinge_turns_by_a_right_angle_b
     candidates = sweep_candidates(context, [("edge", turn(Z, (0, -0.03, 0))), ("slide", slide(-X))])
     assert np.degrees(max(c.opening for c in candidates[:2])) > 80  # 73 and 61 if the overlap is not tolerated
     assert candidates[2].opening < 0.01
+
+
+def test_a_blocked_motion_that_is_likelier_than_every_free_one_is_shown(monkeypatch: pytest.MonkeyPatch) -> None:
+    motions = [*SPREAD[:2], replace(SPREAD[2], opening=0.0), replace(SPREAD[3], opening=0.0)]
+    found = offered(monkeypatch, motions, [0.0, 1.0, 6.0, 4.5])  # blocked ones lose 4
+    assert order(found, motions) == [1, 0, 2]
+    assert sorted(found.shown) == [0, 1, 2]
+
+
+def test_one_motion_of_the_recognized_kind_is_shown_however_unlikely(monkeypatch: pytest.MonkeyPatch) -> None:
+    motions = [*SPREAD, PULL]
+    few = [
+        order(offered(monkeypatch, motions, [5.0, 4, 3, 2, 1, -9], None, moves, 3), motions)
+        for moves in (None, JointType.PRISMATIC)
+    ]
+    shown = [
+        offered(monkeypatch, motions, [5.0, 4, 3, 2, 1, -9], None, moves, 3).shown for moves in (None, JointType.PRISMATIC)
+    ]
+    assert [5 in (rows[k] for k in some) for rows, some in zip(few, shown, strict=True)] == [False, True]

@@ -81,7 +81,7 @@ def test_a_front_that_slides_sideways_is_mended(opened):
     hand.on(*top_front(serving, hand.tab))
     eventually(lambda: session.selected == "drawer")
     hand.tab.page.locator(".am .grid img").first.wait_for()
-    hand.button("slides out, towards the front")
+    hand.button("slides out, to the front")
     eventually(lambda: session.preview is not None)
     hand.key("Enter")
     eventually(lambda: session.unsaved)

@@ -10,6 +10,7 @@ import numpy as np
 from jaxtyping import Bool, Float, Int
 
 from anymesh.config import Config
+from anymesh.prompted.answerers.question_files import NAME as FILES
 from anymesh.prompted.grounding.alike import SMALL_RATIO
 from anymesh.prompted.grounding.cloud import seen_points
 from anymesh.prompted.grounding.em import refine_instances
@@ -102,9 +103,9 @@ def ground_parts(
     if labels and by_user and mesh.face_areas[left].sum() > MIN_SEEN_SHARE * mesh.face_areas[grounded.unseen].sum():
         parts, inside = add_hidden_parts(parts, by_geometry(), grounded.unseen, mesh.face_areas)
     missing = [label for label in labels if label not in {p.label for p in parts.parts}]
-    causes = {True: "the marks cover all of the object, or too little of it", False: f"though {answerer.name} expects one"}
+    causes = {True: "the marks cover all of the object, or too little of it", False: f"though {said_by(answerer)} has one"}
     lost = tuple(f"no {label} was found, {causes[label in grounded.pointed]}" for label in missing)
-    return parts, (*grounded.warnings, *lost, *_miscounted(recognition, grounded, parts, answerer.name), *inside)
+    return parts, (*grounded.warnings, *lost, *_miscounted(recognition, grounded, parts, said_by(answerer)), *inside)
 
 
 def _miscounted(recognition: Recognition, grounded: GroundedParts, parts: Segmentation, answerer: str) -> Iterator[str]:
@@ -115,7 +116,12 @@ def _miscounted(recognition: Recognition, grounded: GroundedParts, parts: Segmen
         if marked[label] > left:
             yield f"{left} of {marked[label]} marked parts {label} are left: others took the surface of the rest, or all of it"
         elif recognized.get(label) not in (None, left):
-            yield f"{answerer} recognized {recognized[label]} parts {label}, but {left} {'is' if left == 1 else 'are'} marked"
+            yield f"{answerer} has {recognized[label]} parts {label}, but {left} {'is' if left == 1 else 'are'} marked"
+
+
+def said_by(answerer: VisualAnswerer) -> str:
+    """Return who recognized the object, in words."""
+    return "the answer" if answerer.name == FILES else f"the answer of {answerer.name}"
 
 
 def _pointed(answerer: VisualAnswerer) -> str:

@@ -264,12 +264,13 @@ def contradictions(cases: Sequence[PartCase], joints: Sequence[Joint]) -> tuple[
             told = f"it was answered to be mounted on the {over}"
             warnings.append(f"joint {joint.name}: {told}, but {why}; it is on {case.parent}{PLEASE_CHECK}")
         answered = list(_answered_motion(case))
-        kinds = {kind for kind, _ in answered} | {_motion(joint.type)}
-        if len(kinds) > 1:
+        kinds = {kind for kind, _ in answered}
+        if len(kinds | {_motion(joint.type)}) > 1:
             answers = ", then ".join(words for _, words in answered)
-            warnings.append(
-                f"joint {joint.name}: the answers contradict each other ({answers}); it became {joint.type}{PLEASE_CHECK}"
+            why = (
+                f"the answers contradict each other ({answers})" if len(kinds) > 1 else f"it was answered to move so: {answers}"
             )
+            warnings.append(f"joint {joint.name}: {why}; it became {joint.type}{PLEASE_CHECK}")
     return tuple(warnings)
 
 

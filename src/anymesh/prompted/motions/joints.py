@@ -10,9 +10,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from anymesh.articulation.candidate_motions import Candidate, SlideDirection
+from anymesh.articulation.candidate_motions import Candidate
 from anymesh.articulation.estimate import joint_of
-from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import (
     FINE_STEPS,
     away_from_closed,
@@ -20,7 +19,7 @@ from anymesh.articulation.limits import (
     pressed,
 )
 from anymesh.articulation.vetting import faults
-from anymesh.config import ALONG_COSINE, FACING_COSINE, Config
+from anymesh.config import ALONG_COSINE, Config
 from anymesh.geometry.surface import ObjectShape
 from anymesh.pipeline.results import PLEASE_CHECK
 from anymesh.prompted.motions.cases import (
@@ -49,6 +48,7 @@ from anymesh.prompted.motions.lines import (
     surface_directions,
     with_more,
 )
+from anymesh.prompted.motions.offers import lines_of_copies, normal_outwards, opening_slide
 from anymesh.prompted.motions.verify import (
     BLOCKED_RATIO,
     Choice,
@@ -72,32 +72,10 @@ from anymesh.types import Joint, JointType, Motion, Segmentation
 from anymesh.types.motion import Recognition, RecognizedLabel
 from anymesh.types.questions import VisualAnswerer
 
-MIN_GUIDED_SHARE = 0.4  # minimum share of the sideways directions in which an outward slide is guided
 MIN_KEPT = 0.9  # share of an answered range that is free; less gets a warning. Answers are round numbers
 ON_AXIS_RATIO = 0.02  # of the part's diagonal: two points so near to the axis of a pin replace its ends, if they are
 MIN_APART_RATIO = 0.2  # of the part's diagonal apart; both are estimates
 INTO_POINTS = 8  # candidates for an axis into the surface, half of which stand for axes
-
-
-def normal_outwards(case: PartCase) -> Motion:
-    """Return the slide along the normal of the connecting area's plane, outwards (paper, 3.3)."""
-    sign = 1.0 if case.shown.normal @ case.context.opening_direction >= 0 else -1.0
-    return prismatic(sign * case.shown.normal, case.context, "normal of the connecting area's plane")
-
-
-def opening_slide(case: PartCase) -> Motion:
-    """Return the plane's normal if the part is free and guided along it, else the best guided free direction.
-
-    On real drawers the connecting area consists of rim and sides, and its plane's normal may be off by 80 degrees and more.
-    """
-    context, outward = case.context, case.context.opening_direction
-    directions = [s * a for a in context.body_obb.axes for s in (1.0, -1.0) if s * a @ outward > FACING_COSINE] + [outward]
-    ways = [normal_outwards(case)] + [prismatic(d, context, "free way out") for d in directions]
-    candidates = sweep_candidates(context, [("asked", way) for way in ways])[::2]
-    normal = candidates[0]
-    if normal.is_free and normal.slide_direction is SlideDirection.OUTWARDS and normal.guided > MIN_GUIDED_SHARE:
-        return ways[0]
-    return ways[max(range(1, len(ways)), key=lambda k: (candidates[k].guided, candidates[k].opening, -k))]
 
 
 ShapeOf = Callable[[Segmentation], ObjectShape]
@@ -222,8 +200,9 @@ def _ask_motions(
         made = {c.number: c for c in make_cases(whole, segmentation, questions.recognition, config)}
         asked = asked.renewed([replace(made[n], answer=told[n]) for n in told], config.seed)
     questions.progress("joints", "points and arrows", 2, 4)
-    lines = _with_lines(questions, asked.lost(), whole, segmentation)
-    asked = asked.renewed([c for c in lines if c.asked is not None], config.seed)
+    lines = [c for c in _with_lines(questions, asked.lost(), whole, segmentation) if c.asked is not None]
+    others = {n: a.offers.case for n, a in asked.answers.items() if n not in asked.picks}
+    asked = asked.renewed([*lines, *lines_of_copies(lines, others)], config.seed)
     return _ChosenMotions([asked.answers[c.number].offers.case for c in cases], asked.chosen(), segmentation)
 
 

@@ -5,8 +5,8 @@ Only motions that would look different are shown.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from jaxtyping import Float
@@ -24,9 +24,10 @@ from anymesh.articulation.candidate_motions import (
 from anymesh.articulation.evidence import sweep_candidates
 from anymesh.articulation.limits import STROKE_RATIO, pressed
 from anymesh.articulation.rank_motions import PartMotionScores, motion_scores
+from anymesh.config import FACING_COSINE
 from anymesh.motion.part_context import PartContext
 from anymesh.prompted.motions.cases import PartCase, answered_range
-from anymesh.prompted.motions.lines import CENTRAL, pivots
+from anymesh.prompted.motions.lines import CENTRAL, pivots, prismatic
 from anymesh.prompted.questions.prompting import JointAppearance, MotionTable
 from anymesh.types import JointType, Motion
 from anymesh.types.triangles import transformed
@@ -52,6 +53,7 @@ OWN = (*CENTRAL, "surface")  # roles of axes of the part's own shape, which come
 # Which motion stands for its near-duplicates, and comes first:
 PICKED_POINT_PENALTY = 2.0  # [log-odds] of a line through picked points, less exact than a similar one of the part's own
 ANSWERED_BONUS = 2.0  # [log-odds] of a motion of the answered kind
+MIN_GUIDED_SHARE = 0.4  # minimum share of the sideways directions in which an outward slide is guided
 ENOUGH_POINTS = 200  # sample points of the part for comparing motions
 
 
@@ -99,12 +101,16 @@ def make_offers(case: PartCase, max_motions: int, seed: int) -> MotionOffers:
     facts, candidates, plain = scored.part, list(scored.candidates), motion_scores(scored).tolist()
     values = [v + _agrees(c, case) - PICKED_POINT_PENALTY * (c.role == "asked") for v, c in zip(plain, candidates, strict=True)]
     order = sorted(range(len(candidates)), key=lambda k: (not candidates[k].is_free, -values[k], k))
-    kept, amounts, answered, kin = _unlike(case, candidates, [k for k in order if _shown(candidates[k])])
+    free = max((v for v, c in zip(plain, candidates, strict=True) if c.is_free), default=np.inf)
+    hindered = {k for k, c in enumerate(candidates) if not c.is_free and plain[k] > free}
+    kept, amounts, answered, kin = _unlike(case, candidates, [k for k in order if k in hindered or _shown(candidates[k])])
     motions = [candidates[k] for k in kept]
     best = max((values[k] for k in kept), default=0.0)
     crowding = _crowding(kin, [plain[k] for k in kept])
     likely = [
-        c.is_free and not (crowding[rank] or _off_part(case, c)) and (values[k] > best - MAX_LOSS or rank < MIN_FREE_MOTIONS)
+        (c.is_free or k in hindered)
+        and not (crowding[rank] or _off_part(case, c))
+        and (values[k] > best - MAX_LOSS or rank < MIN_FREE_MOTIONS)
         for rank, (k, c) in enumerate(zip(kept, motions, strict=True))
     ]
     shown = _picture(case, motions, likely, answered, max_motions)
@@ -173,7 +179,10 @@ def _agrees(c: Candidate, case: PartCase) -> float:
 
 
 def _shown(c: Candidate) -> bool:
-    """Return whether a motion may be shown; a blocked one only if it was answered or is an axis of the part's own shape."""
+    """Return whether a motion may be shown; a blocked one only if it was answered or is an axis of the part's own shape.
+
+    Blocked ones that are likelier than every free one are shown too.
+    """
     return c.is_free or c.role in ("asked", *OWN)
 
 
@@ -234,11 +243,16 @@ def _off_part(case: PartCase, c: Candidate) -> bool:
 
 
 def _picture(case: PartCase, motions: list[Candidate], likely: list[bool], answered: int | None, max_motions: int) -> list[int]:
-    """Return the indices of the motions that are shown: the answered one, own axes, likely ones, and others up to FEW."""
+    """Return the indices of the motions that are shown: the answered one, own axes, likely ones, and others up to FEW.
+
+    One at least is of the answered kind, if there is any.
+    """
     fitting = [fits(c, case.kind) and (case.moves is None or moves_as(c, case.moves)) for c in motions]
     own = [k for k, c in enumerate(motions) if c.role in CENTRAL and fitting[k]][:SHAPE_AXES]
     own += [k for k, c in enumerate(motions) if c.role == "surface" and not c.is_free and fitting[k]][:1]
     must = ([] if answered is None else [answered]) + [k for k in own if k != answered]
+    must += [k for k, c in enumerate(motions) if likely[k] and not c.is_free and k not in must][:MAX_SIMILAR]
+    must += [k for k, good in enumerate(fitting) if good and not any(fitting[n] for n in must)][:1]
     shown = must[:max_motions]
     shown += [k for k, good in enumerate(likely) if good and k not in shown][: max_motions - len(shown)]
     rest = [k for k in range(len(motions)) if k not in shown]
@@ -254,6 +268,37 @@ def nearest_motion(offers: MotionOffers, motion: Motion) -> int | None:
             off = _mean_distance(there, here) / max(_mean_distance(there, points), 1e-12)
             best, least = (k, off) if off < least else (best, least)
     return best
+
+
+def normal_outwards(case: PartCase) -> Motion:
+    """Return the slide along the normal of the connecting area's plane, outwards (paper, 3.3)."""
+    sign = 1.0 if case.shown.normal @ case.context.opening_direction >= 0 else -1.0
+    return prismatic(sign * case.shown.normal, case.context, "normal of the connecting area's plane")
+
+
+def opening_slide(case: PartCase) -> Motion:
+    """Return the plane's normal if the part is free and guided along it, else the best guided free direction.
+
+    On real drawers the connecting area consists of rim and sides, and its plane's normal may be off by 80 degrees and more.
+    """
+    context, outward = case.context, case.context.opening_direction
+    directions = [s * a for a in context.body_obb.axes for s in (1.0, -1.0) if s * a @ outward > FACING_COSINE] + [outward]
+    ways = [normal_outwards(case)] + [prismatic(d, context, "free way out") for d in directions]
+    candidates = sweep_candidates(context, [("asked", way) for way in ways])[::2]
+    normal = candidates[0]
+    if normal.is_free and normal.slide_direction is SlideDirection.OUTWARDS and normal.guided > MIN_GUIDED_SHARE:
+        return ways[0]
+    return ways[max(range(1, len(ways)), key=lambda k: (candidates[k].guided, candidates[k].opening, -k))]
+
+
+def lines_of_copies(lines: Sequence[PartCase], others: Mapping[int, PartCase]) -> Iterator[PartCase]:
+    """Yield the parts, among others by number, for which one of their shape was asked, with its line moved to them."""
+    for first in lines:
+        for case in (others[n] for n in first.shape if n in others):
+            assert first.asked is not None
+            shift = case.context.part.box.center - first.context.part.box.center
+            moved = replace(first.asked, origin=first.asked.origin + shift)
+            yield replace(case, asked=opening_slide(case) if case.kind is JointAppearance.SLIDE_OUT else moved)
 
 
 class MovedPoints:

@@ -204,8 +204,7 @@ class MotionQuestioner(Brief):
         """Return the motions with these indices, and the faces of the part with its carried parts."""
         moving = np.isin(self.labels, [offers.case.number, *offers.case.carried])
         table = offers.table(shown)
-        shown_as = zip(table.motions, table.amounts, strict=True)
-        words = tuple(self.sides.words(motion, amount, offers.case.shown.points) for motion, amount in shown_as)
+        words = self.sides.all_words(table.motions, table.amounts, offers.case.shown.points)
         return replace(table, moving=np.flatnonzero(moving), words=words, alike=len(offers.case.shape))
 
     def _strip(self, case: PartCase, title: str, table: MotionTable) -> Picture:

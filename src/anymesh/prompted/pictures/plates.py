@@ -130,6 +130,18 @@ def _crosses(plate: Plate, used: Bool[np.ndarray, "H W"]) -> bool:
     return bool(used[rows[far], columns[far]].any())
 
 
+def broken(words: str, width: int, size: int) -> list[str]:
+    """Break words into lines after each comma, and where they would be wider than `width` [px]."""
+    lines: list[str] = []
+    for piece in words.split(", ") if words else ():
+        lines.append("")
+        for word in piece.split():
+            longer = f"{lines[-1]} {word}".strip()
+            fits = not lines[-1] or plate_size(longer, size)[0] <= width
+            lines = [*lines[:-1], longer] if fits else [*lines, word]
+    return lines
+
+
 def take(used: Bool[np.ndarray, "H W"], plate: Plate) -> None:
     """Mark the pixels of a plate and its leader as used, in place."""
     x0, y0, x1, y1 = plate.box

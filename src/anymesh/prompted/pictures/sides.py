@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -18,9 +19,11 @@ ALONG = 0.94  # cosine of 20 degrees: a line nearer to the vertical, or to the l
 NAMED = 0.38  # sine of 22 degrees: a direction with a larger share along a side is named after it
 EDGE, THIN = 0.5, 0.1  # shares of half the part's extent there, and of its largest one: an axis farther off is at an edge
 BEYOND = 1.3  # share of half the part's extent: an axis farther off lies beyond it
+LEAST_TOLD = 0.5  # [% of the part's size] offset of an axis that is told
 IN_PLACE = 0.1  # share of the part's size: a part whose middle moves less turns in place
 WAYS = {"top": "up", "bottom": "down"}
 COMPASS, LETTERS, ARM = 104, 14, 30  # [px] in a panel of 400: size of a compass, font size, length of an arrow
+WORDS = 66  # [px] height of the words of a panel of that size, three lines
 REFERENCE = 400  # [px] size of a panel that these refer to
 CLEAR = 235  # brightness of the ground of a compass
 
@@ -52,6 +55,13 @@ class Sides:
         ways = [*(WAYS[name] for name in names if name in WAYS), *([f"to the {level}"] if level else [])]
         return " and ".join(ways) or "sideways"
 
+    def side(self, offset: Float[np.ndarray, " 3"]) -> str:
+        """Name the side on which an offset from the middle lies."""
+        share, plus, minus = max(
+            ((float(offset @ axis), plus, minus) for axis, plus, minus in self.axes), key=lambda s: abs(s[0])
+        )
+        return plus if share > 0 else minus
+
     def words(self, motion: Motion, amount: float, points: Float[np.ndarray, "n 3"]) -> str:
         """Describe a motion: about which edge the part turns, and where to its middle goes.
 
@@ -65,6 +75,21 @@ class Sides:
         size = float(np.linalg.norm(np.ptp(points, axis=0)))
         goes = self.direction(way) if np.linalg.norm(way) > IN_PLACE * size else "in place"
         return f"turns {self._place(motion, middle, points)}, {goes}"
+
+    def all_words(
+        self, motions: Sequence[Motion], amounts: Sequence[float], points: Float[np.ndarray, "n 3"]
+    ) -> tuple[str, ...]:
+        """Describe motions of one part in words that differ, as in `words`."""
+        words = [self.words(motion, amount, points) for motion, amount in zip(motions, amounts, strict=True)]
+        offsets = [m.origin - motions[words.index(w)].origin for m, w in zip(motions, words, strict=True)]
+        across = [off - (off @ m.axis) * m.axis for off, m in zip(offsets, motions, strict=True)]
+        size = max(float(np.linalg.norm(np.ptp(points, axis=0))), 1e-12)
+
+        def further(offset: Float[np.ndarray, " 3"]) -> str:
+            share = 100 * float(np.linalg.norm(offset)) / size
+            return f"its axis {share:.0f} % of its size further {self.direction(offset)}" if share >= LEAST_TOLD else ""
+
+        return told_apart(words, across, further)
 
     def _place(self, motion: Motion, middle: Float[np.ndarray, " 3"], points: Float[np.ndarray, "n 3"]) -> str:
         """Name the edge of the part that the axis runs along, or its direction through the part."""
@@ -111,21 +136,35 @@ class Sides:
         return np.asarray(drawn)
 
 
+def told_apart(
+    words: Sequence[str], offsets: Sequence[Float[np.ndarray, " 3"]], further: Callable[[Float[np.ndarray, " 3"]], str]
+) -> tuple[str, ...]:
+    """Return words about motions that differ, where some have the same words.
+
+    offsets: of each axis from that of the first motion in the same words [m]; further: tells an offset in words, "" for none.
+    """
+    told: list[str] = []
+    for k, (word, offset) in enumerate(zip(words, offsets, strict=True)):
+        text = ", ".join(filter(None, (word, further(offset)))) if word in words[:k] else word
+        told.append(text if text not in told else f"{text} ({len(told) + 1})")
+    return tuple(told)
+
+
 def with_compass(
     panel: UInt8[np.ndarray, "H W 3"], compass: UInt8[np.ndarray, "h w 3"], corner: tuple[bool, bool]
 ) -> UInt8[np.ndarray, "H W 3"]:
-    """Return a panel with a compass in a corner. corner: whether it is the lower, and the right one."""
-    size, drawn = round(COMPASS * panel.shape[0] / REFERENCE), panel.copy()
-    y, x = (n - size - 2 if far else 2 for n, far in zip(panel.shape[:2], corner, strict=True))
+    """Return a panel with a compass in a corner, below its words. corner: whether it is the lower, and the right one."""
+    size, top, drawn = *(round(n * panel.shape[0] / REFERENCE) for n in (COMPASS, WORDS)), panel.copy()
+    y, x = (n - size - 2 if far else near for n, far, near in zip(panel.shape[:2], corner, (top, 2), strict=True))
     drawn[y : y + size, x : x + size] = np.asarray(Image.fromarray(compass).resize((size, size), Image.Resampling.BOX))
     return drawn
 
 
 def emptiest_corner(used: Bool[np.ndarray, "H W"]) -> tuple[bool, bool]:
     """Return the corner of a panel, except for the upper left one, in which a compass covers the fewest used pixels."""
-    size = round(COMPASS * used.shape[0] / REFERENCE)
-    window = (slice(0, size), slice(-size, None))
-    return min(((True, False), (True, True), (False, True)), key=lambda c: int(used[window[c[0]], window[c[1]]].sum()))
+    size, top = (round(n * used.shape[0] / REFERENCE) for n in (COMPASS, WORDS))
+    rows, columns = (slice(top, top + size), slice(-size, None)), (slice(0, size), slice(-size, None))
+    return min(((True, False), (True, True), (False, True)), key=lambda c: int(used[rows[c[0]], columns[c[1]]].sum()))
 
 
 UNNAMED = Sides()

@@ -15,7 +15,7 @@ from jaxtyping import Bool, Float, Int, UInt8
 from PIL import Image, ImageDraw
 
 from anymesh.geometry.raycast_ import Hits, RayScene
-from anymesh.prompted.pictures.plates import PAD, Plate, draw_plate, plate_size
+from anymesh.prompted.pictures.plates import PAD, Plate, broken, draw_plate, plate_size
 from anymesh.prompted.pictures.sides import ANYWHERE, SeenFrom, emptiest_corner, with_compass
 from anymesh.prompted.pictures.views import box_of, is_beside
 from anymesh.rendering.marks import HIGHLIGHT, WHITE, axis_line, blend, draw_arrow, draw_ring, lighten, rim, ring
@@ -159,14 +159,14 @@ def _half(picture: UInt8[np.ndarray, "H W 3"]) -> UInt8[np.ndarray, "h w 3"]:
 
 
 def _titled(panel: UInt8[np.ndarray, "H W 3"], title: str, word: str = "") -> UInt8[np.ndarray, "H W 3"]:
-    """Draw the panel's number in a corner, the words beside it, a line after each comma, and a frame."""
+    """Draw the panel's number in a corner, the words beside it, a new line after each comma and at the end, and a frame."""
     drawn = Image.fromarray(panel)
     draw = ImageDraw.Draw(drawn)
     draw.rectangle([0, 0, panel.shape[1] - 1, panel.shape[0] - 1], outline=(150, 150, 150))
     width, height = plate_size(title, TITLE)
     draw_plate(draw, Plate(title, (4, 4, 4 + width + 2 * PAD, 4 + height), (4 + PAD, 4 + PAD), TITLE), (20, 20, 20))
     left, top, font = 12 + width + 2 * PAD, 4, WORD if panel.shape[1] >= PANEL else SMALL_WORD
-    for line in word.split(", ") if word else ():
+    for line in broken(word, panel.shape[1] - left - 2 * PAD, font):
         wide, high = plate_size(line, font)
         plate = Plate(line, (left, top, left + wide + 2 * PAD, top + high), (left + PAD, top + PAD), font)
         draw_plate(draw, plate, BLOCKED if "blocked" in word else WHITE)

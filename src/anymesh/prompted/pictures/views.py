@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from jaxtyping import Bool, Float, Float32, Int, UInt8
+from PIL import Image
 
 from anymesh.config import REFERENCE_PX
 from anymesh.geometry.raycast_ import RayScene
@@ -18,6 +19,8 @@ from anymesh.types.camera import Camera
 # strength of the light that moves with the camera: ambient, at the camera, above its shoulder, from the sky
 HEAD_AMBIENT, HEAD, SHOULDER, HEAD_SKY = 0.36, 0.22, 0.30, 0.16
 PICTURE_PX = 640  # [px] width and height of a picture
+# [px] of a picture of the whole object without marks: one tile of models that count tiles of 512 px, and two on a sheet are two
+RECOGNITION_PX = 500
 EYE_RATIO = 1.0  # of the diagonal: distance of a camera from the object's center; 2 for a diagonal of 2 (the paper's)
 FOV_DEG = 60.0  # [deg] vertical, before the camera is zoomed (the paper's implementation)
 AIR = 0.04  # margin around the object on each side, as a share of its box in the picture
@@ -81,6 +84,13 @@ def shown(mesh: Mesh, camera: Camera, scene: RayScene) -> View:
         return draw(samples, material_colors(mesh, samples), headlight_on(samples, camera), white)
 
     return View(camera, hits.depth.reshape(shape), hits.normal.reshape(*shape, 3), hits.face.reshape(shape), paint)
+
+
+def shrunk(image: UInt8[np.ndarray, "H W 3"], size: int) -> UInt8[np.ndarray, "h w 3"]:
+    """Return a picture with a longer side of at most `size` [px]."""
+    picture = Image.fromarray(image)
+    picture.thumbnail((size, size), Image.Resampling.LANCZOS)
+    return np.asarray(picture)
 
 
 def normal_picture(view: View) -> UInt8[np.ndarray, "H W 3"]:

@@ -12,7 +12,13 @@ from collections.abc import Mapping
 from typing import Any
 
 REASON = "reason"  # property before an answer that lets a model reason
-OPTIONAL = {REASON, "machine", "count", "all_equal"}  # properties that answers may lack, as those of earlier versions do
+OPTIONAL = {
+    REASON,
+    "machine",
+    "count",
+    "all_equal",
+    "withdrawn",
+}  # properties that answers may lack, as those of earlier versions do
 LARGEST = 1e9  # limit of numbers in answers; a number of a thousand digits would fill the following questions
 INTEGER, NUMBER, STRING, BOOLEAN = ({"type": t} for t in ("integer", "number", "string", "boolean"))
 _TYPES: dict[str, tuple[type, ...]] = {

@@ -133,21 +133,34 @@ class RecognizeRegions:
             "rudders, hatches, doors of wheel wells, wheels, struts, hooks, antennas, wipers, levers, ramps). regions: each "
             "region once, with the labels of all kinds that move in it, found before or new. parts: the new kinds, one entry "
             "each, and those found before whose entry must change, with the right one; leave out the others and what does not "
-            f"move. {KIND} {COUNT}",
+            f"move. withdrawn: labels found before of which there is no such part, or none that moves. {KIND} {COUNT}",
         )
 
     def schema(self) -> dict[str, Any]:
         region = an_object(region=INTEGER, labels=a_list(STRING))
-        return an_answer(regions=a_list(region), parts=a_list(_kind_schema(counted=True)))
+        return an_answer(regions=a_list(region), parts=a_list(_kind_schema(counted=True)), withdrawn=a_list(STRING))
 
     def parse(self, answer: Mapping[str, Any]) -> tuple[RecognizedLabel, ...]:
-        """Return all kinds of part: those found before, as changed, and the new ones."""
+        """Return all kinds of part: those found before and not withdrawn, as changed, and the new ones."""
         one_each([r["region"] for r in answer["regions"]], max(self.regions), "region")
-        kinds = parse_kinds(answer["parts"], self.known)
+        kinds = parse_kinds(answer["parts"], self._kept({folded(label) for label in answer.get("withdrawn", ())}))
         seen = {folded(label) for r in answer["regions"] for label in r["labels"]}
         if lacking := sorted(seen - {r.label for r in kinds}):
             raise BadAnswerError(f"parts must have an entry for each new kind in regions; missing {lacking[:10]}")
         return kinds
+
+    def _kept(self, withdrawn: set[str]) -> list[RecognizedLabel]:
+        """Return the kinds found before that stay; what is mounted on others is mounted on what these are mounted on."""
+        over = {r.label: r.parent for r in self.known}
+        if unknown := sorted(withdrawn - over.keys()):
+            raise BadAnswerError(f"withdrawn must be of {list(over)}, found {unknown[:10]}")
+        kept = [r for r in self.known if r.label not in withdrawn]
+        for k, r in enumerate(kept):
+            parent = r.parent
+            while parent in withdrawn:
+                parent = BASE if over[parent] == parent else over[parent]
+            kept[k] = replace(r, parent=parent)
+        return kept
 
 
 def _kind_schema(*, counted: bool) -> dict[str, Any]:

@@ -141,8 +141,10 @@ def answer_object(question: Question[Any], answer: Any) -> dict[str, Any]:
         case Recognize():
             return _recognition(question, answer)
         case RecognizeRegions():
-            numbers = range(1, max(question.regions) + 1)
-            return {"regions": [{"region": k, "labels": []} for k in numbers], **_parts([_label(r) for r in answer])}
+            regions = [{"region": k, "labels": []} for k in range(1, max(question.regions) + 1)]
+            left = {r.label for r in answer}
+            gone = [r.label for r in question.known if r.label not in left]
+            return {"regions": regions, **_parts([_label(r) for r in answer]), "withdrawn": gone}
         case WhichViews():
             return _parts([{"label": label, "views": [v + 1 for v in views]} for label, views in answer.items()])
         case WhichMarks():

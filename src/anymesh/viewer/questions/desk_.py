@@ -16,16 +16,51 @@ from anymesh.errors import InputError
 from anymesh.prompted.answerers.file_answerer import check_answer
 from anymesh.prompted.answerers.question_files import CHECK, LEAVE, QuestionFolder, QuestionStore
 from anymesh.prompted.questions.asking import BadAnswerError
+from anymesh.prompted.questions.grounding import WhichMarks
+from anymesh.prompted.questions.prompting import WhichArrows, WhichKinds, WhichMotions, WhichPoints
+from anymesh.prompted.questions.recognition import Recognize, RecognizeRegions
 from anymesh.prompted.questions.saved_question import unpack_question
 from anymesh.types import Mesh
+from anymesh.types.questions import Question
 from anymesh.viewer.panels import Page
 from anymesh.viewer.questions.fields_ import AskPanel, Choices, azimuth_of
-from anymesh.viewer.questions.forms import SPLIT, Form, MarksForm, PartsForm, form_of
+from anymesh.viewer.questions.forms import (
+    SPLIT,
+    ArrowsForm,
+    Form,
+    KindsForm,
+    MarksForm,
+    MotionsForm,
+    PartsForm,
+    PointsForm,
+    RecognizeForm,
+    RegionsForm,
+)
 from anymesh.viewer.questions.scene_ import QuestionScene, closer_view
 
 WAITING = "Geometry is working out a suggestion; you need not wait for it."
 SUGGESTED = "Filled in as geometry would answer; change what is wrong."
 AGAIN = "Filled in as you answered before; change what is wrong."
+
+
+def form_of(question: Question[Any]) -> Form | None:
+    """Return the empty form of a question; None if it cannot be answered on the object itself."""
+    match question:
+        case Recognize():
+            return RecognizeForm(question)
+        case RecognizeRegions():
+            return RegionsForm(question)
+        case WhichMarks() if question.face_mark is not None:
+            return MarksForm(question, question.face_mark)
+        case WhichKinds():
+            return KindsForm(question)
+        case WhichPoints():
+            return PointsForm(question)
+        case WhichArrows():
+            return ArrowsForm(question)
+        case WhichMotions():
+            return MotionsForm(question)
+    return None
 
 
 def find_open_question(folder: Path) -> QuestionFolder | None:

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from anymesh.prompted.questions.prompting import JointAppearance, PartFit
+from anymesh.prompted.questions.recognition import MAX_COUNT
 from anymesh.types.motion import BASE
 from anymesh.viewer.panels import SMALL
 from anymesh.viewer.questions.forms import (
@@ -25,6 +26,8 @@ from anymesh.viewer.questions.forms import (
     PartsForm,
     PointsForm,
     RecognizeForm,
+    RegionsForm,
+    RowsForm,
 )
 from anymesh.viewer.questions.scene_ import group_color
 
@@ -90,6 +93,8 @@ class Fields:
         match form:
             case RecognizeForm():
                 self._recognize(form)
+            case RegionsForm():
+                self._rows(form)
             case MarksForm():
                 self._marks(form)
             case KindsForm():
@@ -142,6 +147,10 @@ class Fields:
             front.value = fronts[form.front]
 
         mine.on_click(lambda event: self._act(lambda: look(event)))
+        self._rows(form)
+
+    def _rows(self, form: RowsForm) -> None:
+        gui = self._gui
         for row in form.rows:
             self._label_row(form, row)
         more = gui.add_button("Add a kind of part that moves", color="gray")
@@ -153,7 +162,7 @@ class Fields:
 
         more.on_click(lambda _: self._act(add))
 
-    def _label_row(self, form: RecognizeForm, row: LabelRow) -> None:
+    def _label_row(self, form: RowsForm, row: LabelRow) -> None:
         gui, words = self._gui, {v.value: k for k, v in MOVES.items()}
         with gui.add_folder(row.words, expand_by_default=form.rows.index(row) == form.open_row):
             self._bound(form, gui.add_text("Kind of part", row.label), lambda v: setattr(row, "label", v))
@@ -168,6 +177,8 @@ class Fields:
                 row.lower, row.upper = (float(v) for v in value)
 
             self._bound(form, limits, set_limits)
+            count = gui.add_number("How many (0: unknown)", row.count, min=0, max=MAX_COUNT, step=1)
+            self._bound(form, count, lambda v: setattr(row, "count", int(v)))
             gone = gui.add_button("Remove", color="gray")
 
         def remove() -> None:

@@ -21,12 +21,13 @@ from anymesh.prompted.questions.prompting import (
     WhichMotions,
     WhichPoints,
 )
-from anymesh.prompted.questions.recognition import Recognize
+from anymesh.prompted.questions.recognition import Recognize, RecognizeRegions, folded
+from anymesh.prompted.questions.saved_question import answer_object
 from anymesh.types import JointType
 from anymesh.types.motion import BASE
-from anymesh.types.questions import Question
 
 UNNAMED = "part"
+NO_LIMITS = {JointType.CONTINUOUS.value: {"lower": 0.0, "upper": 0.0}}
 SPLIT = ("to be divided", 0)  # the group of marks that lie on more than one part
 Group = tuple[str, int]  # label and instance of a part
 MOVES = {
@@ -82,46 +83,64 @@ class LabelRow:
 
 
 @dataclass
-class RecognizeForm(Form):
-    """The object, and its kinds of moving parts.
+class RowsForm(Form):
+    """Base of forms about kinds of moving parts. open_row: the expanded entry, -1 for none."""
 
-    front: number of a picture, 0 for none; open_row: the expanded entry, -1 for none.
-    """
-
-    title: ClassVar[str] = "What is this, and what moves?"
-    instructions: ClassVar[str] = (
-        "Name the object and give one entry for each kind of part that moves; click an entry to change it."
-    )
-    question: Recognize
-    category: str = ""
-    longest: float = 1.0
-    front: int = 0
-    machine: bool = False
     rows: list[LabelRow] = field(default_factory=list)
     open_row: int = -1
     touched: bool = False
 
     def fill(self, answer: Mapping[str, Any]) -> None:
-        self.machine = answer.get("machine", False)
-        self.category, self.longest, self.front = answer["category"], float(answer["longest_side_m"]), int(answer["front"])
-        self.rows = [
-            LabelRow(
-                p["label"], p["moves"], p["parent"], round(float(p["lower"]), 1), round(float(p["upper"]), 1), p.get("count", 0)
-            )
-            for p in answer["parts"]
-        ]
+        self.rows = [LabelRow(**p | {end: round(float(p[end]), 1) for end in ("lower", "upper")}) for p in answer["parts"]]
 
     def answer(self) -> dict[str, Any]:
-        rows = [
-            {**asdict(r), "lower": 0.0, "upper": 0.0} if r.moves == JointType.CONTINUOUS.value else asdict(r) for r in self.rows
-        ]
-        object_ = {"category": self.category, "longest_side_m": self.longest, "front": self.front, "machine": self.machine}
-        return {**object_, "parts": rows}
+        return {"parts": [asdict(r) | NO_LIMITS.get(r.moves, {}) for r in self.rows]}
+
+
+class RecognizeForm(RowsForm):
+    """The object, and its kinds of moving parts. front: number of a picture, 0 for none."""
+
+    title = "What is this, and what moves?"
+    instructions = "Name the object and give one entry for each kind of part that moves; click an entry to change it."
+
+    def __init__(self, question: Recognize) -> None:
+        super().__init__()
+        self.question, self.category, self.longest, self.front, self.machine = question, "", 1.0, 0, False
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        super().fill(answer)
+        self.machine = answer.get("machine", False)
+        self.category, self.longest, self.front = answer["category"], float(answer["longest_side_m"]), int(answer["front"])
+
+    def answer(self) -> dict[str, Any]:
+        own = {"category": self.category, "longest_side_m": self.longest, "front": self.front, "machine": self.machine}
+        return own | super().answer()
 
     def look_from(self, azimuth: float) -> None:
         """Choose the picture with the nearest azimuth [deg] as the one that shows the front."""
         off = [abs((a - azimuth + 180) % 360 - 180) for a in self.question.azimuths]
         self.front, self.touched = (off.index(min(off)) + 1 if off else 0), True
+
+
+class RegionsForm(RowsForm):
+    """The kinds of moving parts of a machine: those found so far, to which those of a closer look are added."""
+
+    title = "What else moves?"
+    instructions = "Look closely at each region; add kinds of part that move and are not listed, remove what does not move."
+
+    def __init__(self, question: RecognizeRegions) -> None:
+        super().__init__()
+        self.question = question
+        self.fill({"parts": ()})
+
+    def fill(self, answer: Mapping[str, Any]) -> None:
+        """Take over an answer, which lists only what differs from what was found."""
+        rows = {p["label"]: p for p in (*answer_object(self.question, self.question.known)["parts"], *answer["parts"])}
+        super().fill({"parts": [p for label, p in rows.items() if label not in answer.get("withdrawn", ())]})
+
+    def answer(self) -> dict[str, Any]:
+        left = {folded(r.label) for r in self.rows}
+        return answer_object(self.question, [r for r in self.question.known if r.label in left]) | super().answer()
 
 
 class MarksForm(Form):
@@ -131,9 +150,7 @@ class MarksForm(Form):
     """
 
     title = "Which faces are which part?"
-    instructions = (
-        "Choose a part below, then click its regions on the object; click again to take one back. Leave what does not move."
-    )
+    instructions = "Choose a part below, then click its regions; click again to take one back. Leave what does not move."
 
     def __init__(self, question: WhichMarks, face_mark: Int[np.ndarray, " F"]) -> None:
         self.question, self.face_mark = question, face_mark
@@ -380,21 +397,3 @@ class MotionsForm(TableForm):
             for row, fit in zip(answer["parts"], self.fits, strict=True):
                 row["part_is"] = fit
         return answer
-
-
-def form_of(question: Question[Any]) -> Form | None:
-    """Return the empty form of a question; None if it cannot be answered on the object itself."""
-    match question:
-        case Recognize():
-            return RecognizeForm(question)
-        case WhichMarks() if question.face_mark is not None:
-            return MarksForm(question, question.face_mark)
-        case WhichKinds():
-            return KindsForm(question)
-        case WhichPoints():
-            return PointsForm(question)
-        case WhichArrows():
-            return ArrowsForm(question)
-        case WhichMotions():
-            return MotionsForm(question)
-    return None
