@@ -122,6 +122,7 @@ def _main(
 def main(arguments: list[str] | None = None) -> None:
     """Run the command line and end the process with its exit code."""
     atexit.register(_skip_collection)
+    os.environ.setdefault("MUJOCO_GL", "disable")  # no command draws by MuJoCo, and GLFW takes .1 s to import
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # others would wait in loops; and one thread may fork
     sys.exit(run(sys.argv[1:] if arguments is None else arguments))
 
