@@ -13,7 +13,7 @@ import torch
 from jaxtyping import Float
 from torch import nn
 
-from anymesh.scoring.classifier import HEADS, SetNetwork, place_pairs, place_tokens, scaled, turned
+from anymesh.scoring.classifier import HEADS, SetNetwork, pair_inputs, place_tokens, scaled, turned
 
 WIDTH, HIDDEN, PAIR_HIDDEN, LAYERS = 48, 96, 24, 3
 KNOTS, KNOT_ROWS = 33, 60  # quantiles of a feature, and candidates of an object that they are taken over
@@ -82,7 +82,7 @@ def train(sets: Sequence[CandidateSet], epochs: int, seed: int) -> SetNetwork:
     rng, knots = np.random.default_rng(seed), knots_of(sets)
     own = [scaled(s.own, knots) for s in sets]
     first = sets[0]
-    network = Network(own[0].shape[1] + 12, first.relations.shape[2] + place_pairs(first.place[:1]).shape[2])
+    network = Network(own[0].shape[1] + 12, pair_inputs(first.place, first.relations).shape[2])
     optimizer = torch.optim.AdamW(network.parameters(), RATE, weight_decay=DECAY)
     steps = len(sets) // BATCH
     schedule = torch.optim.lr_scheduler.OneCycleLR(optimizer, RATE, total_steps=epochs * steps + 1, pct_start=0.1)
@@ -96,7 +96,7 @@ def train(sets: Sequence[CandidateSet], epochs: int, seed: int) -> SetNetwork:
                 share = rng.uniform(LEAST_SHARE, 1)
                 some = np.sort(rng.permutation(count)[: min(MOST, max(1, round(count * share)))])
                 place = turned(s.place[some], int(rng.integers(4)), mirrored=rng.random() < 0.5)
-                pairs = np.concatenate([s.relations[np.ix_(some, some)], place_pairs(place)], 2, dtype=np.float32)
+                pairs = pair_inputs(place, s.relations[np.ix_(some, some)])
                 tokens = np.concatenate([own[k][some], place_tokens(place)], 1, dtype=np.float32)
                 score = network(torch.from_numpy(tokens), torch.from_numpy(pairs))
                 target = torch.from_numpy(s.target[some].astype(np.float32))
@@ -116,10 +116,10 @@ def check(network: Network, trained: SetNetwork, some: CandidateSet) -> None:
     network.load_state_dict({n: torch.from_numpy(w) for n, w in trained.weights.items()})
     network.eval()
     tokens = np.concatenate([scaled(some.own, trained.knots), place_tokens(some.place)], 1, dtype=np.float32)
-    pairs = np.concatenate([some.relations, place_pairs(some.place)], 2, dtype=np.float32)
+    pairs = pair_inputs(some.place, some.relations)
     with torch.no_grad():
         score = network(torch.from_numpy(tokens), torch.from_numpy(pairs)).numpy()
-    np.testing.assert_allclose(trained.score(some.own, some.place, some.relations), score, atol=2e-3)
+    np.testing.assert_allclose(trained.score(some.own, some.place, pairs), score, atol=2e-3)
 
 
 _SETS: list[CandidateSet] = []  # of the workers of `train_all`, which share the memory of their parent

@@ -12,7 +12,7 @@ from anymesh.scoring.classifier import (
     BoostedTrees,
     Classifier,
     SetNetwork,
-    place_pairs,
+    pair_inputs,
     scaled,
     turned,
 )
@@ -108,6 +108,10 @@ def test_no_rows_have_no_scores() -> None:
 WIDTH, HIDDEN, PAIR_HIDDEN, OWN, RELATIONS = 8, 6, 5, 3, 2
 
 
+def scored(net: SetNetwork, own: np.ndarray, place: np.ndarray, relations: np.ndarray) -> np.ndarray:
+    return net.score(own, place, pair_inputs(place, relations))
+
+
 def network(seed: int, *, attention: float = 1.0) -> SetNetwork:
     """Return a network of one layer with random weights. attention: factor on what a candidate takes up from others."""
     rng = np.random.default_rng(seed)
@@ -133,17 +137,17 @@ def candidates(seed: int, count: int) -> tuple[np.ndarray, np.ndarray, np.ndarra
 def test_the_order_of_candidates_does_not_matter() -> None:
     own, place, relations = candidates(1, 7)
     order = np.random.default_rng(2).permutation(7)
-    turned = network(0).score(own[order], place[order], relations[np.ix_(order, order)])
-    np.testing.assert_allclose(turned, network(0).score(own, place, relations)[order], atol=2e-3)
+    turned = scored(network(0), own[order], place[order], relations[np.ix_(order, order)])
+    np.testing.assert_allclose(turned, scored(network(0), own, place, relations)[order], atol=2e-3)
 
 
 def test_a_candidate_sees_the_others_by_attention_alone() -> None:
     own, place, relations = candidates(1, 5)
     few = own[:3], place[:3], relations[:3, :3]
-    alone, among = network(0).score(*few), network(0).score(own, place, relations)[:3]
+    alone, among = scored(network(0), *few), scored(network(0), own, place, relations)[:3]
     assert np.abs(alone - among).max() > 0.01
     blind = network(0, attention=0.0)
-    np.testing.assert_allclose(blind.score(*few), blind.score(own, place, relations)[:3], atol=2e-3)
+    np.testing.assert_allclose(scored(blind, *few), scored(blind, own, place, relations)[:3], atol=2e-3)
 
 
 def test_a_relation_matters_by_direction() -> None:
@@ -151,7 +155,7 @@ def test_a_relation_matters_by_direction() -> None:
     own, place, relations = candidates(1, 2)
     changed = relations.copy()
     changed[0, 1] += 1
-    before, after = network(0).score(own, place, relations), network(0).score(own, place, changed)
+    before, after = scored(network(0), own, place, relations), scored(network(0), own, place, changed)
     assert before[0] != after[0]
     assert before[1] == after[1]
 
@@ -159,16 +163,16 @@ def test_a_relation_matters_by_direction() -> None:
 def test_a_network_of_zeros_returns_the_last_bias() -> None:
     net = network(0)
     zero = SetNetwork(net.knots, {n: np.zeros_like(w) for n, w in net.weights.items()} | {"score.bias": np.float32([0.25])})
-    assert zero.score(*candidates(0, 3)).tolist() == [0.25] * 3
-    assert zero.score(*candidates(0, 0)).shape == (0,)
+    assert scored(zero, *candidates(0, 3)).tolist() == [0.25] * 3
+    assert scored(zero, *candidates(0, 0)).shape == (0,)
 
 
 def test_the_arrays_of_a_network_are_read_as_they_were_written() -> None:
     some, written = candidates(3, 4), network(0)
     once = SetNetwork.from_arrays("network1", written.arrays("network1") | network(1).arrays("network0"))
     again = SetNetwork.from_arrays("network1", once.arrays("network1"))
-    assert once.score(*some).tolist() == again.score(*some).tolist()
-    np.testing.assert_allclose(once.score(*some), written.score(*some), atol=0.02)  # in half precision
+    assert scored(once, *some).tolist() == scored(again, *some).tolist()
+    np.testing.assert_allclose(scored(once, *some), scored(written, *some), atol=0.02)  # in half precision
 
 
 def test_places_turn_with_the_object() -> None:
@@ -192,5 +196,5 @@ def test_places_of_a_pair() -> None:
     place = np.zeros((2, 12))
     place[0, :3], place[1, :3] = (0, 0, 0.5), (0.25, 0, 0)
     place[0, 6:9], place[1, 6:9] = (1, 0, 0), (0.6, 0.8, 0)
-    assert place_pairs(place)[0, 1] == pytest.approx([0.25, 0, -0.5, 0.6])
-    assert place_pairs(place)[1, 0] == pytest.approx([-0.25, 0, 0.5, 0.6])
+    assert pair_inputs(place, np.zeros((2, 2, 0)))[0, 1] == pytest.approx([0.25, 0, -0.5, 0.6])
+    assert pair_inputs(place, np.zeros((2, 2, 0)))[1, 0] == pytest.approx([-0.25, 0, 0.5, 0.6])

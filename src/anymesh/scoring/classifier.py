@@ -79,8 +79,8 @@ class Classifier:
 
         place: as from `PartContext.place`; relations: features of each pair.
         """
-        ways = [turned(place, quarters) for quarters in range(4)]
-        return np.mean([network.score(own, way, relations) for network in self.networks for way in ways], axis=0)
+        ways = [(way, pair_inputs(way, relations)) for way in (turned(place, quarters) for quarters in range(4))]
+        return np.mean([network.score(own, way, pairs) for network in self.networks for way, pairs in ways], axis=0)
 
     def probability(self, log_odds: Float[np.ndarray, " n"]) -> Float[np.ndarray, " n"]:
         """Return the probability that each candidate with these log-odds is right."""
@@ -116,16 +116,15 @@ class SetNetwork(Brief):
     weights: Mapping[str, np.ndarray]
 
     def score(
-        self, own: Float[np.ndarray, "n k"], place: Float[np.ndarray, "n 12"], relations: Float[np.ndarray, "n n r"]
+        self, own: Float[np.ndarray, "n k"], place: Float[np.ndarray, "n 12"], pairs: Float32[np.ndarray, "n n p"]
     ) -> Float[np.ndarray, " n"]:
         """Return the log-odds of each candidate.
 
-        own: features, scaled by the knots; place: as from `PartContext.place`; relations: features of each pair.
+        own: features, scaled by the knots; place: as from `PartContext.place`; pairs: as from `pair_inputs`.
         """
         if len(own) == 0:
             return np.zeros(0)
         tokens = np.concatenate([scaled(own, self.knots), place_tokens(place)], 1, dtype=np.float32)
-        pairs = np.concatenate([relations, place_pairs(place)], 2, dtype=np.float32)
         state = self._linear("second", np.maximum(self._linear("first", tokens), 0))
         bias = self._linear("pair_second", np.maximum(self._linear("pair_first", pairs), 0))
         for k, layer in enumerate(self._layers):
@@ -199,10 +198,11 @@ def place_tokens(place: Float[np.ndarray, "n 12"]) -> Float[np.ndarray, "n 12"]:
     return place * np.repeat(PLACE_SCALES, 3)
 
 
-def place_pairs(place: Float[np.ndarray, "n 12"]) -> Float[np.ndarray, "n n 4"]:
-    """Return the offset of the second candidate's center from the first's, and the cosine of their opening directions."""
+def pair_inputs(place: Float[np.ndarray, "n 12"], relations: Float[np.ndarray, "n n r"]) -> Float32[np.ndarray, "n n p"]:
+    """Return the features of pairs, the offset of the second's center from the first's, and the cosine of their openings."""
     center, opening = place[:, :3], place[:, 6:9]
-    return np.concatenate([center[None] - center[:, None], (opening @ opening.T)[..., None]], 2)
+    offset = center[None] - center[:, None]
+    return np.concatenate([relations, offset, (opening @ opening.T)[..., None]], 2, dtype=np.float32)
 
 
 @dataclass(frozen=True, eq=False)
