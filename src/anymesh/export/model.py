@@ -20,7 +20,7 @@ from anymesh.export.options import Driven, ExportOptions, Shapes, Visuals
 from anymesh.geometry.surface import plain_triangles
 from anymesh.physics.collision import CollisionConfig, collision_shapes
 from anymesh.physics.convex import as_hull, planes
-from anymesh.physics.inertia import Inertia, InertiaConfig, MadeOf, link_inertia
+from anymesh.physics.inertia import Inertia, InertiaConfig, MadeOf, link_inertia, numbered
 from anymesh.physics.mechanism import HandleFrame, Mechanism
 from anymesh.physics.resistance import Resistance, crossing
 from anymesh.physics.substances import Substance, substance_of, usual_substance
@@ -207,14 +207,14 @@ def _shares(asset: Asset, link: Link, of_object: Any) -> tuple[tuple[SubstanceSh
 
 def _surfaces(triangles: np.ndarray, made_of: MadeOf, shapes: Sequence[Shape], usual: Substance | None) -> MadeOf:
     """Return the substance of each shape: that with most area among the triangles nearest to it, `usual` without any."""
-    kinds = list(dict.fromkeys(made_of))
+    kinds, number = numbered(made_of)
     if len(kinds) < 2:
         return (usual,) * len(shapes)
     some = slice(None, None, 1 + len(triangles) // VOTERS)
-    centers, areas = np.c_[triangles[some].mean(1), np.ones(len(made_of[some]))], normals_and_areas(triangles[some])[1]
+    centers, areas = np.c_[triangles[some].mean(1), np.ones(len(number[some]))], normals_and_areas(triangles[some])[1]
     outside = [(centers @ planes(as_hull(shape)).T).max(1) for shape in shapes]
     votes = np.zeros((len(shapes), len(kinds)))
-    np.add.at(votes, (np.argmin(outside, 0), [kinds.index(m) for m in made_of[some]]), areas)
+    np.add.at(votes, (np.argmin(outside, 0), number[some]), areas)
     return tuple(kinds[int(v.argmax())] if v.any() else usual for v in votes)
 
 

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float
+from jaxtyping import Float, Int
 
 from anymesh.geometry.topology import components
 from anymesh.physics.substances import Substance
@@ -124,8 +124,9 @@ def _densities(
     spread, walls = np.tile(UNKNOWN, (count, 1)), np.zeros(count)
     if made_of is None or not any(made_of):
         return body, sheet, solid, spread, walls
-    kinds = sorted({m for m in made_of if m is not None}, key=lambda m: (m.density, m.solid_to, m.sheet, m.name))
-    number = np.array([len(kinds) if m is None else kinds.index(m) for m in made_of])
+    substances, number = numbered(made_of)
+    kinds = sorted((m for m in substances if m is not None), key=lambda m: (m.density, m.solid_to, m.sheet, m.name))
+    number = np.array([len(kinds) if m is None else kinds.index(m) for m in substances])[number]
     covered = np.zeros((count, len(kinds) + 1))
     np.add.at(covered, (label, number), areas)
     area = np.maximum(covered.sum(1), 1e-300)
@@ -136,6 +137,13 @@ def _densities(
             solid[k], sheet[k], walls[k] = False, substance.density * substance.sheet, substance.sheet * closed[k]
         spread[k] = np.array([1 - substance.spread, 1 + substance.spread]) * (1.0 if solid[k] else WALLS)
     return body, sheet, solid, spread, walls
+
+
+def numbered(made_of: MadeOf) -> tuple[list[Substance | None], Int[np.ndarray, " n"]]:
+    """Return the substances, the first met first, and the number of each item's among them."""
+    _, first, rank = np.unique(np.fromiter(map(id, made_of), np.int64), return_index=True, return_inverse=True)
+    kinds = list(dict.fromkeys(made_of[k] for k in np.sort(first)))
+    return kinds, np.array([kinds.index(made_of[k]) for k in first], np.int64)[rank]
 
 
 def physical(body: Inertia, config: InertiaConfig) -> Inertia:

@@ -61,9 +61,9 @@ class GeometryStages:
         return divide_surface(self.mesh, self.config.seed, seams=self._seams)
 
     @staticmethod
-    def _shapes(divided: DividedSurface) -> list[ObjectShape]:
+    def _shapes(divided: DividedSurface, whole: ObjectShape) -> list[ObjectShape]:
         """Return the shapes in which parts are looked for: as modelled, and with what is sunk into others drawn out."""
-        return [d.simplified() for d in (divided, divided.drawn_out) if d is not None]
+        return [whole] if divided.drawn_out is None else [whole, divided.drawn_out.simplified()]
 
     @cached_property
     def _ground(self) -> Bool[np.ndarray, " F"]:
@@ -101,14 +101,13 @@ class GeometryStages:
         if self._by_itself is None:
             above = self._parts_above_ground(progress) if self._ground.any() else None
             if above is None or len(above.parts) <= max(1, self.config.at_least):
-                shapes = self._shapes(self._divided)
-                above = self._segment(self.mesh, shapes, self._labels, progress)
+                above = self._segment(self.mesh, self._shapes(self._divided, self.whole), self._labels, progress)
             self._by_itself = above
         return self._by_itself
 
     def _parts_above_ground(self, progress: Progress) -> Segmentation:
         object_ = self.mesh.subset(~self._ground)
-        shapes = self._shapes(divide_surface(object_, self.config.seed, seams=self._seams))
+        divided = divide_surface(object_, self.config.seed, seams=self._seams)
 
         def with_ground(segmentation: Segmentation) -> Segmentation:
             face_part = np.zeros(len(self.mesh.faces), np.int64)
@@ -118,7 +117,7 @@ class GeometryStages:
         def labels(segmentation: Segmentation) -> list[str]:
             return self._labels(with_ground(segmentation))
 
-        return with_ground(self._segment(object_, shapes, labels, progress))
+        return with_ground(self._segment(object_, self._shapes(divided, divided.simplified()), labels, progress))
 
     def _segment(self, mesh: Mesh, shapes: list[ObjectShape], labels: LabelParts, progress: Progress) -> Segmentation:
         return segment_parts(mesh, shapes, labels, self.config.at_least, progress, self.deadline, self._usual)

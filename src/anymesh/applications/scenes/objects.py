@@ -189,8 +189,9 @@ class _Scene:
         corner = weld(mesh.vertices)[mesh.faces]
         links = np.concatenate([corner[:, [0, 1]], corner[:, [1, 2]]])
         connected = label_connected(int(corner.max()) + 1, links)[corner[:, 0]]
-        pairs = np.stack([mesh.face_node, connected], 1)
-        rows, label = np.unique(pairs, axis=0, return_inverse=True)
+        across = int(connected.max()) + 1
+        numbers, label = np.unique(mesh.face_node.astype(np.int64) * across + connected, return_inverse=True)
+        rows = np.stack(np.divmod(numbers, across), 1)
         if len(rows) > MAX_PIECES:
             rows, label = np.unique(mesh.face_node, return_inverse=True)
             rows = rows[:, None]
