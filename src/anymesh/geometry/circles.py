@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.geometry.triangle_set import SurfacePoints
+from anymesh.geometry.triangle_set import SurfacePoints, median
 from anymesh.types import Brief
-from anymesh.types.triangles import cross
+from anymesh.types.triangles import cross, crosses
 
 BINS = 36
 MIN_CIRCLE_ROUNDNESS = 0.8  # minimum roundness of a circle
@@ -68,7 +68,7 @@ def outline_about(points: Float[np.ndarray, "n 3"], axis: Float[np.ndarray, " 3"
         filled = largest >= 0
         if filled.sum() < 6:
             break
-        radius = float(np.median(largest[filled]))
+        radius = median(largest[filled])
         near = np.abs(largest - radius) <= ROUND * radius
         roundness = float(near.sum() / BINS)
         if near.sum() < BINS // 2:
@@ -142,7 +142,7 @@ def share_in_place(surface: SurfacePoints, axis: Float[np.ndarray, " 3"], origin
 def _weights(surface: SurfacePoints, lines: Axes, min_radius: float) -> Float[np.ndarray, "k n"]:
     """Return for each line how far each point turns in place: 1 if it does, towards 0 if it moves along its normal."""
     axes, origins = lines
-    normal_speeds = axes @ surface.moments.T + np.cross(origins, axes) @ surface.normals.T
+    normal_speeds = axes @ surface.moments.T + crosses(origins, axes) @ surface.normals.T
     return 1 / (1 + (normal_speeds / (IN_PLACE * _radii(surface, lines, min_radius))) ** 2)
 
 
@@ -187,12 +187,12 @@ def _through_normals(surface: SurfacePoints, rng: np.random.Generator) -> Axes:
     nearest = np.argpartition(distance, near - 1, axis=1)[:, :near]
     chosen[: len(first), 1:] = np.take_along_axis(nearest, rng.integers(0, near, (len(first), 2)), axis=1)
     a, b, c = surface.normals[chosen].transpose(1, 0, 2)
-    axes = np.cross(a - b, a - c)  # the normals of a cone have one angle with its axis, those of a cylinder a right one
+    axes = crosses(a - b, a - c)  # the normals of a cone have one angle with its axis, those of a cylinder a right one
     length = np.linalg.norm(axes, axis=1)
     kept = length > 1e-3
     axes, chosen = axes[kept] / length[kept, None], chosen[kept]
     p, q, n, m = surface.points[chosen[:, 0]], surface.points[chosen[:, 1]], a[kept], b[kept]
-    across = np.cross(axes, m)  # the first normal meets the plane of the axis and the second normal on the axis
+    across = crosses(axes, m)  # the first normal meets the plane of the axis and the second normal on the axis
     slope = (n * across).sum(1)
     origins = p + (((q - p) * across).sum(1) / np.where(np.abs(slope) > 1e-3, slope, np.inf))[:, None] * n
     return axes, origins - (origins * axes).sum(1)[:, None] * axes
@@ -206,4 +206,4 @@ def _fit(surface: SurfacePoints, weights: Float[np.ndarray, "k n"]) -> Axes:
     to_moment = -np.linalg.pinv(n_t @ n, rcond=1e-6) @ (n_t @ moment)
     rest = moment + n @ to_moment
     axes = np.linalg.eigh(rest.transpose(0, 2, 1) @ rest)[1][:, :, 0]
-    return axes, np.cross(axes, (to_moment @ axes[:, :, None])[:, :, 0])
+    return axes, crosses(axes, (to_moment @ axes[:, :, None])[:, :, 0])

@@ -22,7 +22,7 @@ from anymesh.geometry.boxes import within
 from anymesh.geometry.triangle_set import SurfacePoints, TriangleSet, spread_points
 from anymesh.runtime import usable_cores
 from anymesh.types import Brief, JointType, Motion, Sweep
-from anymesh.types.triangles import boxes_meet, normals_and_areas, pieces_within
+from anymesh.types.triangles import boxes_meet, crosses, normals_and_areas, pieces_within
 
 LOOK_AHEAD = 2  # further steps used to decide whether a point continues behind a hit surface
 ONWARD = np.float32(1e-4)  # share of a segment between the first hit and the start of the second pass
@@ -177,9 +177,9 @@ class Passage(Brief):
         n = len(start)
         along = span / np.maximum(np.linalg.norm(span, axis=1, keepdims=True), 1e-12)
         helper = np.eye(3, dtype=np.float32)[np.abs(along).argmin(1)]
-        u = np.cross(along, helper)
+        u = crosses(along, helper)
         u /= np.linalg.norm(u, axis=1, keepdims=True)
-        v = np.cross(along, u)
+        v = crosses(along, u)
         offset = np.float32(self.tolerance) * np.concatenate([u, -u, v, -v])
         origin, reach = np.tile(start, (4, 1)), np.tile(span + along * np.float32(2 * self.tolerance), (4, 1))
         hits = self.target.scene.first_hit_unit(origin, offset)

@@ -11,7 +11,7 @@ from scipy.spatial import KDTree
 from anymesh.config import FACING_COSINE
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.topology import label_connected
-from anymesh.geometry.triangle_set import MAX_PROTRUSION_RATIO, TriangleSet, points_above, shares_above
+from anymesh.geometry.triangle_set import MAX_PROTRUSION_RATIO, TriangleSet, points_above, quantile, shares_above
 from anymesh.types import Brief, Handle
 
 MIN_TAB_GAP_RATIO = 0.01  # of the tolerance length: a tab that is closer to the parent is a hinge barrel
@@ -47,7 +47,22 @@ def find_handle(
 
     core: box of the part without protrusions; scale: reference length of tolerances [m].
     """
-    return _face_handle(part, core, parent, scale, opening_direction) or _tab(part, core, parent, scale, opening_direction)
+    of = _Part(part, core, core.local(part.triangles.reshape(-1, 3)).reshape(-1, 3, 3), parent)
+    return _face_handle(of, scale, opening_direction) or _tab(of, scale, opening_direction)
+
+
+@dataclass(frozen=True, eq=False)
+class _Part:
+    """A part, its box, the corners of its faces in the frame of the box [m], and its parent."""
+
+    shape: TriangleSet
+    core: OrientedBox
+    corners: Float[np.ndarray, "F 3 3"]
+    parent: TriangleSet
+
+    def heights(self, axis: int, sign: float) -> Float[np.ndarray, "F 3"]:
+        """Return how far the corners of each face are beyond a side of the box [m]."""
+        return sign * self.corners[:, :, axis] - self.core.half[axis]
 
 
 @dataclass(frozen=True, eq=False)
@@ -66,42 +81,34 @@ class _Protrusion(Brief):
     faces: Int[np.ndarray, " k"]
 
 
-def _heights(part: TriangleSet, core: OrientedBox, axis: int, sign: float) -> Float[np.ndarray, "F 3"]:
-    """Return how far the corners of each face are beyond a side of the box [m]."""
-    return (sign * core.local(part.triangles.reshape(-1, 3))[:, axis] - core.half[axis]).reshape(-1, 3)
-
-
-def _beyond(
-    part: TriangleSet, core: OrientedBox, parent: TriangleSet, axis: int, sign: float, level: float
-) -> _Protrusion | None:
+def _beyond(part: _Part, axis: int, sign: float, level: float) -> _Protrusion | None:
     """Return what extends further than `level` beyond a side of the box, None for nothing.
 
     Only the faces that do so are sampled, since few of the part's samples lie on a small knob.
     """
-    heights = _heights(part, core, axis, sign)
-    faces = np.flatnonzero(heights.max(1) > level)
+    heights, core = part.heights(axis, sign), part.core
+    faces = np.flatnonzero((heights[:, 0] > level) | (heights[:, 1] > level) | (heights[:, 2] > level))
     if not len(faces):
         return None
-    some = part.take(faces)
+    some = part.shape.take(faces)
     local = core.local(some.samples.points)
     out = np.flatnonzero(sign * local[:, axis] - core.half[axis] > level)
     if not len(out):
         return None
     few = out[:: max(1, len(out) // GAP_POINTS)]
-    share = float(some.areas @ shares_above(heights[faces], level)) / max(part.area, 1e-300)
+    share = float(some.areas @ shares_above(heights[faces], level)) / max(part.shape.area, 1e-300)
     corners = core.local(points_above(some.triangles, heights[faces], level))
     spacing = float(np.sqrt(some.area / len(local)))
-    return _Protrusion(local[out], corners, share, parent.nearest(some.samples.points[few])[0], spacing, faces)
+    return _Protrusion(local[out], corners, share, part.parent.nearest(some.samples.points[few])[0], spacing, faces)
 
 
-def _tab(
-    part: TriangleSet, core: OrientedBox, parent: TriangleSet, scale: float, opening_direction: np.ndarray
-) -> Handle | None:
+def _tab(part: _Part, scale: float, opening_direction: np.ndarray) -> Handle | None:
+    core = part.core
     face, least = face_axes(core, opening_direction), MIN_HANDLE_HEIGHT_RATIO * core.diagonal
     tabs = []
     for row, k in enumerate(face):
         for sign in (-1.0, 1.0):
-            out = _beyond(part, core, parent, k, sign, least)
+            out = _beyond(part, k, sign, least)
             if out is None or out.share > MAX_PROTRUSION_RATIO or float(np.median(out.gap)) < MIN_TAB_GAP_RATIO * scale:
                 continue
             along, half = out.corners[:, face[1 - row]], max(float(core.half[face[1 - row]]), 1e-9)
@@ -116,14 +123,13 @@ def _tab(
     return Handle(place, None, size, out.faces, sign * core.axes[face[row]])
 
 
-def _face_handle(
-    part: TriangleSet, core: OrientedBox, parent: TriangleSet, scale: float, opening_direction: np.ndarray
-) -> Handle | None:
+def _face_handle(part: _Part, scale: float, opening_direction: np.ndarray) -> Handle | None:
+    core = part.core
     k, face = outward_axis(core, opening_direction), face_axes(core, opening_direction)
     sign = float(np.sign(core.axes[k] @ opening_direction))
-    height, least = float(_heights(part, core, k, sign).max()), MIN_HANDLE_HEIGHT_RATIO * core.diagonal
-    out = _beyond(part, core, parent, k, sign, max(least, height / 2))
-    if out is None or out.share > MAX_COVERED_SHARE or float(np.quantile(out.gap, 0.1)) < MIN_HANDLE_GAP_RATIO * scale:
+    height, least = float(part.heights(k, sign).max()), MIN_HANDLE_HEIGHT_RATIO * core.diagonal
+    out = _beyond(part, k, sign, max(least, height / 2))
+    if out is None or out.share > MAX_COVERED_SHARE or quantile(out.gap, 0.1) < MIN_HANDLE_GAP_RATIO * scale:
         return None
     at = out.points[:: max(1, len(out.points) // GROUPED_POINTS), face]
     near = KDTree(at).query_pairs(max(0.03 * core.diagonal, 6 * out.spacing), output_type="ndarray")
@@ -131,7 +137,7 @@ def _face_handle(
         return None
     low, high = out.corners[:, face].min(0), out.corners[:, face].max(0)
     size = high - low
-    if _bulges(part, core, opening_direction, (low, high), height):
+    if _bulges(part.shape, core, opening_direction, (low, high), height):
         return None
     middle = (low + high) / 2 / np.maximum(core.half[face], 1e-9)
     along = None if size.max() < 1.6 * size.min() + 1e-9 else int(size.argmax())

@@ -17,7 +17,7 @@ from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.circles import Outline, outline_about, roundest
 from anymesh.geometry.surface import ObjectShape
 from anymesh.geometry.sweep import Obstacles
-from anymesh.geometry.triangle_set import SurfacePoints, TriangleSet, body_obb
+from anymesh.geometry.triangle_set import SurfacePoints, TriangleSet, body_obb, quantile
 from anymesh.motion.handle import face_axes, find_handle
 from anymesh.types import Brief, Handle, JointType, Motion
 
@@ -138,7 +138,7 @@ class PartContext(Brief):
         """Return the depth of the part inside its parent along `direction` [m], measured between the parent's bounds."""
         along = self.part.samples.points @ direction
         parent = self.parent.samples.points @ direction
-        low, high = np.percentile(along, [0.5, 99.5])
+        low, high = quantile(along, 0.005), quantile(along, 0.995)
         return float(max(0.0, min(high, parent.max()) - max(low, parent.min())))
 
     @cached_property

@@ -8,6 +8,7 @@ import numpy as np
 from jaxtyping import Bool, Float
 
 from anymesh.config import ALONG_COSINE, FACING_COSINE
+from anymesh.geometry.triangle_set import median, quantile
 from anymesh.motion.handle import outward_axis
 from anymesh.motion.part_context import MAX_LENGTH_RATIO, PartContext, shape_features
 from anymesh.segmentation.contacts import NEAR_RATIO, TOUCH_RATIO
@@ -85,7 +86,7 @@ def space_behind(context: PartContext) -> dict[str, float]:
     inside = ~nothing & context.rest.solid[face] & (context.rest.normals[face] @ direction < 0)
     thick = 2 * context.body_obb.half[outward_axis(context.body_obb, direction)] / context.diagonal
     return {
-        "space behind": float(np.median(np.where(nothing, 1.0, hits.distance))),
+        "space behind": median(np.where(nothing, 1.0, hits.distance)),
         "nothing behind": float(nothing.mean()),
         "open behind": float((nothing | ~inside & (hits.distance > max(3 * thick, MIN_WAY))).mean()),
     }
@@ -168,7 +169,7 @@ def two_pivots(context: PartContext, near: np.ndarray, normals: np.ndarray) -> f
     line = np.linalg.svd(spread, full_matrices=False)[2][0]
     t = spread @ line
     reach = float(np.ptp(t))
-    parted = float(np.quantile(np.abs(t - (t.max() + t.min()) / 2), 0.05)) / max(reach / 2, 1e-12)  # 1: no contact between
+    parted = quantile(np.abs(t - (t.max() + t.min()) / 2), 0.05) / max(reach / 2, 1e-12)  # 1: no contact between
     far = min(reach / max(context.part.box.diagonal, 1e-12), 1.0)
     return far * parted * float(np.abs(normals[near] @ line).mean())
 
@@ -252,7 +253,7 @@ def _place(context: PartContext) -> dict[str, float]:
 def _fit(context: PartContext) -> dict[str, float]:
     near, normals = touching(context, 2 * TOUCH_RATIO * context.diagonal)
     sides, flush = fit_of_rim(context)
-    gaps = np.quantile(context.gap, [0.05, 0.5]) / context.diagonal
+    gaps = [quantile(context.gap, share) / context.diagonal for share in (0.05, 0.5)]
     outer = context.part.samples.normals @ context.opening_direction
     back = outer < -FACING_COSINE
     return {
