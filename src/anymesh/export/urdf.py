@@ -3,19 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import assert_never
 from xml.etree import ElementTree
 
 import numpy as np
 
+from anymesh.entry_points import LOOP_POINTS, ONE_AXIS, resolve
 from anymesh.export.links import Link
 from anymesh.export.meshes import display_color, material_names, painted, widest
 from anymesh.export.model import ExportLink, Model, drives
 from anymesh.export.notation import DRAKE, document, moments, number, rpy, vector
 from anymesh.export.options import Driven, Visuals
+from anymesh.physics.inertia import Inertia
 from anymesh.physics.resistance import Resistance
-from anymesh.types import Box, Cylinder, Hull, Joint, Mesh, Shape
+from anymesh.types import Asset, Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
+from anymesh.types.motion import leaders
 
+LIGHT = 1e-3  # mass of a link between joints that move one part, over that of the part; an estimate
+FREELY = (0.0, 100.0)  # effort and velocity of a joint that nothing resists
 # By default, MuJoCo drops visuals and folders of mesh names, and fuses static links.
 MUJOCO = {"discardvisual": "false", "fusestatic": "false", "strippath": "false", "balanceinertia": "true"}
 
@@ -37,8 +43,17 @@ def urdf_text(model: Model) -> str:
     origins = {link.name: link.origin for link in model.links}
     for body in model.bodies:
         _add_link(robot, body, body.visual_path(model.how.visuals), _appearance(asset.mesh, body.link, names))
-    for joint in asset.joints:
-        _add_joint(robot, joint, origins, model.resistances.get(joint.name))
+    ways = leaders(asset.joints)
+    for joint in (replace(j, mimic=ways.get(j.name)) for j in asset.joints):
+        shift, all_resist = origins[joint.child] - origins[joint.parent], joint.type is JointType.BALL
+        for step in resolve(ONE_AXIS)(joint, [*origins, *(j.name for j in asset.joints)], asset.mesh.diagonal):
+            resists = all_resist or step.name == joint.name
+            _add_joint(robot, step, shift, model.resistances.get(joint.name) if resists else None)
+            shift = 0 * shift
+            if step.child != joint.child:
+                part = next(body for body in model.bodies if body.name == joint.child)
+                _add_inertial(ElementTree.SubElement(robot, "link", name=step.child), part.inertia, LIGHT)
+    _add_loops(robot, asset, origins)
     for name, m in model.mechanisms.items():
         if m.stiffness:  # Gazebo alone reads it
             gazebo = ElementTree.SubElement(robot, "gazebo", reference=name)
@@ -60,10 +75,7 @@ def _appearance(mesh: Mesh, link: Link, names: Sequence[str]) -> tuple[str, tupl
 def _add_link(robot: ElementTree.Element, body: ExportLink, visual_path: str, look: tuple[str, tuple[float, ...]]) -> None:
     sub = ElementTree.SubElement
     element = sub(robot, "link", name=body.name)
-    inertial = sub(element, "inertial")
-    sub(inertial, "origin", xyz=vector(body.inertia.center), rpy="0 0 0")
-    sub(inertial, "mass", value=number(body.inertia.mass))
-    sub(inertial, "inertia", moments(body.inertia.tensor))
+    _add_inertial(element, body.inertia)
     visual = sub(element, "visual")
     sub(visual, "origin", xyz="0 0 0", rpy="0 0 0")
     sub(sub(visual, "geometry"), "mesh", filename=visual_path)
@@ -85,6 +97,14 @@ def _add_link(robot: ElementTree.Element, body: ExportLink, visual_path: str, lo
         sub(gazebo, "mu2").text = friction
 
 
+def _add_inertial(link: ElementTree.Element, inertia: Inertia, share: float = 1.0) -> None:
+    """Add a share of an inertia to a link."""
+    inertial = ElementTree.SubElement(link, "inertial")
+    ElementTree.SubElement(inertial, "origin", xyz=vector(inertia.center), rpy="0 0 0")
+    ElementTree.SubElement(inertial, "mass", value=number(share * inertia.mass))
+    ElementTree.SubElement(inertial, "inertia", moments(share * inertia.tensor))
+
+
 def _add_collision(link: ElementTree.Element, shape: Shape, path: str | None) -> ElementTree.Element:
     sub = ElementTree.SubElement
     element = sub(link, "collision")
@@ -103,22 +123,40 @@ def _add_collision(link: ElementTree.Element, shape: Shape, path: str | None) ->
     return element
 
 
-def _add_joint(
-    robot: ElementTree.Element, joint: Joint, origins: Mapping[str, np.ndarray], resistance: Resistance | None
-) -> None:
+def _add_joint(robot: ElementTree.Element, joint: Joint, shift: np.ndarray, resistance: Resistance | None) -> None:
+    """Add a joint of one axis. shift: its place in its parent [m]; resistance: None if nothing resists."""
     sub = ElementTree.SubElement
     element = sub(robot, "joint", name=joint.name, type=str(joint.type))
-    sub(element, "origin", xyz=vector(origins[joint.child] - origins[joint.parent]), rpy="0 0 0")
+    sub(element, "origin", xyz=vector(shift), rpy="0 0 0")
     sub(element, "parent", link=joint.parent)
     sub(element, "child", link=joint.child)
-    if resistance is None:  # fixed
+    if joint.type is JointType.FIXED:
         return
     sub(element, "axis", xyz=vector(joint.axis / np.linalg.norm(joint.axis)))
-    limit = {"effort": number(resistance.effort), "velocity": number(resistance.velocity)}
+    effort, velocity = FREELY if resistance is None else (resistance.effort, resistance.velocity)
+    limit = {"effort": number(effort), "velocity": number(velocity)}
     if joint.limits is not None:
         limit = {"lower": number(joint.limits[0]), "upper": number(joint.limits[1])} | limit
     sub(element, "limit", limit)
-    sub(element, "dynamics", damping=number(resistance.damping), friction=number(resistance.friction))
+    if resistance is not None:
+        sub(element, "dynamics", damping=number(resistance.damping), friction=number(resistance.friction))
+    if (m := joint.mimic) is not None:
+        sub(element, "mimic", joint=m.joint, multiplier=number(m.ratio), offset=number(m.offset))
+
+
+def _add_loops(robot: ElementTree.Element, asset: Asset, origins: Mapping[str, np.ndarray]) -> None:
+    """Add closed loops, which URDF lacks, as an element of our own, and as the constraints of points that Drake has."""
+    sub = ElementTree.SubElement
+    for loop in asset.loops:
+        element = sub(robot, "loop", name=loop.name, type=str(loop.kind))
+        for side, link in (("first", loop.first), ("second", loop.second)):
+            sub(element, side, link=link, xyz=vector(loop.origin - origins[link]), axis=vector(loop.axis))
+        for point in resolve(LOOP_POINTS)(loop, asset.mesh.diagonal):
+            ball = sub(robot, f"{DRAKE}ball_constraint")
+            for name, link in (("A", loop.first), ("B", loop.second)):
+                sub(ball, f"{DRAKE}ball_constraint_body_{name}", name=link)
+            for name, link in (("p_AP", loop.first), ("p_BQ", loop.second)):
+                sub(ball, f"{DRAKE}ball_constraint_{name}", value=vector(point - origins[link]))
 
 
 def _add_drives(robot: ElementTree.Element, model: Model) -> None:

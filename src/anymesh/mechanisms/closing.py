@@ -13,6 +13,7 @@ from anymesh.types.motion import leaders
 
 STEP = 0.1  # [rad, or of the asset's diagonal] by which a position grows before the loops are closed again
 ROUNDS, SMALL, CLOSED = 20, 1e-6, 1e-12  # of Newton's method; its difference; gap over the diagonal at which it ends
+APART = 0.1  # of the diagonal: distance of the points that hold two links together; an estimate
 Transforms = Mapping[str, Float[np.ndarray, "4 4"]]
 
 
@@ -34,6 +35,17 @@ def loop_error(loop: Loop, transforms: Transforms, size: float) -> Float[np.ndar
     return np.r_[way, size * (B[:3, :3] - A[:3, :3]).ravel()]
 
 
+def loop_points(loop: Loop, size: float) -> list[Float[np.ndarray, " 3"]]:
+    """Return points at which two links are held together, in the asset frame at rest [m]: none for a loop that slides.
+
+    Two on the axis are a hinge, three a weld. size: of the asset.
+    """
+    if loop.kind is JointType.PRISMATIC:
+        return []
+    arms = np.stack([0 * loop.axis, loop.axis, np.roll(loop.axis, 1) + 0.1])
+    return list(loop.origin + APART * size * arms[: {JointType.BALL: 1, JointType.REVOLUTE: 2}.get(loop.kind, 3)])
+
+
 def loop_gap(asset: Asset, transforms: Transforms) -> float:
     """Return how far the loops of an asset are open at a pose, at most, over its diagonal."""
     size = asset.mesh.diagonal
@@ -46,7 +58,7 @@ def closed(asset: Asset, positions: Mapping[str, Position]) -> dict[str, Positio
     Joints without a position that lie on a loop give way; they may leave their limits. Where no pose closes the loops, the
     nearest to one is returned: `loop_gap` tells.
     """
-    free = [j.name for j in _giving_way(asset) if j.name not in positions]
+    free = [j.name for j in giving_way(asset) if j.name not in positions]
     balls = {j.name for j in asset.joints if j.type is JointType.BALL}
     slots = np.cumsum([0, *(3 if name in balls else 1 for name in free)])
     size, x = asset.mesh.diagonal, np.zeros(slots[-1])
@@ -76,7 +88,7 @@ def closed(asset: Asset, positions: Mapping[str, Position]) -> dict[str, Positio
     return at(1.0, x)
 
 
-def _giving_way(asset: Asset) -> list[Joint]:
+def giving_way(asset: Asset) -> list[Joint]:
     """Return the joints that lie on a loop and follow none."""
     carrier = {j.child: j for j in asset.joints}
 

@@ -7,10 +7,13 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from anymesh.geometry.kinematics import carried_links, joint_transform, link_transforms
+from anymesh.mechanisms.closing import closed as loops_closed
+from anymesh.mechanisms.closing import giving_way
 from anymesh.mechanisms.resisting import KINDS, kind_of
 from anymesh.physics.collision import CollisionConfig
 from anymesh.physics.contacts_ import ContactBench
-from anymesh.types import Asset, Joint, Shape
+from anymesh.types import Asset, Joint, JointType, Shape
+from anymesh.types.motion import led
 from anymesh.types.triangles import transformed
 
 PLAY = 0.05  # of a joint's range: what it moves the other way without being modelled open; an estimate
@@ -26,11 +29,19 @@ def named_states(
     """Return the position of each joint that takes part, by name of the state; nothing if none does.
 
     Open is the end of a joint's range to which it opens, half is the middle; a joint goes there as far as no larger part is in
-    its way. Joints of doors, drawers, lids and the like take part; where an asset has none, all joints with limits do.
+    its way. Joints of doors, drawers, lids and the like take part; where an asset has none, all joints with limits do. What
+    follows them, or is moved by them through a loop, is added.
 
     shapes: for collision, of each link; excluded: pairs of links that may touch.
     """
-    limited = [j for j in asset.joints if j.limits is not None]
+    states = _leading(asset, shapes, excluded)
+    return {name: dict(led(asset.joints, loops_closed(asset, at))) for name, at in states.items()}
+
+
+def _leading(asset: Asset, shapes: Mapping[str, Sequence[Shape]], excluded: Sequence[tuple[str, str]]) -> dict[str, Positions]:
+    led_by_loops = {j.name for j in giving_way(asset)[1:]}
+    able = [j for j in asset.joints if j.mimic is None and j.type is not JointType.BALL and j.name not in led_by_loops]
+    limited = [j for j in able if j.limits is not None]
     kinds = {j.name: KINDS[kind_of(asset, j)] for j in limited}
     ours = [j for j in limited if kinds[j.name].form in OPENING and not kinds[j.name].torque] or limited
     if not ours:

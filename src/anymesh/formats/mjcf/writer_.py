@@ -14,6 +14,7 @@ from typing import Any, assert_never
 from xml.etree import ElementTree
 
 import numpy as np
+from jaxtyping import Float
 from PIL import Image
 
 from anymesh.errors import OutputError
@@ -21,6 +22,7 @@ from anymesh.export.meshes import display_color, material_names, painted, textur
 from anymesh.export.model import FOLDER, Drive, ExportConfig, ExportLink, Model, drives
 from anymesh.export.notation import moments, number, quaternion, vector
 from anymesh.export.options import Base, Driven
+from anymesh.mechanisms.equalities import add_equalities, lift_name, lifts
 from anymesh.mujoco_ import load_mujoco
 from anymesh.names import legal_names
 from anymesh.physics.mechanism import Mechanism
@@ -59,7 +61,7 @@ def write_mjcf(model: Model, folder: Path, config: ExportConfig) -> None:
     frames: dict[str, Any] = {}
     for body in _parents_first(model):
         joint = body.link.joint
-        parent = spec.worldbody if joint is None else frames[joint.parent]
+        parent = spec.worldbody if joint is None or joint.type is JointType.FREE else frames[joint.parent]
         frames[body.name] = _add_body(model, body, parent)
         _add_joint(mujoco, frames[body.name], joint, model)
         _add_geoms(mujoco, spec, frames[body.name], body, looks[body.name], names)
@@ -127,14 +129,18 @@ def _clear(m: Material) -> bool:
 
 
 def _add_body(model: Model, body: ExportLink, parent: Any) -> Any:
-    origins = {link.name: link.origin for link in model.links}
-    joint = body.link.joint
-    place = body.link.origin - (np.zeros(3) if joint is None else origins[joint.parent])
-    frame = parent.add_body(name=body.name, pos=place)
+    frame = parent.add_body(name=body.name, pos=_place(model, body))
     frame.explicitinertial, frame.mass, frame.ipos = True, body.inertia.mass, body.inertia.center
     (xx, xy, xz), (_, yy, yz), (_, _, zz) = body.inertia.tensor
     frame.fullinertia = [xx, yy, zz, xy, xz, yz]
     return frame
+
+
+def _place(model: Model, body: ExportLink) -> Float[np.ndarray, " 3"]:
+    """Return where a body lies in the one around it: its parent, or the world if it is the root or free."""
+    joint = body.link.joint
+    within = None if joint is None or joint.type is JointType.FREE else joint.parent
+    return body.link.origin - next((link.origin for link in model.links if link.name == within), np.zeros(3))
 
 
 def _add_joint(mujoco: Any, frame: Any, joint: Joint | None, model: Model) -> None:
@@ -143,16 +149,21 @@ def _add_joint(mujoco: Any, frame: Any, joint: Joint | None, model: Model) -> No
         if model.how.base is Base.FREE:
             frame.add_freejoint(name=f"{frame.name}_free")
         return
-    if joint.type is JointType.FIXED:
+    if joint.type is JointType.FREE:
+        frame.add_freejoint(name=joint.name)
+    if joint.name not in model.resistances:
         return
-    resistance, slides = model.resistances[joint.name], joint.type is JointType.PRISMATIC
-    kind = mujoco.mjtJoint.mjJNT_SLIDE if slides else mujoco.mjtJoint.mjJNT_HINGE
+    types, resistance = mujoco.mjtJoint, model.resistances[joint.name]
+    kind = {JointType.PRISMATIC: types.mjJNT_SLIDE, JointType.BALL: types.mjJNT_BALL}.get(joint.type, types.mjJNT_HINGE)
     added = frame.add_joint(name=joint.name, type=kind, axis=joint.axis, armature=resistance.armature)
+    if joint.type is JointType.SCREW:
+        frame.add_joint(name=lift_name(joint), type=types.mjJNT_SLIDE, axis=joint.axis)
     added.frictionloss, added.damping = resistance.friction, [resistance.damping, 0, 0]
     added.limited = int(joint.limits is not None)
     if joint.limits is not None:
         added.range = joint.limits
-    added.actfrclimited, added.actfrcrange = 1, [-resistance.effort, resistance.effort]
+    if joint.type is not JointType.BALL:
+        added.actfrclimited, added.actfrcrange = 1, [-resistance.effort, resistance.effort]
 
 
 def _add_geoms(
@@ -255,10 +266,9 @@ def with_digits(text: str, model: Model, motors: Mapping[str, Drive], compiled: 
     origins = {link.name: link.origin for link in model.links}
     bodies = {element.get("name"): element for element in root.iter("body")}
     for body in model.bodies:
-        joint = body.link.joint
         element = bodies[body.name]
-        if joint is not None:
-            element.set("pos", vector(body.link.origin - origins[joint.parent]))
+        if body.link.joint is not None:
+            element.set("pos", vector(_place(model, body)))
         _inertial(element, body)
         _geoms(element, body)
     for handle in model.handles:  # a plate on its surface
@@ -267,7 +277,9 @@ def with_digits(text: str, model: Model, motors: Mapping[str, Drive], compiled: 
         ElementTree.SubElement(bodies[handle.link], "site", words, group=str(HANDLES))
     joints = {element.get("name"): element for element in root.iter("joint")}
     for joint in model.asset.joints:
-        if joint.name in joints:
+        if joint.type is JointType.SCREW:
+            joints[lift_name(joint)].set("axis", vector(joint.axis / np.linalg.norm(joint.axis)))
+        if joint.name in model.resistances:
             _joint(joints[joint.name], joint, model.resistances[joint.name], model.mechanisms.get(joint.name))
     for element in root.iter("texture"):
         element.attrib.pop("colorspace", None)  # inferred at compile time; older versions do not know the attribute
@@ -275,7 +287,8 @@ def with_digits(text: str, model: Model, motors: Mapping[str, Drive], compiled: 
     if actuators is not None:
         _actuators(actuators, model, motors)
         _catches(actuators, model)
-    _add_keyframes(root, model.states, compiled)
+    add_equalities(root, model)
+    _add_keyframes(root, model, compiled)
     if credits := model.asset.source.credits:  # by MuJoCo's spec, some texts would be written as XML that is broken
         custom = ElementTree.SubElement(root, "custom")
         for key, value in credits.items():
@@ -284,13 +297,13 @@ def with_digits(text: str, model: Model, motors: Mapping[str, Drive], compiled: 
     return ElementTree.tostring(root, encoding="unicode") + "\n"
 
 
-def _add_keyframes(root: ElementTree.Element, states: Mapping[str, Mapping[str, float]], compiled: Any) -> None:
+def _add_keyframes(root: ElementTree.Element, model: Model, compiled: Any) -> None:
     """Add a keyframe for each state, in which position drives are commanded to stay there."""
     driven = [str(e.get("joint")) if e.tag == "position" else "" for e in root.iterfind("actuator/*")]
-    keys = ElementTree.SubElement(root, "keyframe") if states else root
-    for name, at in states.items():
+    keys = ElementTree.SubElement(root, "keyframe") if model.states else root
+    for name, at in model.states.items():
         qpos = compiled.qpos0.copy()
-        for joint, position in at.items():
+        for joint, position in {**at, **lifts(model.asset, at)}.items():
             qpos[compiled.joint(joint).qposadr[0]] = position
         ctrl = {"ctrl": vector([at.get(joint, 0.0) for joint in driven])} if any(driven) else {}
         ElementTree.SubElement(keys, "key", {"name": name, "qpos": vector(qpos), **ctrl})
@@ -308,12 +321,13 @@ def _inertial(element: ElementTree.Element, body: ExportLink) -> None:
 
 
 def _joint(element: ElementTree.Element, joint: Joint, resistance: Resistance, mechanism: Mechanism | None) -> None:
-    element.set("axis", vector(joint.axis / np.linalg.norm(joint.axis)))
+    if joint.type is not JointType.BALL:
+        element.set("axis", vector(joint.axis / np.linalg.norm(joint.axis)))
+        element.set("actuatorfrcrange", vector((-resistance.effort, resistance.effort)))
     element.set("damping", number(resistance.damping))
     element.set("frictionloss", number(resistance.friction))
     if resistance.armature:
         element.set("armature", number(resistance.armature))
-    element.set("actuatorfrcrange", vector((-resistance.effort, resistance.effort)))
     if joint.limits is not None:
         element.set("range", vector(joint.limits))
     element.attrib.update(FIRM)
