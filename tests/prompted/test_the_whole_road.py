@@ -18,6 +18,7 @@ from anymesh.export.asset_json import schema
 from anymesh.loading import load_mesh, place_mesh
 from anymesh.pipeline.solving import Solver
 from anymesh.prompted.models.reliability import keep_probe
+from anymesh.prompted.stages import _other_category
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 NAME = "storage_box"
@@ -249,3 +250,12 @@ def test_no_answer_at_all_ends_with_one_line_and_leaves_nothing(model: Model, ca
     assert told.count("\n") == 1
     assert SECRET not in told
     assert not Path("out").exists()
+
+
+@pytest.mark.parametrize(
+    ("given", "answered", "warns"),
+    [("fridge", "refrigerator", False), ("fridge", "washing machine", True), ("gizmo", "lamp", False), (None, "lamp", False)],
+)
+def test_a_given_category_of_another_kind_than_the_answered_one_gives_a_warning(given, answered, warns: bool) -> None:
+    found = _other_category(given, answered)
+    assert [f"--category {given} was given, but the answer is {answered!r}" in w for w in found] == [True] * warns

@@ -126,7 +126,7 @@ def told_apart(asset: Asset, motions: Sequence[ChooseMotion]) -> tuple[str, ...]
         words = [f"{w}, {f[level]}" if d and f[level] else w for w, f, d in zip(words, facets, differ, strict=True)]
     offsets = [joint.origin - joints[words.index(word)].origin for joint, word in zip(joints, words, strict=True)]
     way = _sides(asset).direction
-    return words_told_apart(words, offsets, lambda off: f"{100 * np.linalg.norm(off):.1f} cm further {way(off)}")
+    return words_told_apart(words, [f"{100 * np.linalg.norm(off):.1f} cm further {way(off)}" for off in offsets])
 
 
 def _sides(asset: Asset) -> Sides:

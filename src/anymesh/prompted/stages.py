@@ -8,7 +8,15 @@ from functools import cached_property, partial
 
 import numpy as np
 
-from anymesh.pipeline.results import JointResult, RecognitionResult, SegmentationResult, joint_result, segmentation_result
+from anymesh.kinds.usual import kind_of
+from anymesh.pipeline.results import (
+    PLEASE_CHECK,
+    JointResult,
+    RecognitionResult,
+    SegmentationResult,
+    joint_result,
+    segmentation_result,
+)
 from anymesh.pipeline.solving import GeometryStages
 from anymesh.prompted.answerers.question_files import NAME as FILES
 from anymesh.prompted.answerers.reference import Reference, ReferenceAnswerer, reference_of
@@ -91,7 +99,8 @@ class PromptedStages:
         size, measured = float(self.mesh.extents.max()), answerer.name == FILES
         scale, note, doubt = answered_scale(recognition, size, kept=kept, measured=measured)
         recognition = in_size_of(recognition, scale * size)
-        return RecognitionResult(recognition, answerer.name, scale, note, (*answerer.warnings, *doubt), answerer.exchanges)
+        warnings = (*answerer.warnings, *doubt, *_other_category(self.config.category, recognition.category))
+        return RecognitionResult(recognition, answerer.name, scale, note, warnings, answerer.exchanges)
 
     def _view_pictures(self) -> tuple[Picture, ...]:
         seen, prompts, cloud = self.visual_prompts.views, self.visual_prompts, self._sampled.cloud
@@ -168,3 +177,11 @@ class PromptedStages:
         asked = MarkQuestioner(questions.answerer, self.visual_prompts, questions.labels, questions.category, self.config)
         front = recognition.front if recognition else None
         return lambda wrong: ground_again(self._sampled, asked, segmentation, wrong, front)
+
+
+def _other_category(given: str | None, answered: str) -> tuple[str, ...]:
+    """Return a warning if the given category and the answered one are other kinds of object, as far as both are known."""
+    known, told = kind_of(given), kind_of(answered)
+    if known is None or told is None or known.first == told.first or "" != known.wikidata == told.wikidata:
+        return ()
+    return (f"--category {given} was given, but the answer is {answered!r}; the given one is used{PLEASE_CHECK}",)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,7 +19,8 @@ ALONG = 0.94  # cosine of 20 degrees: a line nearer to the vertical, or to the l
 NAMED = 0.38  # sine of 22 degrees: a direction with a larger share along a side is named after it
 EDGE, THIN = 0.5, 0.1  # shares of half the part's extent there, and of its largest one: an axis farther off is at an edge
 BEYOND = 1.3  # share of half the part's extent: an axis farther off lies beyond it
-LEAST_TOLD = 0.5  # [% of the part's size] offset of an axis that is told
+FARTHER = 1.1  # ratio of amounts that is told
+LEAST_TOLD = 0.5  # offset [% of the part's size] or angle [degrees] between axes that is told
 IN_PLACE = 0.1  # share of the part's size: a part whose middle moves less turns in place
 WAYS = {"top": "up", "bottom": "down"}
 COMPASS, LETTERS, ARM = 104, 14, 30  # [px] in a panel of 400: size of a compass, font size, length of an arrow
@@ -81,15 +82,23 @@ class Sides:
     ) -> tuple[str, ...]:
         """Describe motions of one part in words that differ, as in `words`."""
         words = [self.words(motion, amount, points) for motion, amount in zip(motions, amounts, strict=True)]
-        offsets = [m.origin - motions[words.index(w)].origin for m, w in zip(motions, words, strict=True)]
-        across = [off - (off @ m.axis) * m.axis for off, m in zip(offsets, motions, strict=True)]
         size = max(float(np.linalg.norm(np.ptp(points, axis=0))), 1e-12)
+        further = []
+        for motion, amount, first in zip(motions, amounts, map(words.index, words), strict=True):
+            ratio = abs(amount) / max(abs(amounts[first]), 1e-12)
+            far = "farther" if ratio > FARTHER else "less far" if ratio < 1 / FARTHER else ""
+            further.append(self._further(motion, motions[first], size) or far)
+        return told_apart(words, further)
 
-        def further(offset: Float[np.ndarray, " 3"]) -> str:
-            share = 100 * float(np.linalg.norm(offset)) / size
-            return f"its axis {share:.0f} % of its size further {self.direction(offset)}" if share >= LEAST_TOLD else ""
-
-        return told_apart(words, across, further)
+    def _further(self, motion: Motion, first: Motion, size: float) -> str:
+        """Tell where the axis of a motion is, from that of another motion of a part of this size [m]."""
+        offset = motion.origin - first.origin
+        offset = offset - (offset @ motion.axis) * motion.axis
+        share = 100 * float(np.linalg.norm(offset)) / size
+        if motion.kind is JointType.REVOLUTE and share >= LEAST_TOLD:
+            return f"its axis {share:.0f} % of its size further {self.direction(offset)}"
+        turned = np.degrees(np.arccos(min(abs(float(motion.axis @ first.axis)), 1.0)))
+        return f"tilted by {turned:.0f} degrees" if turned >= LEAST_TOLD else ""
 
     def _place(self, motion: Motion, middle: Float[np.ndarray, " 3"], points: Float[np.ndarray, "n 3"]) -> str:
         """Name the edge of the part that the axis runs along, or its direction through the part."""
@@ -108,7 +117,7 @@ class Sides:
             return f"about {self._line(motion.axis)} {'beyond' if beyond else 'at'} its {names[0]}"
         way, line = off / max(float(np.linalg.norm(off)), 1e-12), self._line(motion.axis)
         if float(off @ way) > max(EDGE / 2 * float(np.ptp(points @ way)), THIN * largest):
-            return f"about {line} off its middle"
+            return f"about {line} off its middle{'' if self.front is None else f' {self.direction(way)}'}"
         return f"about {line} through its middle"
 
     def _line(self, axis: Float[np.ndarray, " 3"]) -> str:
@@ -136,16 +145,11 @@ class Sides:
         return np.asarray(drawn)
 
 
-def told_apart(
-    words: Sequence[str], offsets: Sequence[Float[np.ndarray, " 3"]], further: Callable[[Float[np.ndarray, " 3"]], str]
-) -> tuple[str, ...]:
-    """Return words about motions that differ, where some have the same words.
-
-    offsets: of each axis from that of the first motion in the same words [m]; further: tells an offset in words, "" for none.
-    """
+def told_apart(words: Sequence[str], further: Sequence[str]) -> tuple[str, ...]:
+    """Return words about motions that differ. further: how each differs from the first one in the same words, "" if unknown."""
     told: list[str] = []
-    for k, (word, offset) in enumerate(zip(words, offsets, strict=True)):
-        text = ", ".join(filter(None, (word, further(offset)))) if word in words[:k] else word
+    for k, (word, more) in enumerate(zip(words, further, strict=True)):
+        text = f"{word}, {more}" if more and word in words[:k] else word
         told.append(text if text not in told else f"{text} ({len(told) + 1})")
     return tuple(told)
 
