@@ -126,6 +126,7 @@ COMMANDS = {
     "picture": "viewer.command_line:picture",
     "view": "viewer.command_line:view",
     "plan": "applications.plan.command_line:plan",
+    "grasps": "applications.grasps.command_line:grasps",
     "train": "applications.policy.command_line:train",
     "check": "checking.command_line:check",
     "diff": "checking.command_line:diff",

@@ -35,7 +35,7 @@ OTHER_STEPS = {
     "interaction": "moving joints", "train": "training", "generate": "making the mesh", "targets": "choosing where to touch",
     "route": "planning the arm's way", "check": "checking frames", "splat": "making depth", "allocate": "finding the space",
     "fuse": "fusing depth", "color": "colouring", "clean": "cleaning", "smooth": "smoothing", "simplify": "simplifying",
-    "samples": "writing variants",
+    "samples": "writing variants", "grasps": "trying grasps",
 }  # fmt: skip
 MANY = ("batch", "scene")  # steps whose items are meshes, with steps of their own
 MIN_SHARE, MIN_SECONDS = 0.1, 3.0  # done, and time taken, below which no time left is estimated

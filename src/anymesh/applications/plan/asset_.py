@@ -28,7 +28,8 @@ class ArticulatedObject(Brief):
     """Joint of an asset at rest, in the asset frame.
 
     part: link moved by the joint; limits: [rad or m], None for a continuous joint; carried: names of all links that move with
-    the joint; part_triangles, other_triangles: (n, 3, 3) visible surfaces [m]; spec: MuJoCo spec without actuators.
+    the joint; part_triangles, other_triangles: (n, 3, 3) visible surfaces [m]; spec: MuJoCo spec without actuators; opened:
+    values of other joints that are not at rest.
     """
 
     name: str
@@ -41,6 +42,7 @@ class ArticulatedObject(Brief):
     carried: tuple[str, ...]
     part_triangles: Float[np.ndarray, "n 3 3"]
     other_triangles: Float[np.ndarray, "m 3 3"]
+    opened: tuple[tuple[str, float], ...] = ()
 
     @property
     def turns(self) -> bool:
@@ -71,10 +73,11 @@ class ArticulatedObject(Brief):
         return nearest
 
 
-def open_object(path: str | Path, joint: str) -> ArticulatedObject:
+def open_object(path: str | Path, joint: str, opened: tuple[tuple[str, float], ...] = ()) -> ArticulatedObject:
     """Read an asset folder, a URDF or an MJCF.
 
-    joint: name of the joint or of the part that it moves, or auto: the one of highest confidence, else the first.
+    joint: name of the joint or of the part that it moves, or auto: the one of highest confidence, else the first; opened:
+    values of other joints [rad or m].
 
     Raise InputError if there is nothing to read, OptionError if the joint does not exist or does not move.
     """
@@ -91,13 +94,16 @@ def open_object(path: str | Path, joint: str) -> ArticulatedObject:
     except (ValueError, mujoco.FatalError) as error:
         raise InputError(f"MuJoCo cannot load {file}: {' '.join(str(error).split())}") from error
     data = mujoco.MjData(model)
+    for name, value in opened:
+        data.qpos[model.joint(name).qposadr[0]] = value
     mujoco.mj_forward(model, data)
     number = _joint(model, _surest(model, Path(path)) if joint == AUTO else joint)
     body = int(model.jnt_bodyid[number])
     carried = tuple(model.body(int(b)).name for b in np.flatnonzero(bodies_below(model, [body])))
-    shown = _shown_geoms(model)
-    mine = [geom_triangles(mujoco, model, data, g) for g in shown if int(model.geom_bodyid[g]) == body]
-    others = [geom_triangles(mujoco, model, data, g) for g in shown if int(model.geom_bodyid[g]) != body]
+    shown = shown_geoms(model)
+    rigid = model.body_weldid[model.geom_bodyid] == model.body_weldid[body]  # with all that is fixed to it
+    mine = [geom_triangles(mujoco, model, data, g) for g in shown if rigid[g]]
+    others = [geom_triangles(mujoco, model, data, g) for g in shown if not rigid[g]]
     if not mine:
         raise InputError(f"{model.body(body).name} of {file.name} has no shape to touch")
     _exclude_overlaps(mujoco, spec, model, data)
@@ -115,6 +121,7 @@ def open_object(path: str | Path, joint: str) -> ArticulatedObject:
         carried,
         np.concatenate(mine),
         np.concatenate([np.zeros((0, 3, 3)), *others]),
+        opened,
     )
 
 
@@ -142,7 +149,7 @@ def _joint(model: Any, name: str) -> int:
     return index
 
 
-def _shown_geoms(model: Any) -> list[int]:
+def shown_geoms(model: Any) -> list[int]:
     """Return the visual geoms, and the collision geoms of links without visual ones."""
     seen = [g for g in range(model.ngeom) if not (model.geom_contype[g] or model.geom_conaffinity[g])]
     covered = {int(model.geom_bodyid[g]) for g in seen}

@@ -21,21 +21,33 @@ APPROACH_ANGLES = 12  # approach directions per pair of faces
 ROLLS = 4  # rotations of the closed hand about the pressing direction
 TILTS = np.deg2rad([0, 20, -20, 40, -40])  # of the pressing direction against the part's motion
 FACING = np.cos(np.deg2rad(25))  # cosine; a face within this angle of the motion can be pressed
-FINGER, TIP = 0.013, 0.008  # [m] half thickness and half width of a finger, for the free-space test
-PALM = np.array([(x, y) for x in (-0.03, 0.0, 0.03) for y in (-0.08, -0.04, 0.0, 0.04, 0.08)])  # [m] sample points of the palm
-PALM_BACK = 0.034  # [m] from the palm to the grasped place
-CORRIDOR = 0.35  # [m] free length required behind the palm
 EPS = 1e-5  # [m] offset of rays from their surface
 KEPT, POOL = 250, 2500  # targets returned by default, and number of the best from which they are chosen
 APART, TURNED = 0.015, np.cos(np.deg2rad(25))  # [m], cosine; targets closer than both are duplicates
 
 
+@dataclass(frozen=True)
+class HandRoom:
+    """Room that a hand needs, by default that of the robots' [m].
+
+    finger, tip: half thickness and half width of a finger; palm: half sizes of the palm across; back: from the palm to the
+    grasped place; corridor: free length behind the palm.
+    """
+
+    finger: float = 0.013
+    tip: float = 0.008
+    palm: tuple[float, float] = (0.03, 0.08)
+    back: float = 0.034
+    corridor: float = 0.35
+
+
 @dataclass(frozen=True, eq=False)
 class PartSurfaces(Brief):
-    """Surfaces of the part and of the rest of the object at rest: (n, 3, 3) and (m, 3, 3) [m]."""
+    """Surfaces of the part and of the rest of the object at rest: (n, 3, 3) and (m, 3, 3) [m]; and the room of the hand."""
 
     part: Float[np.ndarray, "n 3 3"]
     others: Float[np.ndarray, "m 3 3"]
+    hand: HandRoom = HandRoom()
 
     @cached_property
     def scene(self) -> RayScene:
@@ -64,17 +76,19 @@ def sample_targets(
     largest number of targets.
     """
     rng = np.random.default_rng(seed)
-    points, normals = _samples(surfaces.part, rng)
+    points, normals = sample_surface(surfaces.part, rng)
     targets: list[Target] = []
     if GripperContact.GRASP in contacts:
         targets += _grasps(surfaces, points, normals, motion, value, stroke)
     if GripperContact.PUSH in contacts:
         targets += _pushes(surfaces, points, normals, motion, value)
     first = {kind: k for k, kind in enumerate(contacts)}
-    return sorted(_unlike(targets, count), key=lambda t: (first[t.contact], -t.score))
+    return sorted(unlike(targets, count), key=lambda t: (first[t.contact], -t.score))
 
 
-def _samples(triangles: np.ndarray, rng: np.random.Generator) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
+def sample_surface(
+    triangles: np.ndarray, rng: np.random.Generator
+) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
     """Sample points on a surface; return them with its normals."""
     cross = face_cross(triangles)
     area = np.linalg.norm(cross, axis=1)
@@ -93,14 +107,14 @@ def velocity(motion: Motion, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarr
     return np.cross(motion.axis, points - motion.origin)
 
 
-def _frames(y: np.ndarray, z: np.ndarray, origin: np.ndarray) -> Float[np.ndarray, "n 4 4"]:
+def frames(y: np.ndarray, z: np.ndarray, origin: np.ndarray) -> Float[np.ndarray, "n 4 4"]:
     T = np.tile(np.eye(4), (len(y), 1, 1))
     T[:, :3, :3] = np.stack([np.cross(y, z), y, z], -1)
     T[:, :3, 3] = origin
     return T
 
 
-def _across(v: np.ndarray) -> np.ndarray:
+def across(v: np.ndarray) -> np.ndarray:
     """Return a unit vector perpendicular to each input vector."""
     helper = np.where(np.abs(v[:, 2:3]) < 0.9, [[0.0, 0, 1]], [[1.0, 0, 0]])
     cross = np.cross(v, helper)
@@ -120,7 +134,7 @@ def _grasps(
     if len(ok) == 0:
         return []
     y, w, middle = normals[ok], width[ok], points[ok] - normals[ok] * width[ok, None] / 2
-    side = _across(y)
+    side = across(y)
     other = np.cross(y, side)
     angle = np.arange(APPROACH_ANGLES) * 2 * np.pi / APPROACH_ANGLES
     z = np.cos(angle)[:, None, None] * side + np.sin(angle)[:, None, None] * other  # (APPROACH_ANGLES, k, 3)
@@ -130,8 +144,8 @@ def _grasps(
         np.tile(middle, (APPROACH_ANGLES, 1)),
         np.tile(w, APPROACH_ANGLES),
     )
-    T = _frames(y, z, middle)
-    free = _room(surfaces.scene, T, w)
+    T = frames(y, z, middle)
+    free = room(surfaces, T, w)
     T, w, y, z, middle = T[free], w[free], y[free], z[free], middle[free]
     if len(T) == 0:
         return []
@@ -159,14 +173,14 @@ def _pushes(surfaces: PartSurfaces, points: np.ndarray, normals: np.ndarray, mot
     targets = []
     for tilt in TILTS:
         for roll in np.arange(ROLLS) * np.pi / ROLLS:
-            side = _across(way[ok])
+            side = across(way[ok])
             up = np.cross(side, way[ok])  # `side` is horizontal, so a tilt moves the hand up or down
             z = np.cos(tilt) * way[ok] + np.sin(tilt) * up
             flat = np.cross(z, side)
             y = np.cos(roll) * side + np.sin(roll) * flat
-            T = _frames(y, z, points[ok])
+            T = frames(y, z, points[ok])
             T, seen = _first_touch(surfaces, T)
-            free = seen & _room(surfaces.scene, T, np.zeros(len(T)))
+            free = seen & room(surfaces, T, np.zeros(len(T)))
             score = lever + near - 0.5 * abs(tilt) - 0.3 * np.maximum(z[:, 2], 0)
             targets += [Target(GripperContact.PUSH, T[k], 0.0, float(score[k])) for k in np.flatnonzero(free)]
     return targets
@@ -176,7 +190,8 @@ def _first_touch(
     surfaces: PartSurfaces, T: Float[np.ndarray, "n 4 4"]
 ) -> tuple[Float[np.ndarray, "n 4 4"], Bool[np.ndarray, " n"]]:
     """Move targets along their z until the first ray of the fingertips meets the part; False if it meets another surface."""
-    grid = np.array([(x, y) for x in (-TIP, 0.0, TIP) for y in (-TIP, 0.0, TIP)])
+    tip = surfaces.hand.tip
+    grid = np.array([(x, y) for x in (-tip, 0.0, tip) for y in (-tip, 0.0, tip)])
     back = 0.05
     own = np.concatenate([grid, np.full((len(grid), 1), -back)], 1)
     starts = np.einsum("nij,kj->nki", T[:, :3, :3], own) + T[:, None, :3, 3]
@@ -192,37 +207,39 @@ def _first_touch(
     return moved, ok
 
 
-def _room(scene: RayScene, T: Float[np.ndarray, "n 4 4"], width: Float[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:
+def room(surfaces: PartSurfaces, T: Float[np.ndarray, "n 4 4"], width: Float[np.ndarray, " n"]) -> Bool[np.ndarray, " n"]:
     """Return whether the fingers and the palm fit along the approach."""
-    rows = []
+    if len(T) == 0:
+        return np.zeros(0, bool)
+    rows, hand = [], surfaces.hand
     for side in (-1, 1):
-        for x in (-TIP, TIP):
+        for x in (-hand.tip, hand.tip):
             own = np.zeros((len(T), 3))
-            own[:, 0], own[:, 1] = x, side * (width / 2 + FINGER * (width > 0) + TIP * (width == 0))
+            own[:, 0], own[:, 1] = x, side * (width / 2 + np.where(width > 0, hand.finger, hand.tip))
             own[:, 2] = np.where(width > 0, 0.006, -0.002)
             rows.append(own)
-    rows += [np.tile([x, y, -PALM_BACK], (len(T), 1)) for x, y in PALM]
+    for x in (-hand.palm[0], 0.0, hand.palm[0]):
+        rows += [np.tile([x, y, -hand.back], (len(T), 1)) for y in np.linspace(-hand.palm[1], hand.palm[1], 5)]
     own = np.stack(rows, 1)
     starts = np.einsum("nij,nkj->nki", T[:, :3, :3], own) + T[:, None, :3, 3]
     ways = np.repeat(-T[:, None, :3, 2], len(rows), 1)
-    hits = scene.first_hit(starts.reshape(-1, 3), ways.reshape(-1, 3))
-    return np.asarray(hits.distance.reshape(len(T), -1).min(1) > CORRIDOR)
+    hits = surfaces.scene.first_hit(starts.reshape(-1, 3), ways.reshape(-1, 3))
+    return np.asarray(hits.distance.reshape(len(T), -1).min(1) > hand.corridor)
 
 
-def _unlike(targets: list[Target], count: int) -> list[Target]:
+def unlike(targets: list[Target], count: int) -> list[Target]:
     """Return targets without near duplicates, keeping the best of each group."""
-    kept: list[Target] = []
-    for target in sorted(targets, key=lambda t: -t.score)[:POOL]:
+    pool = sorted(targets, key=lambda t: -t.score)[:POOL]
+    T = np.stack([t.T_asset_tool for t in pool]) if pool else np.zeros((0, 4, 4))
+    pushes = np.array([t.contact is GripperContact.PUSH for t in pool])
+    kept: list[int] = []
+    for k in range(len(pool)):
         if len(kept) >= count:
             break
-        T = target.T_asset_tool
-        alike = any(
-            k.contact is target.contact
-            and np.linalg.norm(k.T_asset_tool[:3, 3] - T[:3, 3]) < APART
-            and k.T_asset_tool[:3, 2] @ T[:3, 2] > TURNED
-            and abs(k.T_asset_tool[:3, 1] @ T[:3, 1]) > TURNED
-            for k in kept
-        )
-        if not alike:
-            kept.append(target)
-    return kept
+        alike = pushes[kept] == pushes[k]
+        alike &= np.linalg.norm(T[kept, :3, 3] - T[k, :3, 3], axis=1) < APART
+        alike &= T[kept, :3, 2] @ T[k, :3, 2] > TURNED
+        alike &= np.abs(T[kept, :3, 1] @ T[k, :3, 1]) > TURNED
+        if not alike.any():
+            kept.append(k)
+    return [pool[k] for k in kept]

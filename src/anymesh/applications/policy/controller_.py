@@ -11,9 +11,9 @@ from jaxtyping import Float
 from anymesh.applications.plan.plans import GripperContact, Target
 from anymesh.applications.plan.targets import PartSurfaces, sample_targets
 from anymesh.applications.policy.objects_ import TaskObject
-from anymesh.applications.policy.robots_ import PRESS, REACH, STROKE
+from anymesh.applications.policy.robots_ import GRIPPER, PRESS, REACH
 from anymesh.applications.policy.simulation_ import TaskSimulation
-from anymesh.applications.policy.tasks import NOMINAL, PolicyTask
+from anymesh.applications.policy.tasks import NOMINAL, PolicyTask, SceneSample
 
 DONE = 0.9  # share of the motion that counts as done
 SHORT = 0.03  # [m] of a slide below which it is pushed first, as a button is
@@ -38,13 +38,18 @@ class InteractionFailure(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class Attempt:
-    """Best attempt at a joint. share: of the intended motion that was made; tries: attempts; simulation: at its end."""
+    """Best attempt at a joint.
+
+    share: of the intended motion that was made; tries: attempts; simulation: at its end; slip: of the tool along the part
+    since the fingers closed [m].
+    """
 
     share: float
     failure: InteractionFailure | None
     contact: GripperContact | None
     tries: int
     simulation: TaskSimulation | None
+    slip: float = 0.0
 
 
 def move_joint(object_: TaskObject, *, seed: int = 0, tries: int = TRIES) -> Attempt:
@@ -67,18 +72,25 @@ def _targets(object_: TaskObject, seed: int, tries: int) -> list[Target]:
     kinds = [GripperContact.GRASP, GripperContact.PUSH]
     if not thing.turns and abs(goal) < SHORT:
         kinds.reverse()
-    lists = [sample_targets(surfaces, thing.motion, goal, STROKE, seed, (kind,), tries) for kind in kinds]
+    lists = [sample_targets(surfaces, thing.motion, goal, GRIPPER.stroke, seed, (kind,), tries) for kind in kinds]
     longest = max(map(len, lists))
     return [some[k] for k in range(longest) for some in lists if k < len(some)]
 
 
-def follow_target(object_: TaskObject, target: Target) -> Attempt:
-    """Move the gripper to a target, close it, and lead it along the joint."""
+def follow_target(
+    object_: TaskObject, target: Target, simulation: TaskSimulation | None = None, sample: SceneSample = NOMINAL
+) -> Attempt:
+    """Move the gripper to a target, close it, and lead it along the joint.
+
+    simulation: of the object with a floating gripper, to use again; sample: a displacement of the object that the gripper does
+    not know of, and physics.
+    """
     pushes = target.contact is GripperContact.PUSH
     T = object_.T_world_asset @ target.T_asset_tool
-    s = TaskSimulation(object_, PolicyTask.OPEN, R_world_tool=T[:3, :3])
-    s.reset(NOMINAL)
-    wide = 0.0 if pushes else min(target.width + ROOM, STROKE)
+    s = simulation or TaskSimulation(object_, PolicyTask.OPEN)
+    s.aim(T[:3, :3])
+    s.reset(sample)
+    wide = open_gap(s, target)
     offset = -REACH if pushes else 0.0
     s.command_tool(*_pose(T, offset - BACK), wide, jump=True)
     s.mujoco.mj_forward(s.model, s.data)
@@ -89,7 +101,7 @@ def follow_target(object_: TaskObject, target: Target) -> Attempt:
     for _ in range(0 if pushes else CLOSING):
         s.command_tool(*_pose(T, offset), gap)
         s.advance()
-    touched, goal = False, object_.goal.goal
+    touched, goal, begun = False, object_.goal.goal, s.tool_in_part
     size = abs(goal) * (float(np.linalg.norm(object_.handle - object_.thing.motion.origin)) if object_.thing.turns else 1.0)
     steps = int(np.ceil(max(size / SPEED, abs(goal) / TURN_SPEED if object_.thing.turns else 0.0) / STEP)) + 5
     for k in range(1, steps + HOLDING + 1):
@@ -102,7 +114,13 @@ def follow_target(object_: TaskObject, target: Target) -> Attempt:
     if not np.isfinite(s.data.qpos).all():
         return Attempt(0.0, InteractionFailure.UNSTABLE, target.contact, 1, s)
     failure = None if share >= DONE else InteractionFailure.SHORT if touched else InteractionFailure.MISSED
-    return Attempt(share, failure, target.contact, 1, s)
+    return Attempt(share, failure, target.contact, 1, s, float(np.linalg.norm(s.tool_in_part - begun)))
+
+
+def open_gap(simulation: TaskSimulation, target: Target) -> float:
+    """Return how wide the fingers are open before a target [m]."""
+    wide = 2 * float(simulation.robot.high[-1])
+    return 0.0 if target.contact is GripperContact.PUSH else min(target.width + ROOM, wide)
 
 
 def _pose(T: Float[np.ndarray, "4 4"], along: float) -> tuple[Float[np.ndarray, " 3"], Float[np.ndarray, "3 3"]]:

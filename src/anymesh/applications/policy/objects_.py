@@ -110,12 +110,12 @@ def task_object(path: str | Path, task: PolicyTask, joint: str | None = None, op
     return TaskObject(thing, goal, handle, *_placed(thing, goal.start, _front(thing.motion, handle, closed)))
 
 
-def object_at_rest(path: str | Path, joint: str) -> TaskObject:
+def object_at_rest(path: str | Path, joint: str, opened: tuple[tuple[str, float], ...] = ()) -> TaskObject:
     """Read an asset with a joint to move from rest to the farther end of its range, or by at most 90 degrees.
 
-    Raise OptionError if the range is empty.
+    opened: values of other joints [rad or m]. Raise OptionError if the range is empty.
     """
-    thing = open_object(path, joint)
+    thing = open_object(path, joint, opened)
     low, high = thing.limits if thing.limits is not None else (0.0, MAX_TURN)
     far = high if high >= -low else low
     goal = float(np.clip(far, -MAX_OPENING, MAX_OPENING)) if thing.turns else far

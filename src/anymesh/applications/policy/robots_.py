@@ -20,8 +20,8 @@ from anymesh.types import Brief
 
 SLIDERS, HINGES = ("move_x", "move_y", "move_z"), ("turn_z", "turn_y", "turn_x")  # servos of a floating hand
 LIMIT = 10.0  # [m] or [rad] of commands whose servo has no range
-STROKE, PAD, REACH = 0.085, (0.010, 0.006, 0.036), 0.012  # [m] of the gripper; half sizes of a pad; tips ahead of the tool
-FINGER_FORCE, MOVE_FORCE, TURN_TORQUE = 30.0, 80.0, 8.0  # [N], [N], [N m] limits of the servos
+REACH = 0.012  # [m] of fingertips ahead of the tool
+MOVE_FORCE, TURN_TORQUE = 80.0, 8.0  # [N], [N m] limits of the servos of a floating hand
 PRESS = 0.01  # [m] by which a closing command passes beyond closed, to press on what is between the pads
 MASS = 0.8  # [kg] of the gripper
 STEP, TURN_STEP = 0.03, 0.12  # [m], [rad] of the largest change of the command in one step
@@ -31,6 +31,38 @@ NO_SHADOW = f"gymnasium-robotics is not installed; {pip_install('policy-hand')} 
 TOOL_X, TOOL_Y = 0.0, -0.3  # [m] of the tool at home, from the middle of the object; the base of the arm is behind it
 JOINT_STEP = 0.06  # [rad] of the largest change of a command in one step
 ARMS = ("panda", "ur5e")
+MIN_SIZE, MAX_SIZE, MAX_FORCE = 0.001, 1.0, 1000.0  # [m], [m], [N] of sizes and forces of a gripper
+
+
+@dataclass(frozen=True)
+class Gripper:
+    """A parallel gripper of boxes. stroke: largest gap [m]; finger: length, width and thickness [m]; force: of a finger [N].
+
+    Raise OptionError for sizes that no gripper has.
+    """
+
+    stroke: float = 0.085
+    finger: tuple[float, float, float] = (0.072, 0.020, 0.012)
+    force: float = 30.0
+
+    def __post_init__(self) -> None:
+        if not all(MIN_SIZE <= v <= MAX_SIZE for v in (self.stroke, *self.finger)) or not 0 < self.force <= MAX_FORCE:
+            raise OptionError(
+                f"a gripper needs a stroke and a length, width and thickness of its fingers from {MIN_SIZE} to {MAX_SIZE} m, "
+                f"and a force up to {MAX_FORCE:.0f} N; found {self.stroke}, {self.finger} and {self.force}"
+            )
+
+    @classmethod
+    def parse(cls, stroke: float, finger: str, force: float) -> Gripper:
+        """Parse "LENGTH,WIDTH,THICKNESS" of a finger [m]. Raise OptionError."""
+        try:
+            length, width, thickness = (float(word) for word in finger.split(","))
+        except ValueError:
+            raise OptionError(f"--finger: found {finger!r}; valid are LENGTH,WIDTH,THICKNESS in metres") from None
+        return cls(stroke, (length, width, thickness), force)
+
+
+GRIPPER = Gripper()
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,26 +117,29 @@ def _floating(R_world_tool: np.ndarray) -> tuple[Any, Any]:
     return spec, body.add_body(name="hand", quat=quaternion(R_world_tool), gravcomp=1.0)
 
 
-def floating_gripper(R_world_tool: np.ndarray) -> TaskRobot:
-    """Return the parallel gripper: a palm and two fingers with box pads, whose tool frame is that of the hand's body."""
+def floating_gripper(R_world_tool: np.ndarray, gripper: Gripper = GRIPPER) -> TaskRobot:
+    """Return a parallel gripper: a palm and two fingers with box pads, whose tool frame is that of the hand's body."""
     mujoco = load_mujoco()
     spec, hand = _floating(R_world_tool)
     box = mujoco.mjtGeom.mjGEOM_BOX
-    hand.add_geom(name="palm", type=box, size=[0.022, 0.055, 0.012], pos=[0, 0, -0.062], mass=MASS / 4)
+    half, (length, width, thickness) = gripper.stroke / 2, gripper.finger
+    palm = [0.022, half + 0.0125, 0.012]
+    hand.add_geom(name="palm", type=box, size=palm, pos=[0, 0, REACH - length - 0.002], mass=MASS / 4)
     hand.add_site(name="tool")
     for name, side in (("left", 1.0), ("right", -1.0)):
-        finger = hand.add_body(name=name, pos=[0, side * PAD[1], 0], gravcomp=1.0)
+        finger = hand.add_body(name=name, pos=[0, side * thickness / 2, 0], gravcomp=1.0)
         finger.add_joint(
-            name=f"{name}_finger", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0, side, 0], range=[0, STROKE / 2], limited=1,
+            name=f"{name}_finger", type=mujoco.mjtJoint.mjJNT_SLIDE, axis=[0, side, 0], range=[0, half], limited=1,
             armature=0.02,
         )  # fmt: skip
-        finger.add_geom(name=f"{name}_pad", type=box, size=PAD, pos=[0, 0, REACH - PAD[2]], mass=MASS / 8)
-        add_servo(spec, f"{name}_finger", 3000.0, 150.0, FINGER_FORCE)
+        pad = [width / 2, thickness / 2, length / 2]
+        finger.add_geom(name=f"{name}_pad", type=box, size=pad, pos=[0, 0, REACH - length / 2], mass=MASS / 8)
+        add_servo(spec, f"{name}_finger", 3000.0, 150.0, gripper.force)
     servos = (*((n,) for n in (*SLIDERS, "turn_z", "turn_x")), ("left_finger", "right_finger"))
     rate = np.array([STEP, STEP, STEP, TURN_STEP, TURN_STEP, 0.0])
-    high = np.array([LIMIT] * 5 + [STROKE / 2])
+    high = np.array([LIMIT] * 5 + [half])
     low = np.array([-LIMIT] * 5 + [-PRESS])
-    positions = (("left_finger", STROKE / 2), ("right_finger", STROKE / 2))
+    positions = (("left_finger", half), ("right_finger", half))
     return TaskRobot("gripper", spec, "tool", (("left",), ("right",)), True, servos, rate, low, high, positions)
 
 

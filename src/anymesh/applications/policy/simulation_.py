@@ -22,6 +22,7 @@ HORIZON = 70  # actions
 FORWARD = np.array([[0.0, 1, 0], [0, 0, 1], [1, 0, 0]])  # tool's z to +y, its closing direction along x
 DOWN = np.array([[-1.0, 0, 0], [0, 1, 0], [0, 0, -1]])  # tool's z down, its closing direction along y
 BEFORE, ABOVE = 0.12, 0.10  # [m] of the tool at the start, from the front of the object and from its top
+STOPPED = 1e-3  # [rad] or [m] from a limit that holds the part
 LEAD = 2.0  # steps that a command may be ahead of its joint, which limits the force
 GRAVITY, STAYS = 9.81, 1.5  # [m/s2], and friction over the weight's largest moment about the axis
 LOWEST = 0.05  # [m] of the tool at the start
@@ -34,29 +35,32 @@ FLOOR = 1.2  # [m] side of the square of ground that is drawn
 class TaskSimulation:
     """One object with one robot. `reset` sets a sample of the randomization; `act` runs one action.
 
-    R_world_tool: orientation of a floating hand at the start; by default ahead, or down for `lift`.
+    robot: a name, or a floating hand; R_world_tool: orientation of a floating hand at the start; by default ahead, or down for
+    `lift`; stays: whether friction holds the part everywhere against its weight, else only at the start.
     """
 
     def __init__(
         self,
         object_: TaskObject,
         task: PolicyTask,
-        robot: str = "gripper",
+        robot: str | TaskRobot = "gripper",
         horizon: int = HORIZON,
         R_world_tool: Float[np.ndarray, "3 3"] | None = None,
+        *,
+        stays: bool = True,
     ) -> None:
         self.mujoco = load_mujoco()
         self.object, self.task, self.horizon = object_, task, horizon
         home = DOWN if task is PolicyTask.LIFT else FORWARD
         self._R_home = home if R_world_tool is None else R_world_tool
-        self.robot = made = make_robot(robot, self._R_home)
+        self.robot = made = robot if isinstance(robot, TaskRobot) else make_robot(robot, self._R_home)
         lifts = task is PolicyTask.LIFT
         spec = compose(object_, made, lifts=lifts)
         self.model = model = spec.compile()
         limit_masses(self.mujoco, model, lifts)
         self.data = self.mujoco.MjData(model)
         self.mujoco.mj_setConst(model, self.data)
-        self._hold_still()
+        self._hold_still(everywhere=stays)
         self._nominal = {k: getattr(model, k).copy() for k in ("body_mass", "body_inertia", "dof_damping", "dof_frictionloss")}
         self._free = bool(lifts)
         self._index(model, made)
@@ -98,13 +102,20 @@ class TaskSimulation:
             number = int(model.wrap_objid[int(model.tendon_adr[number])])
         return int(model.jnt_qposadr[number])
 
-    def _hold_still(self) -> None:
+    def _hold_still(self, *, everywhere: bool) -> None:
         """Give a joint that gravity moves enough friction to stay where it starts, as DexArt's do."""
         model, thing = self.model, self.object.thing
         part = int(model.body(OBJECT + thing.part).id)
         dof = int(model.joint(OBJECT + thing.joint).dofadr[0])
         weight = GRAVITY * float(model.body_subtreemass[part])
-        if thing.turns:
+        if not everywhere:
+            self.data.qpos[int(model.jnt_qposadr[model.dof_jntid[dof]])] = self.object.goal.start
+            self.mujoco.mj_forward(model, self.data)
+            low, high = np.array(thing.limits if thing.limits is not None else (-np.inf, np.inf)) - self.object.goal.start
+            force = float(self.data.qfrc_passive[dof] - self.data.qfrc_bias[dof])
+            stopped = (force > 0 and high < STOPPED) or (force < 0 and low > -STOPPED)
+            weight = 0.0 if stopped else abs(force)
+        elif thing.turns:
             weight *= float(np.linalg.norm(self.object.handle - thing.motion.origin) * np.hypot(*thing.motion.axis[:2]))
         else:
             weight *= abs(float(thing.motion.axis[2]))
@@ -134,6 +145,8 @@ class TaskSimulation:
             data.qpos[:7] = [*pos, *quat]
         else:
             data.mocap_pos[0], data.mocap_quat[0] = pos, quat
+        for name, value in self.object.thing.opened:
+            data.qpos[positions_of(model, [name], OBJECT)] = value
         data.qpos[self.joint] = goal.start + sample.start * (goal.goal - goal.start)
         for name, value in self.robot.positions:
             data.qpos[positions_of(model, [name], ROBOT)] = value
@@ -182,6 +195,12 @@ class TaskSimulation:
         self._tool_height = float(self.tool_position[2])
         return self.measure(self._tool_height - before)
 
+    def aim(self, R: Float[np.ndarray, "3 3"]) -> None:
+        """Change the orientation of the floating gripper at the start, in the world frame."""
+        self._R_home = R
+        self.model.body_quat[int(self.model.body(f"{ROBOT}hand").id)] = quaternion(R)
+        self.mujoco.mj_setConst(self.model, self.data)
+
     def command_tool(
         self, position: Float[np.ndarray, " 3"], R: Float[np.ndarray, "3 3"], gap: float, *, jump: bool = False
     ) -> None:
@@ -217,6 +236,18 @@ class TaskSimulation:
     def handle_position(self) -> Float[np.ndarray, " 3"]:
         """Position of the handle point in the world frame [m]."""
         return self.data.xmat[self._part].reshape(3, 3) @ self._handle + self.data.xpos[self._part]
+
+    @property
+    def part_pose(self) -> Float[np.ndarray, "4 4"]:
+        """Transform from the frame of the part's body to the world frame."""
+        T = np.eye(4)
+        T[:3, :3], T[:3, 3] = self.data.xmat[self._part].reshape(3, 3), self.data.xpos[self._part]
+        return T
+
+    @property
+    def tool_in_part(self) -> Float[np.ndarray, " 3"]:
+        """Position of the tool in the frame of the part's body [m]."""
+        return self.data.xmat[self._part].reshape(3, 3).T @ (self.tool_position - self.data.xpos[self._part])
 
     @property
     def value(self) -> float:
