@@ -70,6 +70,8 @@ CLOSED = "mechanisms.closing:closed"
 LOOP_POINTS = "mechanisms.closing:loop_points"
 ONE_AXIS = "mechanisms.serial:one_axis"
 HANDLE_FRAMES = "mechanisms.handles:handle_frames"
+TOGETHER = "mechanisms.following:together"
+WITH_GEARS = "mechanisms.meshing:with_gears"
 PARSE_MECHANISMS = "mechanisms.choosing:parse_mechanisms"
 NAMED_STATES = "mechanisms.states:named_states"
 

@@ -106,15 +106,15 @@ def test_parts_are_posed_by_the_kinematics_and_put_apart():
 def test_a_play_stays_within_limits_and_passes_rest(phase):
     for asset in (cabinet(), slanted()):
         for joint in asset.joints:
-            at = swayed(joint, phase)
+            at = swayed(asset, joint, phase)
             low, high = joint.limits or (0, 2 * np.pi)
             assert low - 1e-9 <= at <= high + 1e-9
-            assert swayed(joint, 0.0) == 0
+            assert swayed(asset, joint, 0.0) == 0
 
 
 def test_a_play_reaches_both_limits():
     joint = slanted().joints[0]
-    reached = [swayed(joint, p) for p in np.linspace(0, 1, 201)]
+    reached = [swayed(slanted(), joint, p) for p in np.linspace(0, 1, 201)]
     np.testing.assert_allclose((min(reached), max(reached)), joint.limits)
 
 

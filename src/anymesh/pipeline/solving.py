@@ -14,7 +14,7 @@ from anymesh.articulation.estimate import PartMotions, choose_motion, is_named, 
 from anymesh.articulation.rank_motions import MIN_LABEL_CONFIDENCE, label_of
 from anymesh.articulation.vetting import vetted_joints
 from anymesh.config import Config
-from anymesh.entry_points import PROMPTED_STAGES, STATED_JOINTS, STATED_PARTS, USUAL_PARTS, WITH_OTHERS, resolve
+from anymesh.entry_points import PROMPTED_STAGES, STATED_JOINTS, STATED_PARTS, USUAL_PARTS, WITH_GEARS, WITH_OTHERS, resolve
 from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.surface import DividedSurface, ObjectShape, ground_faces
 from anymesh.pipeline.options import GEOMETRY
@@ -238,7 +238,8 @@ class Solver:
         estimate = partial(self.answers.estimate_joints, segmentation, recognition, progress, grounded)
         stated = self.geometry.mesh.joints
         result = resolve(STATED_JOINTS)(self.geometry, segmentation, estimate) if stated else estimate()
-        return replace(result, joints=tuple(turned_back(joint, self._T_straight) for joint in result.joints))
+        joints = tuple(turned_back(joint, self._T_straight) for joint in result.joints)
+        return replace(result, joints=resolve(WITH_GEARS)(self.mesh, result.segmentation or segmentation, joints))
 
 
 def solve(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -11,6 +11,7 @@ import numpy as np
 from jaxtyping import Bool, Int, UInt8
 from PIL import Image, ImageDraw
 
+from anymesh.entry_points import TOGETHER, resolve
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.drawing import (
@@ -38,6 +39,7 @@ BASE = np.array([200, 200, 200], np.uint8)
 SIZE = 620  # [px] size of the camera's picture, from which the panels are cut
 MARGIN, MIN_WIDTH, MIN_HEIGHT = 18, 500, 240  # [px] margin around the drawing; minimum size of a panel, so that the legend fits
 OPEN = 0.75  # share of the range by which joints are opened
+LIFT = 0.3  # share of the diagonal by which a part that lies loose is lifted in pictures
 LETTERS = 19  # [px] font size of the legend
 MAX_LEGEND_JOINTS = 30  # maximum number of joints in the legend
 AZIMUTHS = (35, -35, 145, -145, 65, -65)  # [deg] candidate views, in order of preference
@@ -75,7 +77,7 @@ def write_legend(asset: Asset, path: Path) -> None:
 def render_preview(asset: Asset) -> UInt8[np.ndarray, "H W 3"]:
     """Draw the object with its materials, with coloured parts at rest, and opened, side by side; the legend is below."""
     asset = replace(asset, mesh=smoothed(asset.mesh))
-    at = {j.name: shown_position(j) for j in asset.joints}
+    at = opened_positions(asset)
     rest = _Pose(asset.mesh, axis_shapes(asset, {}))
     opened = _Pose(posed(asset, at), axis_shapes(asset, at)) if any(at.values()) else rest
     camera = best_camera(asset, opened.mesh, [rest.scene, opened.scene])
@@ -147,10 +149,16 @@ def _window(camera: Camera, poses: Sequence[_Pose]) -> Window:
     return Window(sides[0][0], sides[1][0], sides[0][1], sides[1][1])
 
 
-def shown_position(joint: Joint) -> float:
-    """Return the position of a joint in the opened panel [rad or m]."""
-    if joint.type is JointType.FIXED:
-        return 0.0
+def opened_positions(asset: Asset) -> Mapping[str, float]:
+    """Return the positions of all joints in the opened panel; loops are closed."""
+    at = {j.name: shown_position(j, asset.mesh.diagonal) for j in asset.joints}
+    return resolve(TOGETHER)(asset, at) if asset.loops else at
+
+
+def shown_position(joint: Joint, size: float = 1.0) -> float:
+    """Return the position of a joint in the opened panel [rad or m]. size: the object's diagonal [m]."""
+    if joint.type in (JointType.FIXED, JointType.FREE):
+        return LIFT * size if joint.type is JointType.FREE else 0.0
     if joint.limits is None:
         return float(np.pi / 4)
     return OPEN * (joint.limits[1] if joint.limits[1] >= -joint.limits[0] else joint.limits[0])
@@ -184,7 +192,7 @@ def _clearest(cameras: Sequence[Camera], scenes: Sequence[RayScene], wanted: Boo
 
 def opened_view(asset: Asset) -> tuple[Mesh, Camera]:
     """Return the mesh with its joints opened as in the preview, and the view that `best_camera` chooses."""
-    opened = posed(asset, {j.name: shown_position(j) for j in asset.joints})
+    opened = posed(asset, opened_positions(asset))
     return opened, best_camera(asset, opened, [RayScene(m.vertices, m.faces) for m in (asset.mesh, opened)])
 
 

@@ -14,6 +14,7 @@ import numpy as np
 from anymesh.correcting import Correction
 from anymesh.errors import AnymeshError
 from anymesh.formats.packed import zip_bytes
+from anymesh.mechanisms.following import followers
 from anymesh.pipeline.results import JointVerdict, verdict
 from anymesh.types import Asset, Joint, JointType
 from anymesh.viewer.correct_ import CorrectionTools, CorrectPanel
@@ -23,7 +24,7 @@ from anymesh.viewer.looks import has_looks
 from anymesh.viewer.panels import SMALL, Page, badge, head, joint_table, scale_of
 from anymesh.viewer.parts.panel_ import PartPanel
 from anymesh.viewer.review_ import ReviewPanel
-from anymesh.viewer.scene import swayed
+from anymesh.viewer.scene import shown_range, swayed
 from anymesh.viewer.scene_ import SceneView
 from anymesh.viewer.session import Clock, Session
 
@@ -63,7 +64,8 @@ class PlayPanel:
     def refresh(self, session: Session) -> None:
         """Update the sliders for the joints of the displayed asset."""
         asset = session.shown
-        made = [(j, verdict(asset.segmentation, j, asset.warnings)) for j in asset.joints if j.type is not JointType.FIXED]
+        leading = [j for j in asset.joints if j.type is not JointType.FIXED and j.name not in followers(asset)]
+        made = [(j, verdict(asset.segmentation, j, asset.warnings)) for j in leading]
         if [(j.name, j.child, j.type, j.limits, j.confidence, v) for j, v in made] != self._made:
             self._made = [(j.name, j.child, j.type, j.limits, j.confidence, v) for j, v in made]
             for control in (*self._sliders.values(), *self._doubts):
@@ -92,7 +94,7 @@ class PlayPanel:
 
     def _slider(self, session: Session, joint: Joint) -> Any:
         scale, unit = scale_of(joint)
-        low, high = (scale * v for v in (joint.limits or (-np.pi, np.pi)))
+        low, high = (scale * v for v in shown_range(session.shown, joint))
         at = float(np.clip(scale * session.positions.get(joint.name, 0.0), low, high))
         slider = self._page.gui.add_slider(
             f"{joint.child} {unit}", min=round(low, 2), max=round(high, 2), step=round((high - low) / STEPS, 4) or 1e-3,
@@ -334,7 +336,7 @@ class LivePage:
                 if session is None or self.playing is None:
                     continue
                 phase = (time.monotonic() - self._began) / SECONDS % 1
-                moved = {j.name: swayed(j, phase) for j in session.shown.joints if self.playing in ("", j.name)}
+                moved = {j.name: swayed(session.shown, j, phase) for j in session.shown.joints if self.playing in ("", j.name)}
                 session.moving = moved
                 self.view.pose({**session.positions, **moved}, session.explode)
 

@@ -17,6 +17,7 @@ from anymesh.names import confidence_word
 from anymesh.pipeline.results import verdict
 from anymesh.rendering.preview import extent
 from anymesh.types import Asset, Joint, JointType
+from anymesh.types.motion import SLIDING
 from anymesh.viewer.scene import color_of
 from anymesh.viewer.session import Session
 
@@ -81,7 +82,7 @@ def selection(asset: Asset, name: str | None) -> str:
 
 def scale_of(joint: Joint) -> tuple[float, str]:
     """Return the display factor of a joint's positions, and its unit: degrees or centimetres."""
-    return (100.0, "cm") if joint.type is JointType.PRISMATIC else (float(np.rad2deg(1)), "°")
+    return (100.0, "cm") if joint.type in SLIDING else (float(np.rad2deg(1)), "°")
 
 
 def shortened(text: str, most: int = 60) -> str:

@@ -16,6 +16,7 @@ from anymesh.export.glb import tracks
 from anymesh.export.model import ExportConfig
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene
+from anymesh.mechanisms.following import together
 from anymesh.pipeline.results import verdict
 from anymesh.rendering.drawing import (
     Window,
@@ -29,12 +30,13 @@ from anymesh.rendering.drawing import (
     smoothed,
 )
 from anymesh.rendering.marks import axis_shapes, draw_axes, font
-from anymesh.rendering.preview import best_camera, opened_view, part_colors, shown_position
+from anymesh.rendering.preview import best_camera, opened_positions, opened_view, part_colors
 from anymesh.rendering.viewpoints import away, framed
 from anymesh.runtime import Progress, silent, writing
 from anymesh.types import Asset, JointType, Mesh
 from anymesh.types.camera import Camera
 from anymesh.viewer.report_asset import displayed, find_assets, read_asset
+from anymesh.viewer.scene import shown_range
 
 ELEVATION = 20.0  # [deg] elevation of the turntable's camera
 LOOPS = 3  # number of motions through every joint's range per turn: open at 60 and 300 degrees, where the front is visible
@@ -159,8 +161,8 @@ def _camera(points: np.ndarray, azimuth: float, size: int) -> Camera:
 def _reach(asset: Asset) -> Iterator[np.ndarray]:
     """Yield the vertices with all joints at several positions of their ranges."""
     for share in np.linspace(0, 1, REACHED):
-        at = {j.name: float(np.interp(share, (0, 1), j.limits or (-np.pi, np.pi))) for j in asset.joints}
-        yield posed(asset, at).vertices
+        at = {j.name: float(np.interp(share, (0, 1), shown_range(asset, j))) for j in asset.joints}
+        yield posed(asset, together(asset, at) if asset.loops else at).vertices
 
 
 def contact_sheet(assets: Sequence[tuple[str, Asset | None]], *, columns: int = 4) -> UInt8[np.ndarray, "H W 3"]:
@@ -210,7 +212,7 @@ def _moving(asset: Asset, size: int, materials: bool) -> tuple[float, Callable[[
 
 def _opened(asset: Asset) -> UInt8[np.ndarray, "h w 3"]:
     asset = replace(asset, mesh=smoothed(asset.mesh))
-    at = {j.name: shown_position(j) for j in asset.joints}
+    at = opened_positions(asset)
     opened = posed(asset, at)
     scene = RayScene(opened.vertices, opened.faces)
     viewpoint = best_camera(asset, opened, [RayScene(asset.mesh.vertices, asset.mesh.faces), scene])

@@ -10,12 +10,13 @@ from html import escape
 from importlib.resources import files
 from typing import Any
 
+from anymesh.mechanisms.following import followers
 from anymesh.names import confidence_word
 from anymesh.pipeline.results import verdict
 from anymesh.rendering.preview import extent
 from anymesh.types import Asset, Exchange, Joint, JointType
 from anymesh.viewer.report_asset import ReportEntry, picture_key, thumbnail
-from anymesh.viewer.scene import color_class, palette
+from anymesh.viewer.scene import color_class, palette, shown_range
 
 SCRIPTS = ("three.min.js", "report_view.js", "report_page.js")
 STYLE = "report.css"
@@ -46,8 +47,8 @@ def sliders(asset: Asset) -> str:
 
     Values are in rad or m; the script shows degrees and cm.
     """
-    number = _numbers(asset)
-    rows = [_slider(k, joint, color_class(number[joint.child]), asset) for k, joint in enumerate(asset.joints)]
+    number, led = _numbers(asset), followers(asset)
+    rows = [_slider(k, j, color_class(number[j.child]), asset, led=j.name in led) for k, j in enumerate(asset.joints)]
     return f'<ol class="joints">{"".join(rows)}</ol>' if rows else '<p class="none">Nothing moves.</p>'
 
 
@@ -133,21 +134,31 @@ def _question(number: int, exchange: Exchange, entry: ReportEntry) -> str:
     )
 
 
-def _slider(number: int, joint: Joint, color: str, asset: Asset) -> str:
-    """Return a row without tooltips, which would cover the slider; why a joint is not sure is said in words."""
+def _slider(number: int, joint: Joint, color: str, asset: Asset, *, led: bool) -> str:
+    """Return a row without tooltips, which would cover the slider; why a joint is not sure is said in words.
+
+    led: it follows others and has no slider of its own.
+    """
     name, travel, kind = html_text(joint.name), html_text(extent(joint)), html_text(joint.type)
     outcome = verdict(asset.segmentation, joint, asset.warnings)
     why = f'<p class="why">{html_text(outcome.why)}</p>' if outcome.why else ""
     mark = sure(joint.confidence, outcome.word)
     head = f'<i class="chip {color}"></i><b>{name}</b> <small>{kind} {travel}</small>{mark}{why}'
-    if joint.type is JointType.FIXED:
-        return f'<li data-joint="{number}">{head}</li>'
-    low, high = joint.limits or (-3.141592653589793, 3.141592653589793)
+    if joint.type is JointType.FIXED or led:
+        follows = f'<p class="why">{html_text(_follows(asset, joint))}</p>' if led else ""
+        return f'<li data-joint="{number}">{head}{follows}</li>'
+    low, high = shown_range(asset, joint)
     return (
         f'<li data-joint="{number}">{head}<div><button class="play" '
         f'aria-label="Play {name}">▶</button><input type="range" min="{low!r}" max="{high!r}" step="any" value="0" '
         f'aria-label="{name}"><output></output></div></li>'
     )
+
+
+def _follows(asset: Asset, joint: Joint) -> str:
+    if joint.mimic is None:
+        return "moves as the loops of the asset have it"
+    return f"follows {joint.mimic.joint} by {joint.mimic.ratio:.4g}"
 
 
 def _numbers(asset: Asset) -> dict[str, int]:

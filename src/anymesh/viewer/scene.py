@@ -10,12 +10,14 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.geometry.kinematics import joint_transform
+from anymesh.geometry.kinematics import joint_motion, joint_transform
 from anymesh.geometry.simplify_ import simplify
+from anymesh.mechanisms.following import follower_tables
 from anymesh.physics.inertia import Inertia
 from anymesh.rendering.marks import axis_line, ring
-from anymesh.rendering.preview import BASE, PALETTE, opened_view
+from anymesh.rendering.preview import BASE, LIFT, PALETTE, opened_view
 from anymesh.types import Asset, Box, Brief, Cylinder, Hull, Joint, JointType, Mesh, Shape
+from anymesh.types.motion import SLIDING
 from anymesh.types.triangles import unshared
 
 MAX_DISPLAY_FACES = 200_000  # maximum number of faces drawn; a denser object is decimated for display
@@ -116,9 +118,8 @@ def opening_direction(joint: Joint, middle: Mapping[str, Float[np.ndarray, " 3"]
 
     middle: centre of each part's box.
     """
-    if joint.type is JointType.PRISMATIC:
-        assert joint.limits is not None
-        return joint.axis if joint.limits[1] >= -joint.limits[0] else -joint.axis
+    if joint.type in SLIDING:
+        return joint.axis if joint.limits is None or joint.limits[1] >= -joint.limits[0] else -joint.axis
     off = middle[joint.child] - middle[joint.parent]
     length = float(np.linalg.norm(off))
     return off / length if length > 0 else joint.axis
@@ -137,11 +138,11 @@ def joint_lines(asset: Asset, joint: Joint) -> JointLines:
     """Return the lines that show a joint, in the asset frame at rest [m]."""
     number = next(k for k, p in enumerate(asset.segmentation.parts) if p.name == joint.child)
     corners, diagonal = asset.mesh.triangles[asset.segmentation.faces(number)].reshape(-1, 3), asset.mesh.diagonal
-    slides = joint.type is JointType.PRISMATIC
+    slides = joint.type in SLIDING
     arrow, center = axis_line(corners, joint.origin, joint.axis, slides, diagonal)
     nothing = np.zeros((0, 2, 3))
     sense = nothing if slides else _segments(ring(center, joint.axis, RADIUS * diagonal))
-    if joint.limits is None:
+    if joint.limits is None or joint.type is JointType.BALL:
         return JointLines(arrow, sense, nothing)
     arm = corners - joint.origin
     arm = arm - (arm @ joint.axis)[:, None] * joint.axis
@@ -197,13 +198,16 @@ def inertia_box(inertia: Inertia) -> DisplayMesh:
     return DisplayMesh(inertia.center + (BOX * size) @ axes.T, BOX_FACES)
 
 
-def swayed(joint: Joint, phase: float) -> float:
+def shown_range(asset: Asset, joint: Joint) -> tuple[float, float]:
+    """Return the range over which a joint is shown [rad or m]; what lies loose is lifted by a share of the object's size."""
+    return (0.0, LIFT * asset.mesh.diagonal) if joint.type is JointType.FREE else joint.span
+
+
+def swayed(asset: Asset, joint: Joint, phase: float) -> float:
     """Return the position of a joint [rad or m] at a phase 0..1 of its play: rest, one limit, rest, the other limit."""
-    if joint.type is JointType.FIXED:
-        return 0.0
-    if joint.limits is None:
+    if joint.limits is None and joint.type not in (JointType.FIXED, JointType.FREE):
         return 2 * np.pi * phase
-    lower, upper = joint.limits
+    lower, upper = shown_range(asset, joint)
     if lower == 0 or upper == 0:
         return (lower + upper) * (1 - np.cos(2 * np.pi * phase)) / 2
     s = float(np.sin(2 * np.pi * phase))
@@ -242,17 +246,23 @@ def report_scene(asset: Asset, *, looks: bool) -> dict[str, Any]:
             }
         )
     joints = [_joint_data(asset, joint, number, corners[joint.child], middle[joint.child]) for joint in asset.joints]
+    order = {joint.name: k for k, joint in enumerate(asset.joints)}
+    for name, (leader, positions) in follower_tables(asset).items():
+        joints[order[name]]["follows"] = {"joint": order[leader], "positions": positions}
     return {"links": links, "joints": joints, "looks": looks, "ring": RING * asset.mesh.diagonal, **_first_view(asset)}
 
 
 def _joint_data(asset: Asset, joint: Joint, number: dict[str, int], corners: np.ndarray, middle: np.ndarray) -> dict[str, Any]:
-    ends, center = axis_line(corners, joint.origin, joint.axis, joint.type is JointType.PRISMATIC, asset.mesh.diagonal)
+    ends, center = axis_line(corners, joint.origin, joint.axis, joint.type in SLIDING, asset.mesh.diagonal)
+    endless = joint.limits is None and joint.type is not JointType.FREE
+    axis = joint.axis if joint.type is JointType.FIXED else joint_motion(joint).axis
     return {
         "name": joint.name,
         "type": str(joint.type),
         "link": number[joint.child],
-        "axis": _list(joint.axis),
-        "limits": None if joint.limits is None else [float(v) for v in joint.limits],
+        "axis": _list(axis),
+        "limits": None if endless else [float(v) for v in shown_range(asset, joint)],
+        **({"pitch": joint.pitch} if joint.pitch else {}),
         "ends": [_list(end) for end in ends],
         "center": _list(center),
         "middle": _list(middle),

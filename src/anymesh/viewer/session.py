@@ -26,6 +26,7 @@ from anymesh.correcting.motions import Ready, made_ready
 from anymesh.correcting.proposals import unsure
 from anymesh.geometry.kinematics import link_transforms
 from anymesh.geometry.raycast_ import RayScene
+from anymesh.mechanisms.following import together
 from anymesh.types import Asset, Brief, Joint, Segmentation
 from anymesh.viewer.scene import apart
 
@@ -43,7 +44,7 @@ class Hit(Brief):
 
 def part_poses(asset: Asset, positions: Mapping[str, float], explode: float) -> dict[str, Float[np.ndarray, "4 4"]]:
     """Return part name -> displayed pose relative to rest; explode: 0 in place .. 1 apart."""
-    poses = link_transforms(asset, positions)
+    poses = link_transforms(asset, together(asset, positions) if asset.loops else positions)
     for name, off in (apart(asset) if explode else {}).items():
         poses[name][:3, 3] += explode * off
     return poses

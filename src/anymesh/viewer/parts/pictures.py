@@ -65,7 +65,7 @@ class MotionPictures:
 
     def _position(self, joint: Joint) -> float:
         """Return the position that is shown: opened, a slide by no more than lets the part be recognized."""
-        at = shown_position(joint)
+        at = shown_position(joint, self._asset.mesh.diagonal)
         if joint.type is not JointType.PRISMATIC:
             return at
         most = FAR * float(np.ptp(self._corners, axis=0).max())

@@ -9,7 +9,7 @@
 
   // A position in the units that people read.
   function told(joint, amount) {
-    if (joint.type === "prismatic") return `${(100 * amount).toFixed(1)} cm`;
+    if (joint.type === "prismatic" || joint.type === "free") return `${(100 * amount).toFixed(1)} cm`;
     return `${(amount * 180 / Math.PI).toFixed(0)}°`;
   }
 

@@ -3,6 +3,8 @@
 const AnymeshView = (() => {
   const T = THREE, AXIS = 0xbe1428, PATH = 0x555555, PICKED = 0x1e6ef5, HELD = 0x00875a;
   const METAL = 0.4; // no more than this: there is no room to be mirrored
+  const SLIDES = new Set(["prismatic", "free"]);
+  const lead = (joint, amount) => (joint.pitch ?? 0) / (2 * Math.PI) * amount; // along the axis of a screw
   const vector = (a) => new T.Vector3(a[0], a[1], a[2]);
 
   class View {
@@ -102,7 +104,7 @@ const AnymeshView = (() => {
         shaft.quaternion.copy(turned);
         head.quaternion.copy(turned);
         group.add(shaft, head);
-        if (joint.type !== "prismatic") {
+        if (!SLIDES.has(joint.type)) {
           const ring = new T.Mesh(new T.TorusGeometry(this.data.ring, thick, 6, 40, 1.5 * Math.PI), paint);
           ring.position.copy(vector(joint.center).sub(frame));
           ring.quaternion.setFromUnitVectors(new T.Vector3(0, 0, 1), vector(joint.axis));
@@ -149,25 +151,35 @@ const AnymeshView = (() => {
       const origin = vector(this.data.links[joint.link].origin), axis = vector(joint.axis), points = [];
       for (let k = 0; k <= 48; k++) {
         const amount = low + (high - low) * k / 48, point = vector(joint.middle);
-        if (joint.type === "prismatic") point.addScaledVector(axis, amount);
-        else point.sub(origin).applyAxisAngle(axis, amount).add(origin);
+        if (SLIDES.has(joint.type)) point.addScaledVector(axis, amount);
+        else point.sub(origin).applyAxisAngle(axis, amount).add(origin).addScaledVector(axis, lead(joint, amount));
         points.push(...point.sub(frame).toArray());
       }
       const line = new T.BufferGeometry().setAttribute("position", new T.Float32BufferAttribute(points, 3));
       return new T.Line(line, new T.LineBasicMaterial({ color: PATH, depthTest: false, transparent: true, opacity: 0.6 }));
     }
 
+    // Where a joint is: where its slider has it, or what it follows.
+    amount(joint, k) {
+      if (!joint.follows) return this.positions[k];
+      const { joint: leader, positions } = joint.follows, [low, high] = this.data.joints[leader].limits ?? [-Math.PI, Math.PI];
+      const at = (positions.length - 1) * Math.min(1, Math.max(0, (this.positions[leader] - low) / (high - low)));
+      const before = Math.min(Math.floor(at), positions.length - 2);
+      return positions[before] + (at - before) * (positions[before + 1] - positions[before]);
+    }
+
     // Puts every link where the joint positions [rad, m] and the explosion (0..1) have it.
     pose() {
-      const moved = new Map(this.data.joints.map((joint, k) => [joint.link, [joint, this.positions[k]]]));
+      const moved = new Map(this.data.joints.map((joint, k) => [joint.link, [joint, this.amount(joint, k)]]));
       this.data.links.forEach((link, k) => {
         if (link.parent < 0) return;
         const node = this.nodes[k], [joint, amount] = moved.get(k), axis = vector(joint.axis);
         node.position.copy(vector(link.origin)).sub(vector(this.data.links[link.parent].origin));
         node.position.addScaledVector(vector(link.away), this.apart);
         node.quaternion.identity();
-        if (joint.type === "prismatic") node.position.addScaledVector(axis, amount);
+        if (SLIDES.has(joint.type)) node.position.addScaledVector(axis, amount);
         else if (joint.type !== "fixed") node.quaternion.setFromAxisAngle(axis, amount);
+        node.position.addScaledVector(axis, lead(joint, amount));
       });
       this.data.joints.forEach((joint, k) => {
         this.marks[k].position.copy(vector(this.data.links[joint.link].away)).multiplyScalar(this.apart);
