@@ -11,6 +11,7 @@ from anymesh.articulation.vetting import TOLERANCE, stops
 from anymesh.checking.content import Content, rigid_groups
 from anymesh.checking.engines import sweep_in
 from anymesh.checking.engines.driving import SweepReport, resisting_of
+from anymesh.checking.engines.locate import mjcf_beside
 from anymesh.checking.engines.pushing import damping_text
 from anymesh.checking.engines.robot import MOVING, Robot, RobotJoint
 from anymesh.checking.report import Finding, Severity, failure, warning
@@ -22,13 +23,14 @@ from anymesh.geometry.triangle_set import TriangleSet, sample_surface
 from anymesh.types import JointType, Motion
 
 JOINTS = "joints"
-TYPES = (*MOVING, "fixed", "floating", "planar")
+PROVED = ("floating", "ball")  # types that are proved as mechanisms where there is an MJCF
+TYPES = (*MOVING, *PROVED, "fixed", "planar")
 UNIT = 1e-3  # tolerance of the length of an axis
 MAX_RANGE_RAD = 4 * np.pi  # [rad] a wider range of a hinge is probably in degrees, or a mistake
 TRAVEL = 3.0  # share of the object's diagonal; a longer slide is probably in other units
 DIRECTION = "direction"
 FACES = 20_000
-MOTION = "motion"
+MOTION, MECHANISMS = "motion", "mechanisms"
 BUTTON = 0.15  # share of the object's diagonal: a smaller part may be a button, as in articulation/rank_motions.py
 STROKE = 0.1  # share of its extent along the axis that a button moves inwards at least, as in articulation/limits.py
 GUIDED, LOOSE = 0.1, 0.01  # shares of a part's surface between walls: from which it is in a guide, up to which it has left it
@@ -48,7 +50,7 @@ def check_joints(robot: Robot, diagonal: float) -> Iterator[Finding]:
             yield from _limits(joint, diagonal, accepted=robot.format == "MJCF" or joint.name in robot.followers)
             if robot.format == "URDF":  # in an MJCF they belong to motors, not to joints
                 yield from _strength(joint)
-        elif joint.type != "fixed":
+        elif joint.type != "fixed" and (joint.type not in PROVED or mjcf_beside(robot.path) is None):
             yield warning(JOINTS, joint.name, f"its type {joint.type} has several degrees of freedom; it is not driven here")
     if not robot.moving:
         yield warning(JOINTS, "", "no joint moves; an articulated asset has at least one")
@@ -190,6 +192,10 @@ def check_motion(path: Path, engine: str, *, ours: bool) -> tuple[list[Finding],
         if not j.posture
         for fault in j.faults
     ]
+    told = failure if ours else warning  # others may close a loop over a part of the range only
+    findings += [told(MECHANISMS, m.name, f"{report.engine}: {fault}") for m in report.mechanisms for fault in m.faults]
+    if report.mechanisms and not any(m.faults for m in report.mechanisms):
+        findings.append(Finding(MECHANISMS, Severity.OK, report.engine, _proved(report)))
     for j in (j for j in report.joints if j.posture):
         findings.append(warning(MOTION, j.name, f"{report.engine}: {j.faults[0]} with the other joints at rest"))
     if report.ok:
@@ -198,3 +204,15 @@ def check_motion(path: Path, engine: str, *, ours: bool) -> tuple[list[Finding],
         note = f" ({'; '.join((*opened, *left))})" if opened or left else ""
         findings.append(Finding(MOTION, Severity.OK, report.engine, f"{len(report.joints)} joints reach both limits{note}"))
     return findings, report
+
+
+def _proved(report: SweepReport) -> str:
+    """Describe how well the mechanisms work."""
+    words = {
+        "follower": "{} joints follow, within {:.2g} rad or m",
+        "loop": "{} loops stay closed within {:.2g} m",
+        "ball": "{} balls stay within their limits, and turn by up to {:.2g} rad",
+        "free": "{} loose parts can be lifted off",
+    }
+    of = {kind: [m.error for m in report.mechanisms if m.kind == kind] for kind in words}
+    return ", ".join(words[kind].format(len(errors), max(errors)) for kind, errors in of.items() if errors)

@@ -9,11 +9,12 @@ import json
 import subprocess
 import sys
 import tempfile
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from importlib import import_module
 from pathlib import Path
 
 from anymesh.checking.engines.driving import SweepReport, drive, from_record, motors_of, readable
+from anymesh.checking.engines.locate import mjcf_beside
 from anymesh.checking.engines.robot import read_urdf
 from anymesh.errors import AnymeshError, InputError, MissingExtraError, OptionError
 
@@ -44,7 +45,9 @@ def sweep_in(engine: str, path: Path, *, apart: bool | None = None, python: str 
     if engine == "mujoco":
         return module.sweep_joints(Path(path))
     robot = readable(read_urdf(Path(path)))
-    return drive(module.World(Path(path), robot, motors_of(robot)), robot)
+    report = drive(module.World(Path(path), robot, motors_of(robot)), robot)
+    mjcf = mjcf_beside(Path(path)) if engine == "newton" else None
+    return report if mjcf is None else replace(report, mechanisms=module.prove(mjcf))
 
 
 def _apart(engine: str, path: Path, python: str) -> SweepReport:

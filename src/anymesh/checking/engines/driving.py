@@ -24,6 +24,7 @@ MOTOR_FREQUENCY = 20.0  # [rad/s] natural frequency of the motors
 MIN_SETTLING_RATIO = 10.0  # minimum ratio of the duration of a motion to the time constant of the joint's damping
 MAX_ENGINE_SECONDS = 10.0  # [s] maximum duration of a motion in the engines other than MuJoCo
 DEFAULT_EFFORT = 1000.0  # [N or N m] default effort of a motor
+ENDLESS = 8.0  # ratio to half a turn, or to the asset, from which a range means that there is none (some write 1e16)
 UNSTABLE = "the simulation became unstable"
 Limits = tuple[float, float] | None
 
@@ -58,6 +59,20 @@ class JointSweep:
 
 
 @dataclass(frozen=True)
+class ProvedMechanism:
+    """What was proved of a mechanism. kind: follower, loop, ball or free.
+
+    error: how far a follower was from its place [rad or m], a loop opened [m], a ball turned [rad], or a loose part was lifted
+    [m]; faults: in words.
+    """
+
+    kind: str
+    name: str
+    error: float
+    faults: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class SweepReport:
     """All joints of an asset in one engine. excluded: pairs of links whose contact was not tested, and why.
 
@@ -68,6 +83,7 @@ class SweepReport:
     joints: tuple[JointSweep, ...]
     excluded: tuple[tuple[str, str, str], ...]
     undriven: tuple[tuple[str, str], ...] = ()
+    mechanisms: tuple[ProvedMechanism, ...] = ()
 
     @property
     def ok(self) -> bool:
@@ -79,7 +95,8 @@ def from_record(record: Mapping[str, Any]) -> SweepReport:
     lists: list[dict[str, Any]] = [dict(j, faults=tuple(j["faults"]), opened=tuple(j["opened"])) for j in record["joints"]]
     joints = tuple(JointSweep(**values) for values in lists)
     excluded, undriven = ((tuple(entry) for entry in record[key]) for key in ("excluded", "undriven"))
-    return SweepReport(record["engine"], joints, tuple(excluded), tuple(undriven))
+    mechanisms = tuple(ProvedMechanism(m["kind"], m["name"], m["error"], tuple(m["faults"])) for m in record["mechanisms"])
+    return SweepReport(record["engine"], joints, tuple(excluded), tuple(undriven), mechanisms)
 
 
 @dataclass(frozen=True)

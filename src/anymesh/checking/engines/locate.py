@@ -58,6 +58,14 @@ def find_description(path: Path) -> Path:
     raise InputError(f"{path} holds no URDF and no MJCF; one is needed")
 
 
+def mjcf_beside(path: Path) -> Path | None:
+    """Return the MJCF of the same asset: a URDF says less about mechanisms. None if there is none."""
+    if kind_of(path) == MJCF:
+        return path
+    beside = path.with_suffix(".xml")
+    return beside if (path.parent / "asset.json").is_file() and beside.is_file() and kind_of(beside) == MJCF else None
+
+
 def kind_of(path: Path) -> str | None:
     """Return URDF or MJCF by the content of a file, or None; a file with the suffix .urdf is a URDF, valid or not."""
     if path.suffix.lower() == URDF:

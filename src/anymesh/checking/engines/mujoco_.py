@@ -12,6 +12,7 @@ import numpy as np
 from anymesh.checking.engines.driving import (
     DEEP,
     DEFAULT_EFFORT,
+    ENDLESS,
     MIN_SETTLING_RATIO,
     REACHED_RATIO,
     UNSTABLE,
@@ -21,6 +22,8 @@ from anymesh.checking.engines.driving import (
     motor_faults,
     place_faults,
 )
+from anymesh.checking.engines.locate import mjcf_beside
+from anymesh.checking.engines.mechanisms_ import prove_mechanisms
 from anymesh.checking.engines.mjcf_ import load_errors, read_spec, without_ground
 from anymesh.checking.engines.pushing import MujocoPassive, push_faults
 from anymesh.mujoco_ import is_unstable, load_mujoco, name_elements
@@ -31,7 +34,6 @@ MOTOR_FREQUENCY_1S = 30.0  # [rad/s] natural frequency of a motor whose motion t
 MAX_MOTOR_FREQUENCY = 100.0  # [rad/s], for light links with much friction; rotor inertia is added to keep it
 MAX_MOTION_SECONDS = 20.0  # [s] maximum duration of a motion; heavy links with little effort are slow
 LEGS = (1.0, 1.0, -1.0, -1.0)  # sequence of motor targets: +1 upper limit, -1 lower; a repeated one holds the position
-ENDLESS = 8.0  # ratio to half a turn, or to the asset, from which a range means that there is none (some write 1e16)
 TRIES = 5  # positions of another joint that may be in the way
 Coupling = tuple[str, str, np.ndarray]  # a joint, its leader ("" for none), and coefficients of a polynomial
 
@@ -235,7 +237,8 @@ def sweep_joints(path: Path, *, steps: int = 100) -> SweepReport:
     driven = [index for index in bench.joints if index not in bench.undriven]
     joints = tuple(_pushed(bench, index, _cleared_sweep(bench, index, steps)) for index in driven)
     undriven = tuple((bench.model.joint(k).name, why) for k, why in bench.undriven.items())
-    return SweepReport(f"mujoco {mujoco.__version__}", joints, excluded, undriven)
+    mechanisms = prove_mechanisms(mjcf_beside(Path(path)) or Path(path))
+    return SweepReport(f"mujoco {mujoco.__version__}", joints, excluded, undriven, mechanisms)
 
 
 def _pushed(bench: MujocoBench, index: int, sweep: JointSweep) -> JointSweep:
@@ -353,7 +356,8 @@ def _driven(bench: MujocoBench, index: int, moved: Mapping[int, float]) -> tuple
     mujoco.mj_kinematics(model, data)
     place = data.xaxis[index].copy(), data.xanchor[index].copy(), data.geom_xpos[geoms].copy()
     others = np.ones(model.nq, bool)
-    others[[address, *(model.jnt_qposadr[k] for k in bench.followers)]] = False
+    followers = [model.jnt_qposadr[k] for k in bench.followers if k != index]
+    others[[address, *followers]] = False
     lower, upper = bench.ranges[index]
     reached, drift, off, blew_up, start = {1.0: 0.0, -1.0: 0.0}, 0.0, 0.0, False, float(start_posture[address])
     smooth = (1 - np.cos(np.linspace(0, np.pi, round(bench.seconds[index] / model.opt.timestep)))) / 2
@@ -370,9 +374,12 @@ def _driven(bench: MujocoBench, index: int, moved: Mapping[int, float]) -> tuple
         blew_up |= is_unstable(data)
         reached[way] = float(data.qpos[address])
         data.qpos[others] = start_posture[others]  # what moves the other joints does not count
+        led = data.qpos[followers].copy()
+        data.qpos[followers] = start_posture[followers]
         mujoco.mj_kinematics(model, data)
         step = reached[way] - float(start_posture[address])
         off = max(off, distance_off(model.jnt_type[index] == mujoco.mjtJoint.mjJNT_SLIDE, step, place, data.geom_xpos[geoms]))
+        data.qpos[followers] = led
     return (reached[-1.0], reached[1.0]), drift, off, bool(blew_up)
 
 

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
+from tempfile import TemporaryDirectory
+from warnings import catch_warnings
 
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.checking.engines.driving import STEP, Limits, Motor, engine_version, load_engine, pose_matrix
+from anymesh.checking.engines.driving import STEP, Limits, Motor, ProvedMechanism, engine_version, load_engine, pose_matrix
+from anymesh.checking.engines.mechanisms_ import prove_mechanisms
 from anymesh.checking.engines.robot import Robot
 from anymesh.errors import InputError
 
@@ -84,6 +87,17 @@ class World:
         rows = self.now.body_q.numpy().astype(float)
         root, body = (pose_matrix(rows[k][:3], rows[k][3:]) for k in (self.root, self.bodies[link]))
         return np.linalg.inv(root) @ body
+
+
+def prove(path: Path) -> tuple[ProvedMechanism, ...]:
+    """Return what Newton makes of the mechanisms of an MJCF: its MuJoCo solver writes the model that it steps as an MJCF."""
+    newton = load_engine("newton", shown="Newton", extra="newton")
+    builder = newton.ModelBuilder(gravity=(0.0, 0.0, 0.0))
+    with TemporaryDirectory() as folder, catch_warnings(action="ignore"):
+        written = Path(folder) / "newton.xml"
+        builder.add_mjcf(str(path), parse_visuals=False)
+        newton.solvers.SolverMuJoCo(builder.finalize(device="cpu"), use_mujoco_cpu=True, save_to_mjcf=str(written))
+        return prove_mechanisms(written)
 
 
 def _last(label: str) -> str:
