@@ -42,7 +42,7 @@ def test_numbers_that_are_not_finite_are_refused_both_ways() -> None:
         (("score", "true"), 1.5),
         (("score", "executable"), 1),
         (("score", "joints"), {}),
-        (("score", "joints", 0, "type_true"), "screw"),
+        (("score", "joints", 0, "type_true"), "corkscrew"),
         (("score", "joints", 0, "extra"), 1),
         (("score", "rest"), [0.8, 0.7, 0.01]),
         (("pictures", 0), ["door"]),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Iterable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -10,15 +11,29 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.loading import load_mesh, place_mesh
-from anymesh.types import Asset, Brief, Joint, JointType, KnownJoint, Mesh, Part, Segmentation, Source
+from anymesh.types import MOVING, Asset, Brief, Joint, JointType, KnownJoint, Mesh, Mimic, Part, Segmentation, Source
+from anymesh.types.motion import with_implied_limits
+
+
+@dataclass(frozen=True)
+class Following:
+    """That a part follows another one. leader: that part, "" if it is not told; ratio: of their amounts, None if not told."""
+
+    leader: str
+    ratio: float | None = None
 
 
 @dataclass(frozen=True, eq=False)
 class TrueJoint(KnownJoint):
-    """A true joint in the coordinates of the mesh file. If its range is unknown, neither opening side nor range is scored."""
+    """A true joint in the coordinates of the mesh file. If its range is unknown, neither opening side nor range is scored.
+
+    freedoms: of the part on its parent; where there are two, turning and sliding are both right.
+    """
 
     child: str = field(kw_only=True)
     parent: str = field(kw_only=True)
+    follows: Following | None = field(default=None, kw_only=True)
+    freedoms: int = field(default=1, kw_only=True)
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,7 +74,11 @@ class EvalSample(Brief):
         scale = float(np.linalg.norm(axis))
         factor = scale if true.type is JointType.PRISMATIC else 1.0
         limits = None if true.limits is None else (true.limits[0] * factor, true.limits[1] * factor)
-        return replace(true, axis=axis / scale, origin=self.T[:3, :3] @ true.origin + self.T[:3, 3], limits=limits)
+        origin, follows = self.T[:3, :3] @ true.origin + self.T[:3, 3], true.follows
+        if follows is not None and follows.ratio is not None:
+            lead = next(j for j in self.truth.joints if j.child == follows.leader)
+            follows = replace(follows, ratio=follows.ratio * factor / (scale if lead.type is JointType.PRISMATIC else 1.0))
+        return replace(true, axis=axis / scale, origin=origin, limits=limits, pitch=scale * true.pitch, follows=follows)
 
     def segmentation(self) -> Segmentation:
         """Return the true parts without their labels, for protocols in which parts are given."""
@@ -70,7 +89,8 @@ class EvalSample(Brief):
     def asset(self) -> Asset:
         """Return the sample as an asset with its true parts and joints.
 
-        Unknown ranges are replaced by small ones. Parts without a joint are fixed to the base.
+        Unknown ranges are replaced by small ones, an unknown ratio of a follower by that of the ranges, 1 if one is endless.
+        Parts without a joint are fixed to the base.
         """
         segmentation = self.segmentation()
         names = [part.name for part in segmentation.parts]
@@ -79,7 +99,7 @@ class EvalSample(Brief):
         for name in sorted(set(names[1:]) - {j.child for j in joints}):
             joints.append(Joint(f"{name}_joint", JointType.FIXED, names[0], name, 0 * up, up, None, 1.0, "known"))
         source = Source("", "0" * 64, np.eye(4), "z")
-        return Asset(self.truth.name, source, self.mesh, segmentation, tuple(joints), "oracle")
+        return Asset(self.truth.name, source, self.mesh, segmentation, with_implied_limits(joints), "oracle")
 
     def _known(self, true: TrueJoint) -> Joint:
         j = self.joint(true)
@@ -87,7 +107,29 @@ class EvalSample(Brief):
         if j.type in (JointType.REVOLUTE, JointType.PRISMATIC):
             lower, upper = j.limits or (0.0, 0.5 if j.type is JointType.REVOLUTE else 0.05 * self.mesh.diagonal)
             limits = (min(float(lower), 0.0), max(float(upper), 0.0))
-        return Joint(f"{j.child}_joint", j.type, j.parent, j.child, j.origin, j.axis, limits, 1.0, "known")
+        return Joint(
+            f"{j.child}_joint",
+            j.type,
+            j.parent,
+            j.child,
+            j.origin,
+            j.axis,
+            limits,
+            1.0,
+            "known",
+            mimic=self._mimic(j),
+            pitch=j.pitch,
+        )
+
+    def _mimic(self, joint: TrueJoint) -> Mimic | None:
+        if joint.follows is None or not joint.follows.leader:
+            return None
+        lead = self.joint(next(j for j in self.truth.joints if j.child == joint.follows.leader))
+        ratio = joint.follows.ratio
+        if ratio is None:
+            spans = [0.0 if j.limits is None else j.limits[1] - j.limits[0] for j in (joint, lead)]
+            ratio = spans[0] / spans[1] if all(spans) else 1.0
+        return Mimic(f"{lead.child}_joint", ratio)
 
 
 def read_ground_truth(path: Path, mesh: Path) -> GroundTruth:
@@ -142,4 +184,21 @@ def of_parts(truth: GroundTruth, kept: Int[np.ndarray, " k"]) -> tuple[GroundTru
         return at if at in names else parts[0].name
 
     joints = tuple(replace(j, parent=parent(j)) for j in truth.joints if j.child in names)
-    return replace(truth, parts=parts, labels=number[truth.labels], joints=joints), number
+    return replace(truth, parts=parts, labels=number[truth.labels], joints=with_leaders(joints)), number
+
+
+def with_leaders(joints: Iterable[TrueJoint]) -> tuple[TrueJoint, ...]:
+    """Return the joints, without the leader those that follow what is not among them, cannot lead, or follows them."""
+    known = tuple(joints)
+    by_child = {j.child: j for j in known}
+
+    def is_led(joint: TrueJoint) -> bool:
+        seen, at = {joint.child}, joint
+        while at.follows is not None:
+            if at.follows.leader in seen or at.follows.leader not in by_child:
+                return False
+            at = by_child[at.follows.leader]
+            seen.add(at.child)
+        return at.type in MOVING
+
+    return tuple(j if j.follows is None or is_led(j) else replace(j, follows=Following("")) for j in known)

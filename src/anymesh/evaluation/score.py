@@ -20,7 +20,8 @@ from anymesh.evaluation.ground_truth import EvalSample, GroundTruth, TrueJoint
 from anymesh.evaluation.particulate_metrics import ParticulateMetrics, particulate_metrics
 from anymesh.geometry.kinematics import joint_transform
 from anymesh.geometry.triangle_set import sample_surface
-from anymesh.types import Joint, JointType, Mesh, Segmentation
+from anymesh.types import MOVING, Joint, JointType, Mesh, Mimic, Segmentation
+from anymesh.types.motion import leaders
 
 TURNED = np.pi / 6  # [rad] by which rotating joints are opened
 TRAVEL = 0.5  # share of the travel by which slides are opened
@@ -30,6 +31,7 @@ Vector = Float[np.ndarray, " 3"]
 Limits = tuple[float, float] | None
 MIN_MATCH_IOU = 0.5  # IoU from which a part counts as found
 RIGHT_ANGLE, RIGHT_PLACE = 10.0, 0.1  # [deg], half the object's diagonal
+RIGHT_RATIO = 0.05  # relative error of a follower's ratio
 POINTS = 1000  # points per part for the mean displacement
 
 
@@ -124,7 +126,7 @@ def range_iou(a: Limits, b: Limits) -> float:
 
 def same_motion(a: JointType, b: JointType) -> bool:
     """Return whether two types have the same kind of motion: continuous joints rotate as revolute ones do."""
-    turning = (JointType.REVOLUTE, JointType.CONTINUOUS)
+    turning = (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.SCREW)
     return a is b or (a in turning and b in turning)
 
 
@@ -194,6 +196,18 @@ class FoundJoint:
 
 
 @dataclass(frozen=True)
+class FollowerScore:
+    """Counts of followers: the true ones, those that are coupled with their true leader, those of them with the right ratio
+    (or one that is not known), and those of the result that are coupled with nothing in the truth.
+    """
+
+    true: int = 0
+    found: int = 0
+    right: int = 0
+    invented: int = 0
+
+
+@dataclass(frozen=True)
 class ObjectScore:
     """Score of one object: its joints, and the counts of predicted, true and matched parts (IoU of at least 0.5)."""
 
@@ -210,6 +224,7 @@ class ObjectScore:
     faults: tuple[str, ...] = ()  # of joints that were driven
     opened: ParticulateMetrics | None = None  # at the upper ends of all ranges
     found: tuple[FoundJoint, ...] = ()  # all joints of the result that move
+    followers: FollowerScore = field(default_factory=FollowerScore)
 
     @property
     def f1(self) -> float:
@@ -244,7 +259,37 @@ def score(sample: EvalSample, segmentation: Segmentation, joints: tuple[Joint, .
         posed=alike.posed,
         opened=alike.opened,
         found=tuple(_found(sample, segmentation, joint, counterparts) for joint in joints if joint.type is not JointType.FIXED),
+        followers=_followers(sample, joints, counterparts),
     )
+
+
+def _followers(sample: EvalSample, joints: tuple[Joint, ...], counterparts: Mapping[str, str]) -> FollowerScore:
+    """Score what follows what. counterparts: found part of each true one."""
+    true = {j.child: sample.joint(j) for j in sample.truth.joints}
+    ours, led = {j.child: j for j in joints}, leaders(joints)
+    ways = {j.child: led.get(j.name, Mimic(j.name)) for j in joints}
+    coupled = right = 0
+    of_true = {own: name for name, own in counterparts.items()}
+    for name, joint in true.items():
+        if joint.follows is None:
+            continue
+        own, lead = (counterparts.get(n, "") for n in (name, joint.follows.leader))
+        if own not in ours or lead not in ours or own == lead or ways[own].joint != ways[lead].joint:
+            continue
+        sign = np.sign(ours[own].axis @ joint.axis) * np.sign(ours[lead].axis @ true[joint.follows.leader].axis)
+        ratio, coupled = sign * ways[own].ratio / ways[lead].ratio, coupled + 1
+        right += joint.follows.ratio is None or abs(ratio / joint.follows.ratio - 1) < RIGHT_RATIO
+    group = {name: _group(name, true) for name in true}
+    names = {j.name: of_true.get(j.child, "") for j in joints}
+    invented = sum(group.get(names[n], n) != group.get(names[way.joint], way.joint) for n, way in led.items())
+    return FollowerScore(sum(j.follows is not None for j in true.values()), coupled, right, invented)
+
+
+def _group(name: str, joints: Mapping[str, TrueJoint]) -> str:
+    """Return the part that leads a part in the end, itself if none is told."""
+    while (follows := joints[name].follows) is not None and follows.leader:
+        name = follows.leader
+    return name
 
 
 def _found(sample: EvalSample, segmentation: Segmentation, joint: Joint, counterparts: Mapping[str, str]) -> FoundJoint:
@@ -268,6 +313,8 @@ def failed(truth: GroundTruth) -> ObjectScore:
 def _joint(sample: EvalSample, joint: TrueJoint, predicted: Joint | None, iou: float, parent: str | None) -> JointScore:
     """Score one joint. parent: found part that corresponds to the true joint's parent, None if there is none."""
     true, mesh, unit = sample.joint(joint), sample.mesh, sample.unit
+    if joint.freedoms > 1 and predicted is not None and predicted.type in MOVING and not same_motion(true.type, predicted.type):
+        true = replace(true, type=predicted.type, limits=None, range_known=False)
     number = next(k for k, p in enumerate(sample.truth.parts) if p.name == joint.child)
     faces = np.flatnonzero(sample.labels == number)
     size = float(np.linalg.norm(np.ptp(mesh.triangles[faces].reshape(-1, 3), axis=0)))

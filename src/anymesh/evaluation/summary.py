@@ -111,6 +111,8 @@ class Summary:
     rest: ParticulateMetrics | None
     posed: ParticulateMetrics | None
     opened: ParticulateMetrics | None
+    followers: float | None  # share of true followers that are coupled with their leader, at the right ratio
+    invented: float | None  # followers that are coupled with nothing in the truth; None where nothing follows
     executable: float | None  # share of tested objects
     seconds: float | None  # median per object, without errors
 
@@ -121,6 +123,7 @@ def summarize(records: Sequence[Record]) -> Summary:
     turning = [j for j in joints if j.type_true is not JointType.PRISMATIC]
     ranged = [j for j in joints if j.range_known]
     matched, true, predicted = (sum(getattr(r.score, k) for r in records) for k in ("matched", "true", "predicted"))
+    led = [r.score.followers for r in records]
     return Summary(
         objects=len(records),
         joints=len(joints),
@@ -143,6 +146,8 @@ def summarize(records: Sequence[Record]) -> Summary:
         rest=_particulate(records, lambda s: s.rest),
         posed=_particulate(records, lambda s: s.posed),
         opened=_particulate(records, lambda s: s.opened),
+        followers=sum(f.right for f in led) / true_led if (true_led := sum(f.true for f in led)) else None,
+        invented=float(sum(f.invented for f in led)) if any(f.true or f.invented for f in led) else None,
         executable=_executable(records),
         seconds=median(r.seconds for r in records if not r.error) if any(not r.error for r in records) else None,
     )
@@ -268,6 +273,8 @@ COLUMNS = (
     *_alike("rest", lambda s: s.rest, "at rest", short=False),
     *_alike("posed", lambda s: s.posed, "mean over five states of the ranges", short=False),
     *_alike("open", lambda s: s.opened, "at the upper ends of the ranges", short=True),
+    Column("follows", lambda s: s.followers, "followers coupled with their leader, at the right ratio if told", whole=True),
+    Column("invented", lambda s: s.invented, "followers that are none", ".0f", None, whole=True),
     Column("runs", lambda s: s.executable, "objects whose joints all went through their range in a simulator", whole=True),
     Column("seconds", lambda s: s.seconds, "an object, median", ".1f", None, whole=True),
 )  # fmt: skip

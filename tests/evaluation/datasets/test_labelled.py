@@ -82,7 +82,7 @@ JOINT = {"part": 1, "parent_part": 0, "type": "revolute", "axis": [0, 0, 1], "or
         ({"parent_part": 1}, "part_1 > part_1; valid is a tree"),
         ({"part": float("inf")}, "OverflowError"),
         ({"part": 2}, "at most one of each"),
-        ({"type": "ball"}, "ball"),
+        ({"type": "wobbly"}, "wobbly"),
     ],
 )
 def test_a_truth_that_makes_no_sense_is_told(tmp_path: Path, change: dict, words: str) -> None:

@@ -2,12 +2,16 @@
 
 FOLDER/NAME/ holds `rigid.ply` (with the up axis `up`), `labels.npy` (a part index per face, 0 for the base) and `gt.json`:
 category, up, and for each joint part, parent_part, type, axis, origin and limits in the mesh's coordinates (null: endless).
+Further, if it is known: `pitch` of a screw [length per turn]; `dof_of_link`, the freedoms that the part has; and `mimic`, the
+joint that it follows, with a `ratio` or just its name. Where no joint has that `name`, it is PARENT_to_ a joint's name, or the
+only one that follows none, or the one whose name has most words in common with it.
 """
 
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+import re
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -17,7 +21,7 @@ from anymesh.errors import InputError
 from anymesh.evaluation.datasets.dataset import FolderDataset
 from anymesh.evaluation.datasets.links import Y_UP, DatasetLink, assemble, moved
 from anymesh.evaluation.datasets.meshes_ import read_visual
-from anymesh.evaluation.ground_truth import GroundTruth, read_ground_truth
+from anymesh.evaluation.ground_truth import Following, GroundTruth, read_ground_truth
 from anymesh.types import JointType, KnownJoint, Mesh
 
 RECORD, MESH, LABELS = "gt.json", "rigid.ply", "labels.npy"
@@ -66,8 +70,33 @@ def _bodies(record: dict[str, Any], mesh: Mesh, labels: np.ndarray) -> list[Data
     for part in parts:
         motion = None if part not in joints else _motion(joints[part])
         over = None if part == 0 else f"part_{parent[part]}"
-        links.append(moved(DatasetLink(f"part_{part}", over, motion, (mesh.subset(labels == part),)), T))
+        link = DatasetLink(f"part_{part}", over, motion, (mesh.subset(labels == part),))
+        if part in joints:
+            freedoms = int(joints[part].get("dof_of_link") or 1)
+            link = replace(link, follows=_follows(joints[part], joints), freedoms=freedoms)
+        links.append(moved(link, T))
     return links
+
+
+def _follows(joint: dict[str, Any], joints: dict[int, dict[str, Any]]) -> Following | None:
+    """Return what a joint follows; the leader is not told if its name does not tell it."""
+    told = joint.get("mimic")
+    if not told:
+        return None
+    name, ratio = (told, None) if isinstance(told, str) else (str(told["joint"]), float(told["ratio"]))
+    if ratio is not None and not (np.isfinite(ratio) and ratio):
+        raise ValueError(f"found the ratio {ratio:g}; valid are finite numbers but 0")
+    leading = {part: str(j.get("name", "")) for part, j in joints.items() if not j.get("mimic")}
+    named = [part for part, j in joints.items() if j.get("name") == name]
+    ends = [part for part, own in leading.items() if own and name.endswith(f"_to_{own}")]
+    common = {part: len(_words(own) & _words(name)) / max(len(_words(own)), 1) for part, own in leading.items()}
+    best = [part for part, share in common.items() if share == max(common.values()) > 0]
+    leaders = named or ends or (list(leading) if len(leading) == 1 else best)
+    return Following(f"part_{leaders[0]}" if len(leaders) == 1 else "", ratio)
+
+
+def _words(name: str) -> set[str]:
+    return set(re.findall(r"[a-z]+|\d+", name.lower()))
 
 
 def _motion(joint: dict[str, Any]) -> KnownJoint:
@@ -76,12 +105,15 @@ def _motion(joint: dict[str, Any]) -> KnownJoint:
     origin, axis = np.array(joint["origin"], float), np.array(joint["axis"], float)
     if not (np.isfinite([origin, axis]).all() and np.linalg.norm(axis) > 0):
         raise ValueError(f"found the axis {axis.tolist()} through {origin.tolist()}; valid are finite numbers, not all 0")
+    pitch = float(joint.get("pitch") or 0)
+    if not np.isfinite(pitch) or (pitch != 0) != (kind is JointType.SCREW):
+        raise ValueError(f"found the pitch {pitch:g} of a joint of type {kind}; valid is one of a screw, and of no other")
     if limits is None:
-        return KnownJoint(kind, origin, axis, None)
+        return KnownJoint(kind, origin, axis, None, pitch=pitch)
     lower, upper = (float(v) for v in limits)
     if not (np.isfinite([lower, upper]).all() and lower <= upper):
         raise ValueError(f"found the limits {lower:g} to {upper:g}; valid are two finite numbers in order")
-    return KnownJoint(kind, origin, axis, (lower, upper))
+    return KnownJoint(kind, origin, axis, (lower, upper), pitch=pitch)
 
 
 @dataclass(frozen=True)

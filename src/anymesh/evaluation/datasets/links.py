@@ -10,7 +10,7 @@ import numpy as np
 from jaxtyping import Float, Int
 
 from anymesh.errors import InputError
-from anymesh.evaluation.ground_truth import GroundTruth, TrueJoint
+from anymesh.evaluation.ground_truth import Following, GroundTruth, TrueJoint, with_leaders
 from anymesh.export.glb import glb_bytes
 from anymesh.export.links import Link, Primitive, split_links
 from anymesh.export.model import ExportConfig
@@ -83,7 +83,7 @@ class DatasetLink:
     """A link of an object.
 
     meshes: at rest, in the coordinates of the file to be written (Y up); empty for an invisible link.
-    motion: None if the link is fixed to its parent; parent: None for the root, of which there is one.
+    motion: None if the link is fixed to its parent; parent: None for the root, of which there is one; follows: by link names.
     """
 
     name: str
@@ -91,6 +91,8 @@ class DatasetLink:
     motion: KnownJoint | None = None
     meshes: tuple[Mesh, ...] = ()
     label: str = "part"
+    follows: Following | None = None
+    freedoms: int = 1
 
 
 def assemble(name: str, links: Sequence[DatasetLink], path: Path, category: str = "object") -> GroundTruth:
@@ -129,7 +131,7 @@ def assemble(name: str, links: Sequence[DatasetLink], path: Path, category: str 
     legal = dict(zip(order, legal_names(order), strict=True))
     pieces = [(number, mesh) for number, key in enumerate(order) for mesh in seen[key]]
     piece = write_nameless([mesh for _, mesh in pieces], path)
-    joints = tuple(_joint(legal[k], legal[below(k) or base], known[k].motion) for k in order[1:])
+    joints = with_leaders(_joint(known[k], legal, legal[below(k) or base], known) for k in order[1:])
     parts = tuple(Part(legal[k], known[k].label) for k in order)
     return GroundTruth(name, path, parts, np.array([n for n, _ in pieces], np.int64)[piece], joints, category)
 
@@ -151,14 +153,26 @@ def _area(meshes: list[Mesh]) -> float:
     return sum(float(m.face_areas.sum()) for m in meshes)
 
 
-def _joint(child: str, parent: str, motion: KnownJoint | None) -> TrueJoint:
+def _joint(link: DatasetLink, legal: Mapping[str, str], parent: str, known: Mapping[str, DatasetLink]) -> TrueJoint:
+    motion, child, follows = link.motion, legal[link.name], link.follows
     if motion is None:
         raise InputError(f"found the root link {child} beside the base; valid is a tree with one")
     axis, limits = motion.axis / np.linalg.norm(motion.axis), motion.limits
-    if limits is not None and -limits[0] > limits[1]:
+    if limits is not None and _turned(motion):
         axis, limits = -axis, (-limits[1], -limits[0])
     limits = None if limits is None else (limits[0] + 0.0, limits[1] + 0.0)  # no -0.0
-    return TrueJoint(motion.type, motion.origin, axis + 0.0, limits, motion.range_known, child=child, parent=parent)
+    if follows is not None:
+        lead = known[follows.leader].motion if follows.leader in known else None
+        other_way = lead is not None and _turned(lead) != _turned(motion)
+        ratio = follows.ratio if follows.ratio is None or not other_way else -follows.ratio
+        follows = Following(legal.get(follows.leader, ""), ratio)
+    told = {"child": child, "parent": parent, "follows": follows, "freedoms": link.freedoms}
+    return TrueJoint(motion.type, motion.origin, axis + 0.0, limits, motion.range_known, motion.pitch, **told)
+
+
+def _turned(motion: KnownJoint) -> bool:
+    """Return whether the axis is flipped, so that positive is towards the larger limit."""
+    return motion.limits is not None and -motion.limits[0] > motion.limits[1]
 
 
 def moved(body: DatasetLink, T: Float[np.ndarray, "4 4"]) -> DatasetLink:

@@ -22,7 +22,7 @@ from anymesh.errors import InputError
 from anymesh.evaluation.datasets.dataset import Dataset, FolderDataset
 from anymesh.evaluation.datasets.links import Y_UP, DatasetLink, assemble, moved
 from anymesh.evaluation.datasets.meshes_ import box, cylinder, ellipsoid, find_mesh, read_visual
-from anymesh.evaluation.ground_truth import GroundTruth
+from anymesh.evaluation.ground_truth import Following, GroundTruth
 from anymesh.types import JointType, KnownJoint, Material, Mesh
 from anymesh.types.mesh import to_linear
 
@@ -97,9 +97,15 @@ def read_bodies(urdf: Path, root: Path, labels: Mapping[str, str]) -> list[Datas
         meshes = tuple(m.transformed(T) for m in visuals)
         joint = carrier.get(name)
         motion = _motion(joint, T) if joint is not None and joint.type in MOVING else None
-        body = DatasetLink(name, None if joint is None else joint.parent, motion, meshes, labels.get(name, "part"))
+        follows = None if joint is None or joint.mimic is None else _follows(joint.mimic, robot.joint_map)
+        body = DatasetLink(name, None if joint is None else joint.parent, motion, meshes, labels.get(name, "part"), follows)
         bodies.append(moved(body, Y_UP))
     return bodies
+
+
+def _follows(mimic: parsed.Mimic, joints: Mapping[str, parsed.Joint]) -> Following:
+    ratio = 1.0 if mimic.multiplier is None else float(mimic.multiplier)
+    return Following(joints[mimic.joint].child if mimic.joint in joints else "", ratio)
 
 
 def _rest(link: str, carrier: Mapping[str, parsed.Joint], links: Mapping[str, parsed.Link]) -> np.ndarray:
