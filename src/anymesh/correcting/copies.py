@@ -16,7 +16,8 @@ from jaxtyping import Float, Int
 from scipy.spatial import KDTree
 
 from anymesh.correcting.corrections import ChooseMotion, Correction, CorrectionError, FaceSet, Relabel, SplitPart, vector
-from anymesh.correcting.edits import apply, components_of, joint_of_part, part_number
+from anymesh.correcting.edits import apply, components_of
+from anymesh.correcting.tree import joint_of_part, part_number
 from anymesh.geometry.boxes import OrientedBox
 from anymesh.geometry.copies import beside, same_box, same_spread
 from anymesh.geometry.distance_ import TriangleTree
@@ -299,5 +300,12 @@ def mapped_motion(joint: Joint, part: str, pose: Float[np.ndarray, "4 4"]) -> Ch
     axis = -axis if back and joint.type is not JointType.PRISMATIC else axis
     reason = f"as its copy {joint.child}"
     return ChooseMotion(
-        part, joint.type, vector(axis + 0.0), vector(_moved(pose, joint.origin[None])[0]), joint.limits, 1.0, reason
+        part,
+        joint.type,
+        vector(axis + 0.0),
+        vector(_moved(pose, joint.origin[None])[0]),
+        joint.limits,
+        1.0,
+        reason,
+        joint.pitch,
     )

@@ -68,6 +68,7 @@ class ChooseMotion:
     limits: tuple[float, float] | None
     confidence: float  # as computed for this motion
     reason: str
+    pitch: float = 0.0  # of a screw [m per turn]
 
 
 @dataclass(frozen=True)
@@ -94,6 +95,36 @@ class SetLimits:
     part: str
     lower: float
     upper: float
+
+
+@dataclass(frozen=True)
+class SetScrew:
+    """Make the joint a screw about its axis. pitch: [m per turn]."""
+
+    part: str
+    pitch: float
+
+
+@dataclass(frozen=True)
+class SetMimic:
+    """Let `part` follow the part `leader`: its amount is `ratio` times that of the leader. leader None: it follows none."""
+
+    part: str
+    leader: str | None
+    ratio: float = 1.0
+
+
+@dataclass(frozen=True)
+class SetLoop:
+    """Let `part` stay joined to the part `other` at a point [m, asset frame at rest]; other None: remove its loops.
+
+    type: of `LOOP_KINDS`, along the axis of the part's joint.
+    """
+
+    part: str
+    other: str | None
+    origin: Vector = (0.0, 0.0, 0.0)
+    type: JointType = JointType.REVOLUTE
 
 
 @dataclass(frozen=True)
@@ -173,6 +204,9 @@ Correction = (
     | SetAxis
     | FlipSign
     | SetLimits
+    | SetScrew
+    | SetMimic
+    | SetLoop
     | ChangeParent
     | MergeParts
     | SplitPart

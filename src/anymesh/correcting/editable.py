@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 from jaxtyping import Float
 
-from anymesh.correcting.edits import joint_of_part, part_number
 from anymesh.correcting.history import History, Opened, open_asset, save_asset
 from anymesh.correcting.listing import changed_rows, motion_rows, named_part, part_rows, region_rows
 from anymesh.correcting.parsing import corrections_of
 from anymesh.correcting.proposals import unsure
+from anymesh.correcting.tree import joint_of_part, part_number
 from anymesh.pipeline.results import verdict
 from anymesh.types import Asset, Joint, JointType
 

@@ -25,69 +25,41 @@ from anymesh.correcting.corrections import (
     Rename,
     SetAxis,
     SetLimits,
+    SetLoop,
+    SetMimic,
+    SetScrew,
     SplitComponents,
     SplitPart,
     Vector,
 )
+from anymesh.correcting.tree import (
+    UNSURE,
+    box_middle,
+    coupled,
+    hanging_on,
+    joint_of_part,
+    loops_of,
+    part_number,
+    renamed_joint,
+    with_joint,
+    without_doubts,
+)
 from anymesh.geometry.topology import components
 from anymesh.names import legal_name
-from anymesh.types import Asset, Joint, JointType, Part, Segmentation
+from anymesh.types import MOVING, Asset, Joint, JointType, Loop, Mimic, Part, Segmentation
+from anymesh.types.motion import leaders
 
-UNSURE = "joint {}:"  # prefix of warnings about one joint
 UNSURE_PART = "part {}: low confidence"  # begin of a warning about one part
 BY_HAND = "corrected by hand"  # prefix of the reason of a corrected joint
 CONFIRMED = "confirmed by hand"  # prefix of the reason of a joint that a person calls right
 CERTAIN = 1.0  # confidence of manual corrections
 USUAL_TURN = (0.0, float(np.pi / 2))  # [rad] default limits of a hinge
+USUAL_CONE = (0.0, float(np.pi / 6))  # [rad] default limits of a ball; an estimate
+UNCOUPLED = {"mimic": None, "pitch": 0.0}  # of a joint of another type
 USUAL_SLIDE = 0.5  # default travel of a slide, as a share of the part's extent along the axis
 MAX_LIMIT, MIN_RANGE = 1e6, 1e-6  # [rad or m] of a joint that engines accept
 JOINT = "_joint"  # suffix of a joint's name after that of its part
 MAX_COMPONENTS = 40  # a part with more components is a triangle soup, not parts that were joined by mistake
-
-
-def part_number(asset: Asset, name: str) -> int:
-    """Return the index of a part. Raise CorrectionError if there is none with that name."""
-    names = [p.name for p in asset.segmentation.parts]
-    if name not in names:
-        raise CorrectionError(f"there is no part {name!r}; the parts are {', '.join(names)}")
-    return names.index(name)
-
-
-def joint_of_part(asset: Asset, name: str) -> Joint:
-    """Return the joint that carries a part. Raise CorrectionError for the root."""
-    if part_number(asset, name) == 0:
-        raise CorrectionError(f"{name!r} is the root, which has no joint; choose one of its child parts")
-    return next(j for j in asset.joints if j.child == name)
-
-
-def hanging_on(asset: Asset, name: str) -> set[str]:
-    """Return all descendants of a part."""
-    descendants: set[str] = set()
-    waiting = [name]
-    while waiting:
-        at = waiting.pop()
-        below = [j.child for j in asset.joints if j.parent == at]
-        descendants.update(below)
-        waiting.extend(below)
-    return descendants
-
-
-def with_joint(asset: Asset, joint: Joint) -> Asset:
-    """Replace the joint with the same child; warnings about its uncertainty are removed."""
-    joints = tuple(joint if j.child == joint.child else j for j in asset.joints)
-    return replace(asset, joints=joints, warnings=without_doubts(asset.warnings, {joint.name}))
-
-
-def without_doubts(warnings: tuple[str, ...], joints: set[str]) -> tuple[str, ...]:
-    """Return the warnings that are not about these joints."""
-    begin = tuple(UNSURE.format(name) for name in joints)
-    return tuple(w for w in warnings if not w.startswith(begin))
-
-
-def box_middle(asset: Asset, name: str) -> Float[np.ndarray, " 3"]:
-    """Return the centre of a part's axis-aligned box [m, asset frame]."""
-    corners = asset.mesh.triangles[asset.segmentation.faces(part_number(asset, name))].reshape(-1, 3)
-    return (corners.min(0) + corners.max(0)) / 2
 
 
 def change_type(asset: Asset, c: ChangeType) -> Asset:
@@ -99,6 +71,7 @@ def change_type(asset: Asset, c: ChangeType) -> Asset:
         type=c.type,
         limits=_limits_for(asset, joint, c.type),
         origin=_origin_on_part(asset, c.part, joint.axis, joint.origin, c.type),
+        **UNCOUPLED,
         **_reason(f"type {c.type}"),
     )
     return with_joint(asset, changed)
@@ -111,7 +84,9 @@ def _limits_for(asset: Asset, joint: Joint, type_: JointType) -> tuple[float, fl
         case JointType.PRISMATIC:
             corners = asset.mesh.triangles[asset.segmentation.faces(part_number(asset, joint.child))].reshape(-1, 3)
             return (0.0, max(USUAL_SLIDE * float(np.ptp(corners @ joint.axis)), 1e-3 * asset.mesh.diagonal))
-        case JointType.CONTINUOUS | JointType.FIXED:
+        case JointType.BALL:
+            return USUAL_CONE
+        case _:
             return None
 
 
@@ -123,6 +98,7 @@ def choose_motion(asset: Asset, c: ChooseMotion) -> Asset:
         axis=axis,
         origin=_origin_on_part(asset, c.part, axis, np.array(c.origin, float), c.type),
         limits=c.limits,
+        **{**UNCOUPLED, "pitch": c.pitch},
         **_reason(c.reason),
     )
     return with_joint(asset, changed)
@@ -141,8 +117,10 @@ def flip_sign(asset: Asset, c: FlipSign) -> Asset:
 
 def set_limits(asset: Asset, c: SetLimits) -> Asset:
     joint = joint_of_part(asset, c.part)
-    if joint.type is JointType.FIXED:
-        raise CorrectionError(f"the joint of {c.part!r} is fixed and has no limits; change its type first")
+    if joint.type in (JointType.FIXED, JointType.FREE):
+        raise CorrectionError(f"the joint of {c.part!r} is {joint.type} and has no limits; change its type first")
+    if joint.mimic is not None:
+        raise CorrectionError(f"{c.part!r} follows {joint.mimic.joint!r}, whose limits give its own; set those, or mimic none")
     if not -MAX_LIMIT <= c.lower <= 0 <= c.upper <= MAX_LIMIT:
         raise CorrectionError(
             f"limits must include the rest pose 0 and lie within {MAX_LIMIT:g}, found {c.lower:g}..{c.upper:g}"
@@ -151,6 +129,37 @@ def set_limits(asset: Asset, c: SetLimits) -> Asset:
         raise CorrectionError(f"limits must contain a range of {MIN_RANGE:g} or more, found {c.lower:g}..{c.upper:g}")
     type_ = JointType.REVOLUTE if joint.type is JointType.CONTINUOUS else joint.type
     return with_joint(asset, replace(joint, type=type_, limits=(float(c.lower), float(c.upper)), **_reason("limits")))
+
+
+def set_screw(asset: Asset, c: SetScrew) -> Asset:
+    joint = joint_of_part(asset, c.part)
+    turning = joint.type in (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.SCREW)
+    values: dict[str, Any] = {"limits": joint.limits if turning else None, "mimic": None, "pitch": float(c.pitch)}
+    return with_joint(asset, replace(joint, type=JointType.SCREW, **values, **_reason(f"screw of {c.pitch:g} m a turn")))
+
+
+def set_mimic(asset: Asset, c: SetMimic) -> Asset:
+    joint = joint_of_part(asset, c.part)
+    if c.leader is None:
+        return with_joint(asset, replace(joint, mimic=None, **_reason("follows none")))
+    lead = joint_of_part(asset, c.leader)
+    if lead.type not in MOVING:
+        raise CorrectionError(f"{c.leader!r} is {lead.type} and cannot lead; valid are {', '.join(MOVING)}")
+    mimic = Mimic(lead.name, float(c.ratio))
+    leaders([replace(joint, mimic=mimic) if j is joint else j for j in asset.joints])  # raises for a circle
+    return with_joint(asset, replace(joint, mimic=mimic, **_reason(f"follows {c.leader}")))
+
+
+def set_loop(asset: Asset, c: SetLoop) -> Asset:
+    joint = joint_of_part(asset, c.part)
+    if c.other is None:
+        return replace(asset, loops=tuple(loop for loop in asset.loops if c.part not in (loop.first, loop.second)))
+    part_number(asset, c.other)
+    taken = {j.name for j in asset.joints} | {loop.name for loop in asset.loops}
+    plain = f"{c.part}_{c.other}_loop"
+    name = next(n for n in (plain, *(f"{plain}_{k}" for k in range(2, len(taken) + 3))) if n not in taken)
+    loop = Loop(name, c.part, c.other, np.array(c.origin, float), joint.axis, c.type)
+    return with_joint(replace(asset, loops=(*asset.loops, loop)), replace(joint, **_reason(f"joined to {c.other}")))
 
 
 def change_parent(asset: Asset, c: ChangeParent) -> Asset:
@@ -195,11 +204,12 @@ def merge_parts(asset: Asset, c: MergeParts) -> Asset:
     face_part = face_part - (face_part > gone)
     parts = tuple(p for p in asset.segmentation.parts if p.name != c.part)
     lost = next(j for j in asset.joints if j.child == c.part)
-    joints = tuple(replace(j, parent=c.into) if j.parent == c.part else j for j in asset.joints if j is not lost)
+    joints = [replace(j, parent=c.into) if j.parent == c.part else j for j in asset.joints if j is not lost]
     return replace(
         asset,
         segmentation=Segmentation(face_part, parts),
-        joints=joints,
+        joints=coupled(joints),
+        loops=loops_of(asset.loops, {c.part: c.into}),
         warnings=without_doubts(asset.warnings, {lost.name}),
     )
 
@@ -283,7 +293,7 @@ def _with_joint_name(asset: Asset, old: str, new: str) -> Asset:
     """Rename a joint that is named after its part, and its warnings, unless another joint has the new name."""
     if new.lower() in {j.name.lower() for j in asset.joints}:
         return asset
-    joints = tuple(replace(j, name=new) if j.name == old else j for j in asset.joints)
+    joints = tuple(renamed_joint(j, old, new) for j in asset.joints)
     begin, now = UNSURE.format(old), UNSURE.format(new)
     warnings = tuple(now + w.removeprefix(begin) if w.startswith(begin) else w for w in asset.warnings)
     return replace(asset, joints=joints, warnings=warnings)
@@ -291,8 +301,8 @@ def _with_joint_name(asset: Asset, old: str, new: str) -> Asset:
 
 def _with_part(asset: Asset, name: str, part: Part) -> Asset:
     parts = tuple(part if p.name == name else p for p in asset.segmentation.parts)
-    joints = _renamed(asset.joints, {name: part.name})
-    return replace(asset, segmentation=Segmentation(asset.segmentation.face_part, parts), joints=joints)
+    joints, loops = _renamed(asset.joints, {name: part.name}), loops_of(asset.loops, {name: part.name})
+    return replace(asset, segmentation=Segmentation(asset.segmentation.face_part, parts), joints=joints, loops=loops)
 
 
 def _renamed(joints: tuple[Joint, ...], new: Mapping[str, str]) -> tuple[Joint, ...]:
@@ -339,6 +349,9 @@ EDITS: dict[type, Callable[[Asset, Any], Asset]] = {
     SetAxis: set_axis,
     FlipSign: flip_sign,
     SetLimits: set_limits,
+    SetScrew: set_screw,
+    SetMimic: set_mimic,
+    SetLoop: set_loop,
     ChangeParent: change_parent,
     MergeParts: merge_parts,
     SplitPart: split_part,

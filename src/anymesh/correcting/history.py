@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, fields, replace
+from dataclasses import MISSING, dataclass, fields, replace
 from pathlib import Path
 from typing import Any, get_args
 
@@ -131,7 +131,7 @@ def _entry(record: Mapping[str, Any]) -> HistoryEntry:
     if kind is None:
         raise CorrectionError(f"unknown correction {record.get('correction')!r}; valid are {', '.join(KINDS)}")
     try:
-        values = {f.name: _typed(f.name, record[f.name]) for f in fields(kind)}
+        values = {f.name: _typed(f.name, record[f.name]) for f in fields(kind) if f.name in record or f.default is MISSING}
         return HistoryEntry(kind(**values), record["time"], record["author"], bool(record.get("joined", False)))
     except (KeyError, TypeError, ValueError) as error:
         names = ", ".join(f.name for f in fields(kind))

@@ -9,10 +9,11 @@ import numpy as np
 from jaxtyping import Int
 
 from anymesh.correcting.corrections import ChooseMotion, CorrectionError
-from anymesh.correcting.edits import apply, components_of, joint_of_part, part_number
+from anymesh.correcting.edits import apply, components_of
 from anymesh.correcting.motions import motion_words, ranked_motions, told_apart
 from anymesh.correcting.picking import PickedPart
 from anymesh.correcting.proposals import unsure
+from anymesh.correcting.tree import joint_of_part, part_number
 from anymesh.names import listed
 from anymesh.pipeline.results import JointVerdict, verdict
 from anymesh.types import Asset, Joint
@@ -88,9 +89,20 @@ def part_rows(asset: Asset, precision: float = 0.0) -> list[dict[str, Any]]:
         sure = verdict(asset.segmentation, j, asset.warnings)
         if j.child in left:
             sure = JointVerdict("proposed", f"not written: right with probability {left[j.child]:.2f}; {sure.why}".rstrip("; "))
-        row = {"part": j.child, "joint": j.name, "motion": motion_words(asset, j), "range": extent(j), "parent": j.parent}
+        motion = motion_words(asset, j) + coupling_words(asset, j)
+        row = {"part": j.child, "joint": j.name, "motion": motion, "range": extent(j), "parent": j.parent}
         rows.append(row | {"confidence": j.confidence, "verdict": sure.word, "why": sure.why})
     return rows
+
+
+def coupling_words(asset: Asset, joint: Joint) -> str:
+    """Describe what a part follows and what loops join it to, "" for nothing."""
+    words, mimic = "", joint.mimic
+    if mimic is not None:
+        words = f", follows {next(j.child for j in asset.joints if j.name == mimic.joint)} by {mimic.ratio:.4g}"
+    ends = [(loop.first, loop.second) for loop in asset.loops if joint.child in (loop.first, loop.second)]
+    joined = [second if first == joint.child else first for first, second in ends]
+    return words + (f", joined to {', '.join(joined)}" if joined else "")
 
 
 def changed_rows(before: Asset, after: Asset) -> list[dict[str, Any]]:
@@ -120,7 +132,8 @@ def _facts(asset: Asset, part: str) -> tuple[Any, ...]:
         joint.type,
         joint.parent,
     )
-    return (*facts, *joint.axis, *joint.origin, joint.limits, joint.confidence, joint.reason)
+    joined = tuple(loop.name for loop in asset.loops if part in (loop.first, loop.second))
+    return (*facts, *joint.axis, *joint.origin, joint.limits, joint.confidence, joint.reason, joint.mimic, joint.pitch, *joined)
 
 
 def _mostly(asset: Asset, other: Asset, part: str) -> str:

@@ -12,7 +12,8 @@ from anymesh.articulation.estimate import all_motions, joint_of
 from anymesh.articulation.part_contexts import part_context
 from anymesh.articulation.rank_motions import joint_type, motion_scores, reason
 from anymesh.correcting.corrections import ChooseMotion, vector
-from anymesh.correcting.edits import choose_motion, joint_of_part, part_number
+from anymesh.correcting.edits import choose_motion
+from anymesh.correcting.tree import joint_of_part, part_number
 from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.surface import ObjectShape
@@ -33,6 +34,7 @@ STRAIGHT = 0.94  # cosine (20 degrees) from which a line is called by one name
 BOTH_RATIO = 0.5  # range to the shorter side, relative to that to the other, from which a motion goes both ways
 MIDDLE = 0.3  # offset of an axis from the part's middle, as a share of its reach, up to which it is in the middle
 FLAT = 0.5  # height of a lid, relative to its shorter side
+STILL = {JointType.FIXED: "does not move", JointType.FREE: "lifts off", JointType.BALL: "turns about a point"}
 AT_EDGE = 0.05  # share of the object's diagonal: distance from its outside within which a part is at the outside
 
 
@@ -141,8 +143,8 @@ def _facets(asset: Asset, joint: Joint) -> tuple[str, str, str]:
     opening = (1.0 if upper >= -lower else -1.0) * joint.axis
     both = min(upper, -lower) > BOTH_RATIO * max(upper, -lower)
     sides = _sides(asset)
-    if joint.type is JointType.FIXED:
-        return "does not move", "", ""
+    if joint.type in STILL:
+        return STILL[joint.type], "", ""
     shares = {name: abs(float(joint.axis @ way)) for way, name, _ in sides.axes}
     if joint.type is JointType.PRISMATIC:
         slides = _slides(asset, corners, opening, max(upper, -lower))
@@ -156,7 +158,7 @@ def _facets(asset: Asset, joint: Joint) -> tuple[str, str, str]:
     off = corners - joint.origin
     reach = np.linalg.norm(off - (off @ joint.axis)[:, None] * joint.axis, axis=1).max()
     central = np.linalg.norm(arm) < MIDDLE * reach
-    endless = " endlessly" if joint.type is JointType.CONTINUOUS else ""
+    endless = " endlessly" if joint.type is JointType.CONTINUOUS else " as a screw" if joint.type is JointType.SCREW else ""
     if endless or central:
         return f"turns{endless}{'' if central else f' about its {sides.side(-arm)}'}, axis {along}", "", range_
     swing = "" if both else f"opens {sides.direction(np.cross(opening, arm))}"

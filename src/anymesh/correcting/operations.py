@@ -34,12 +34,21 @@ OPERATIONS = (
     Operation("faces", "A-B,C..", "For the new part: numbers of faces, instead of regions."),
     Operation("parent", "PART", "Attach the part to another one; its motion is unchanged."),
     Operation("motion", "N", "Choose a free motion, by its number as they are listed."),
-    Operation("type", "TYPE", "revolute (hinge), prismatic (slide), continuous (endless) or fixed, with the usual limits."),
+    Operation(
+        "type", "TYPE", "revolute (hinge), prismatic (slide), continuous (endless), ball, free or fixed, with the usual limits."
+    ),
     Operation("axis", "AXIS", "x, y or z with or without a sign, or three numbers such as 0,0.6,0.8; Z is up."),
     Operation("through", "X,Y,Z", "Point that the axis of a hinge passes through, in metres or with units."),
     Operation("flip", "", "Reverse the direction in which the part opens; the limits keep their numbers."),
     Operation(
         "limits", "A,B", f"Lower and upper limit, which include 0, the pose as modelled: {UNITS_TEXT}. One number: from 0."
+    ),
+    Operation("screw", "PITCH", "The part turns about its axis and moves along it, by this length a turn, such as 3mm."),
+    Operation("mimic", "PART,RATIO", "The part follows another one: it moves by RATIO (1) times as much; none: it does not."),
+    Operation(
+        "loop",
+        "PART,X,Y,Z,KIND",
+        "The part stays joined to another one at a point, revolute (the usual), ball, prismatic or fixed; none: it does not.",
     ),
     Operation("press", "TRAVEL", "The part is pushed in, as a button or trigger, by this travel: metres or with a unit."),
     Operation("label", "TEXT", "Say what the part is, such as drawer."),

@@ -25,18 +25,23 @@ from anymesh.correcting.corrections import (
     Rename,
     SetAxis,
     SetLimits,
+    SetLoop,
+    SetMimic,
+    SetScrew,
     SplitComponents,
     SplitPart,
     vector,
 )
-from anymesh.correcting.edits import MAX_LIMIT, apply, joint_of_part, part_number
+from anymesh.correcting.edits import MAX_LIMIT, apply
 from anymesh.correcting.listing import named_part, regions_of
 from anymesh.correcting.motions import ranked_motions, told_apart
 from anymesh.correcting.operations import OPERATIONS
+from anymesh.correcting.tree import joint_of_part, part_number
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.triangle_set import sample_surface
 from anymesh.names import listed
 from anymesh.types import Asset, Joint, JointType
+from anymesh.types.motion import LOOP_KINDS
 
 ANGLES = {"deg": float(np.pi / 180), "°": float(np.pi / 180), "rad": 1.0}
 LENGTHS = {"m": 1.0, "cm": 0.01, "mm": 0.001}
@@ -45,6 +50,7 @@ BETWEEN = re.compile(r"\s*(?:,|\.\.)\s*")
 AXIS = re.compile(r"([-+]?)([xyz])")
 TYPES = {"hinge": "revolute", "slide": "prismatic", "endless": "continuous", **{str(t): str(t) for t in JointType}}
 MAX_SLIDES = 3.0  # diagonals of the object: a longer slide is a mistake of units, as in checking/joints.py
+NONE = "none"  # instead of a part: what the operation sets is removed
 MAX_TEXT = 10_000  # characters of a value
 
 
@@ -215,6 +221,8 @@ def _type(plan: CorrectionPlan, value: Any, _: Mapping[str, Any]) -> None:
     type_ = TYPES.get(_text(value).strip().lower())
     if type_ is None:
         raise CorrectionError(f"{_text(value)[:40]!r} is not a type of joint; valid are {', '.join(JointType)}")
+    if type_ == JointType.SCREW and plan.joint.type is not JointType.SCREW:
+        raise CorrectionError("a screw needs the length by which it moves in a turn: give screw instead of type, such as 3mm")
     if plan.joint.type is not JointType(type_):
         plan.add(ChangeType(plan.name, JointType(type_)))
 
@@ -236,6 +244,33 @@ def _point(value: Any) -> Float[np.ndarray, " 3"]:
 
 def _limits(plan: CorrectionPlan, value: Any, _: Mapping[str, Any]) -> None:
     plan.add(SetLimits(plan.name, *limits_of(value, plan.joint.type, plan.asset.mesh.diagonal)))
+
+
+def _screw(plan: CorrectionPlan, value: Any, _: Mapping[str, Any]) -> None:
+    plan.add(SetScrew(plan.name, quantity(_text(value), JointType.PRISMATIC)))
+
+
+def _mimic(plan: CorrectionPlan, value: Any, _: Mapping[str, Any]) -> None:
+    leader, *ratio = BETWEEN.split(_text(value).strip())
+    if leader == NONE:
+        plan.add(SetMimic(plan.name, None))
+        return
+    match = QUANTITY.fullmatch(ratio[0]) if len(ratio) == 1 else None
+    if ratio and (match is None or match[2]):
+        raise CorrectionError(f"mimic takes the part that leads, and a ratio such as -0.5; found {_text(value)[:80]!r}")
+    plan.add(SetMimic(plan.name, named_part(plan.asset, leader), float(match[1]) if match else 1.0))
+
+
+def _loop(plan: CorrectionPlan, value: Any, _: Mapping[str, Any]) -> None:
+    other, *rest = BETWEEN.split(_text(value).strip())
+    if other == NONE:
+        plan.add(SetLoop(plan.name, None))
+        return
+    kind = TYPES.get(rest[3]) if len(rest) == 4 else "revolute"
+    if len(rest) not in (3, 4) or kind not in LOOP_KINDS:
+        valid = f"another part, a point, and one of {', '.join(LOOP_KINDS)}, such as lid,0.3,0,50cm,revolute"
+        raise CorrectionError(f"{_text(value)[:80]!r} is no loop; valid is {valid}")
+    plan.add(SetLoop(plan.name, named_part(plan.asset, other), vector(_point(rest[:3])), JointType(kind)))
 
 
 def _press(plan: CorrectionPlan, value: Any, _: Mapping[str, Any]) -> None:
@@ -306,6 +341,9 @@ HANDLERS: dict[str, Callable[[CorrectionPlan, Any, Mapping[str, Any]], None]] = 
     "through": _through,
     "flip": lambda plan, _, __: plan.add(FlipSign(plan.name)),
     "limits": _limits,
+    "screw": _screw,
+    "mimic": _mimic,
+    "loop": _loop,
     "press": _press,
     "label": _label,
     "rename": _rename,
