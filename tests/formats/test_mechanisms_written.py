@@ -1,4 +1,4 @@
-"""Each mechanism, as each format has it, moves as the asset does: by MuJoCo (MJCF, URDF) and yourdfpy."""
+"""Each mechanism moves in each format as in the asset: by MuJoCo and yourdfpy, and as written in USD, SDFormat and GLB."""
 
 from xml.etree import ElementTree
 
@@ -8,13 +8,19 @@ import pytest
 import yourdfpy
 from mechanical import MECHANISMS, doors, gears, jar, linkage, pot, stick
 from models import CONFIG, model_of, with_meshes
+from pxr import Gf, Usd, UsdGeom, UsdPhysics
 from scipy.spatial.transform import Rotation
 
+from anymesh.export.glb import GlbBuffer, tracks
 from anymesh.export.urdf import urdf_text
+from anymesh.formats.gltf.joints import KHR
+from anymesh.formats.gltf.physics import add_physics
 from anymesh.formats.mjcf.writer_ import write_mjcf
+from anymesh.formats.sdf import sdf_text
 from anymesh.geometry.kinematics import link_transforms
 from anymesh.mechanisms.closing import closed, loop_gap
 from anymesh.mechanisms.serial import one_axis
+from anymesh.openusd.writer_ import write_usd
 
 STEPS = 1500  # of 2 ms in which a joint is moved over its range
 
@@ -127,3 +133,83 @@ def test_chains_of_one_axis_reach_what_balls_and_free_parts_do():
     assert [s.name for s in one_axis(screw, [], 1.0)] == ["thread", "thread_1"]
     assert len(one_axis(free, [], 1.0)) == 6
     assert one_axis(doors().joints[0], [], 1.0) == (doors().joints[0],) or len(one_axis(doors().joints[0], [], 1.0)) == 1
+
+
+def usd_of(asset, folder):
+    model = model_of(asset)
+    write_usd(model, folder, CONFIG)
+    stage = Usd.Stage.Open(str(folder / f"{asset.name}.usdc"))
+    return stage, {p.GetName(): p for p in stage.GetPrimAtPath(f"/{asset.name}/joints").GetChildren()}
+
+
+def test_usd_couples_balls_frees_and_closes(tmp_path):
+    _, joints = usd_of(doors(), tmp_path)
+    twin, third = joints["twin"], joints["third"]
+    assert twin.GetRelationship("newton:mimicJoint").GetTargets() == [joints["hinge"].GetPath()]
+    assert twin.GetAttribute("physxMimicJoint:rotX:gearing").Get() == 1.0  # position + gearing * leader + offset = 0
+    assert third.GetRelationship("newton:mimicJoint").GetTargets() == [joints["first"].GetPath()]
+    assert third.GetAttribute("newton:mimicCoef1").Get() == 1.0
+    assert not twin.HasAPI(UsdPhysics.DriveAPI, "angular")
+    stage, joints = usd_of(jar(), tmp_path)
+    assert [p.GetTypeName() for p in joints.values()] == ["PhysicsFixedJoint", "PhysicsRevoluteJoint", "PhysicsPrismaticJoint"]
+    assert joints["thread_1"].GetAttribute("newton:mimicCoef1").Get() == pytest.approx(0.02 / (2 * np.pi))
+    light, lid = (
+        UsdPhysics.MassAPI(stage.GetPrimAtPath(f"/jar/links/{name}")).GetMassAttr().Get() for name in ("lid_1", "lid")
+    )
+    assert light < 0.002 * lid
+    _, joints = usd_of(stick(), tmp_path)
+    ball = UsdPhysics.SphericalJoint(joints["socket"])
+    assert ball.GetConeAngle0LimitAttr().Get() == pytest.approx(np.rad2deg(0.5))
+    assert Gf.Rotation(ball.GetLocalRot0Attr().Get()).TransformDir((1, 0, 0)) == pytest.approx((0, 0, 1), abs=1e-6)
+    assert list(usd_of(pot(), tmp_path)[1]) == ["fixed_base"]  # a body without a joint
+    stage, joints = usd_of(linkage(), tmp_path)
+    pin = UsdPhysics.RevoluteJoint(joints["pin"])
+    assert pin.GetExcludeFromArticulationAttr().Get()
+    assert [t.name for rel in (pin.GetBody0Rel(), pin.GetBody1Rel()) for t in rel.GetTargets()] == ["coupler", "rocker"]
+    ends = [
+        UsdGeom.Xformable(stage.GetPrimAtPath(f"/linkage/links/{n}")).ComputeLocalToWorldTransform(0)
+        for n in ("coupler", "rocker")
+    ]
+    places = [
+        T.Transform(Gf.Vec3d(p))
+        for T, p in zip(ends, (pin.GetLocalPos0Attr().Get(), pin.GetLocalPos1Attr().Get()), strict=True)
+    ]
+    np.testing.assert_allclose(places, [(0.5, 0, 0.28)] * 2, atol=1e-6)
+
+
+def test_sdf_states_what_it_can():
+    def sdf(asset):
+        return ElementTree.fromstring(sdf_text(model_of(asset)))
+
+    found = {j.get("name"): j for j in sdf(doors()).iter("joint")}
+    assert found["third"].find("axis/mimic").get("joint") == "first"
+    assert found["twin"].findtext("axis/mimic/multiplier") == "-1"
+    screw = sdf(jar()).find("model/joint[@name='thread']")
+    assert (screw.get("type"), screw.findtext("screw_thread_pitch"), sdf(jar()).get("version")) == ("screw", "0.02", "1.11")
+    ball = sdf(stick()).find("model/joint[@name='socket']")
+    assert (ball.get("type"), ball.find("axis"), sdf(stick()).get("version")) == ("ball", None, "1.9")
+    assert [j.get("name") for j in sdf(pot()).iter("joint")] == ["fixed_base"]
+    loops = sdf(linkage()).findall("model/{urn:articulate-anymesh}loop")
+    assert [loop.get("name") for loop in loops] == ["pin"]
+    assert len(sdf(linkage()).findall("model/{http://drake.mit.edu}ball_constraint")) == 2
+
+
+@pytest.mark.parametrize("make", MECHANISMS)
+def test_a_glb_moves_its_mechanisms_together(make):
+    asset = make()
+    moving = {t.joint.name: t for t in tracks(asset, CONFIG)}
+    assert set(moving) == {j.name for j in asset.joints}
+    for k in (5, 11):
+        at = {name: float(t.amounts[k]) for name, t in moving.items()}
+        T = link_transforms(asset, at)
+        assert loop_gap(asset, T) < 1e-9
+        for j in asset.joints:
+            assert j.mimic is None or at[j.name] == pytest.approx(j.mimic.ratio * at[j.mimic.joint])
+            parts = moving[j.name].values(np.zeros(3))
+            if j.type == "screw":
+                assert parts["translation"][k][2] == pytest.approx(0.02 / (2 * np.pi) * at[j.name], abs=1e-6)
+            slides = {"translation"} if j.type in ("screw", "prismatic", "free") else set()
+            assert set(parts) == slides | (set() if j.type in ("prismatic", "free") else {"rotation"})
+    document = {"nodes": [{"name": "root"}, *({"name": p.name} for p in asset.segmentation.parts)], "meshes": [], "scenes": []}
+    add_physics(model_of(asset), document, GlbBuffer())
+    assert len(document["extensions"].get(KHR, {}).get("physicsJoints", [])) == sum(j.type != "free" for j in asset.joints)

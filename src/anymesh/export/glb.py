@@ -8,15 +8,17 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
 from jaxtyping import Float, Float32
 
 import anymesh
+from anymesh.entry_points import LED_TRACKS, resolve
 from anymesh.export.links import Link, Primitive
 from anymesh.export.model import ExportConfig
+from anymesh.geometry.kinematics import joint_motion
 from anymesh.names import legal_names
 from anymesh.types import Asset, Brief, Joint, JointType, Material, Texture
 from anymesh.types.mesh import CLAMP, MIRROR, REPEAT, to_linear
@@ -27,6 +29,7 @@ KINDS = {1: "SCALAR", 2: "VEC2", 3: "VEC3", 4: "VEC4"}
 COMPONENTS = {"float32": FLOAT, "uint8": UBYTE, "uint16": USHORT, "uint32": UINT}
 Y_UP = [-(0.5**0.5), 0.0, 0.0, 0.5**0.5]  # rotates +Z to +Y
 WRAP = {REPEAT: 10497, MIRROR: 33648, CLAMP: 33071}
+LIFT = 0.25  # of the diagonal, by which the animation lifts what is free; an estimate
 NEAREST, LINEAR, MIPMAPS = 9728, 9729, 9987
 UNLIT, STRONG = "KHR_materials_unlit", "KHR_materials_emissive_strength"
 TEXTURE_KEYS = {"normal": "normalTexture", "occlusion": "occlusionTexture", "emissive": "emissiveTexture"}
@@ -86,6 +89,8 @@ def _joint(joint: Joint) -> dict[str, Any]:
         "type": str(joint.type),
         "axis": [float(v) for v in joint.axis],
         "limits": None if joint.limits is None else [float(v) for v in joint.limits],
+        **({"pitch": joint.pitch} if joint.pitch else {}),
+        **({"mimic": asdict(joint.mimic)} if joint.mimic else {}),
     }
 
 
@@ -93,13 +98,13 @@ def _animation(asset: Asset, links: Sequence[Link], buffer: GlbBuffer, config: E
     number = {link.name: i + 1 for i, link in enumerate(links)}
     origin = {link.name: link.origin for link in links}
     samplers, channels = [], []
-    for track in tracks(asset.joints, config):
+    for track in tracks(asset, config):
         rest = origin[track.joint.child] - origin[track.joint.parent]
-        path, values = track.values(rest)
         times = buffer.accessor(track.times, bounds=True)
-        samplers.append({"input": times, "interpolation": "LINEAR", "output": buffer.accessor(values)})
-        target = {"node": number[track.joint.child], "path": path}
-        channels.append({"sampler": len(samplers) - 1, "target": target})
+        for path, values in track.values(rest).items():
+            samplers.append({"input": times, "interpolation": "LINEAR", "output": buffer.accessor(values)})
+            target = {"node": number[track.joint.child], "path": path}
+            channels.append({"sampler": len(samplers) - 1, "target": target})
     return {"name": "articulation", "channels": channels, "samplers": samplers}
 
 
@@ -266,26 +271,32 @@ class Track(Brief):
     times: Float32[np.ndarray, " n"]
     amounts: Float[np.ndarray, " n"]
 
-    def values(self, rest: Float[np.ndarray, " 3"]) -> tuple[str, Float32[np.ndarray, "n k"]]:
-        """Return the glTF path and its keys: quaternions xyzw without sign changes, or translations from `rest` [m]."""
-        if self.joint.type is JointType.PRISMATIC:
-            return "translation", (rest + self.amounts[:, None] * self.joint.axis).astype(np.float32)
+    def values(self, rest: Float[np.ndarray, " 3"]) -> dict[str, Float32[np.ndarray, "n k"]]:
+        """Return the keys by glTF path: quaternions xyzw without sign changes, and translations from `rest` [m]."""
+        motion = joint_motion(self.joint)
+        slides = motion.kind is JointType.PRISMATIC
+        along = self.amounts[:, None] * (1.0 if slides else motion.pitch / (2 * np.pi)) * motion.axis
+        moves = {"translation": (rest + along).astype(np.float32)} if slides or motion.pitch else {}
         half = self.amounts[:, None] / 2
-        quaternion = np.hstack([np.sin(half) * self.joint.axis, np.cos(half)])
-        return "rotation", (quaternion / np.linalg.norm(quaternion, axis=1, keepdims=True)).astype(np.float32)
+        quaternion = np.hstack([np.sin(half) * motion.axis, np.cos(half)])
+        turned = (quaternion / np.linalg.norm(quaternion, axis=1, keepdims=True)).astype(np.float32)
+        return moves if slides else {"rotation": turned, **moves}
 
 
-def tracks(joints: Sequence[Joint], config: ExportConfig) -> tuple[Track, ...]:
+def tracks(asset: Asset, config: ExportConfig) -> tuple[Track, ...]:
     """Return keys of all moving joints: first up to the upper limits and back, then down to the lower ones and back.
 
     A direction that no joint has is left out. A joint without it rests in the meantime. Continuous joints rotate once, at
-    constant speed.
+    constant speed; what is free is lifted. Followers move with their leaders, and the links of a loop with its first joint.
     """
-    moving = [j for j in joints if j.type is not JointType.FIXED]
+    moving = [j for j in asset.joints if j.type is not JointType.FIXED and j.mimic is None]
+    lift = {"type": JointType.PRISMATIC, "limits": (0.0, LIFT * asset.mesh.diagonal)}
+    moving = [replace(j, **lift) if j.type is JointType.FREE else j for j in moving]
     up = any(j.limits is None or j.limits[1] > 0 for j in moving)
     down = any(j.limits is not None and j.limits[0] < 0 for j in moving)
     length = config.seconds_a_way * (up + down)
-    return tuple(_track(j, up, length, config) for j in moving)
+    made = tuple(_track(j, up, length, config) for j in moving)
+    return resolve(LED_TRACKS)(asset, made) if asset.loops or any(j.mimic for j in asset.joints) else made
 
 
 def _track(joint: Joint, up: bool, length: float, config: ExportConfig) -> Track:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import assert_never
 from xml.etree import ElementTree
@@ -11,13 +12,15 @@ import numpy as np
 
 from anymesh.export.meshes import display_color, painted, widest
 from anymesh.export.model import ExportConfig, ExportLink, Model
-from anymesh.export.notation import document, moments, number, rpy, vector
+from anymesh.export.notation import DRAKE, document, moments, number, rpy, vector
 from anymesh.export.options import Base
+from anymesh.mechanisms.closing import loop_points
 from anymesh.names import legal_names
 from anymesh.physics.substances import Substance
-from anymesh.types import Box, Cylinder, Hull, Joint, Mesh, Shape
+from anymesh.types import Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
+from anymesh.types.motion import leaders
 
-VERSION = "1.9"
+VERSION, COUPLED = "1.9", "1.11"  # the least that has joints that follow others, and the pitch of a screw in metres
 FILE, CONFIG_FILE = "model.sdf", "model.config"
 OWN = "{urn:articulate-anymesh}"  # elements of a namespace are kept and passed over by readers
 ElementTree.register_namespace("anymesh", OWN[1:-1])
@@ -34,7 +37,7 @@ def config_text(model: Model) -> str:
     root = ElementTree.Element("model")
     ElementTree.SubElement(root, "name").text = model.asset.name
     ElementTree.SubElement(root, "version").text = "1.0"
-    ElementTree.SubElement(root, "sdf", version=VERSION).text = FILE
+    ElementTree.SubElement(root, "sdf", version=_version(model)).text = FILE
     source, text = model.asset.source, "An articulated object, made by Articulate AnyMesh"
     if "author" in source.credits:
         ElementTree.SubElement(ElementTree.SubElement(root, "author"), "name").text = source.credits["author"]
@@ -51,7 +54,7 @@ def sdf_text(model: Model) -> str:
     """
     model = model.tiled
     asset = model.asset
-    root = ElementTree.Element("sdf", version=VERSION)
+    root = ElementTree.Element("sdf", version=_version(model))
     element = ElementTree.SubElement(root, "model", name=asset.name, canonical_link=model.bodies[0].name)
     _leaf(element, "self_collide", "true" if _only_neighbours_excluded(model) else "false")
     for key, text in asset.source.credits.items():
@@ -66,13 +69,19 @@ def sdf_text(model: Model) -> str:
         fixed.set("type", "fixed")
         _leaf(fixed, "parent", "world")
         _leaf(fixed, "child", model.bodies[0].name)
-    for joint in asset.joints:
-        _add_joint(element, joint, names[joint.name], model)
+    ways = leaders(asset.joints)
+    for joint in (replace(j, mimic=ways.get(j.name)) for j in asset.joints if j.type is not JointType.FREE):
+        _add_joint(element, joint, names, model)
+    _add_loops(element, model, origins)
     taken = [*origins, *names.values()]
     for handle, name in zip(model.handles, legal_names([*taken, *(h.name for h in model.handles)])[len(taken) :], strict=True):
         frame = ElementTree.SubElement(element, "frame", name=name, attached_to=handle.link)
         _leaf(frame, "pose", _pose(handle.place - origins[handle.link], handle.R))
     return document(root)
+
+
+def _version(model: Model) -> str:
+    return COUPLED if any(j.mimic is not None or j.type is JointType.SCREW for j in model.asset.joints) else VERSION
 
 
 def joint_names(model: Model) -> Mapping[str, str]:
@@ -155,15 +164,24 @@ def _add_shape(geometry: ElementTree.Element, shape: Shape, path: str | None) ->
             assert_never(shape)
 
 
-def _add_joint(top: ElementTree.Element, joint: Joint, name: str, model: Model) -> None:
+def _add_joint(top: ElementTree.Element, joint: Joint, names: Mapping[str, str], model: Model) -> None:
     resistance, mechanism = model.resistances.get(joint.name), model.mechanisms.get(joint.name)
-    element = ElementTree.SubElement(top, "joint", name=name, type=str(joint.type))
+    element = ElementTree.SubElement(top, "joint", name=names[joint.name], type=str(joint.type))
     _leaf(element, "parent", joint.parent)
     _leaf(element, "child", joint.child)
     if resistance is None:  # fixed
         return
+    if joint.type is JointType.SCREW:
+        _leaf(element, "screw_thread_pitch", number(joint.pitch))
+    if joint.type is JointType.BALL:  # has no axis; the cone is ours
+        _leaf(element, f"{OWN}cone", "inf" if joint.limits is None else number(joint.limits[1]))
+        return
     axis = ElementTree.SubElement(element, "axis")
     _leaf(axis, "xyz", vector(joint.axis / np.linalg.norm(joint.axis)))
+    if (m := joint.mimic) is not None:
+        follows = ElementTree.SubElement(axis, "mimic", joint=names[m.joint])
+        for tag, value in (("multiplier", m.ratio), ("offset", m.offset), ("reference", 0.0)):
+            _leaf(follows, tag, number(value))
     limit = ElementTree.SubElement(axis, "limit")
     if joint.limits is not None:
         _leaf(limit, "lower", number(joint.limits[0]))
@@ -176,6 +194,22 @@ def _add_joint(top: ElementTree.Element, joint: Joint, name: str, model: Model) 
     if mechanism is not None and mechanism.stiffness:
         _leaf(dynamics, "spring_reference", number(mechanism.reference))
         _leaf(dynamics, "spring_stiffness", number(mechanism.stiffness))
+
+
+def _add_loops(top: ElementTree.Element, model: Model, origins: Mapping[str, np.ndarray]) -> None:
+    """Add closed loops as elements of our own, since engines refuse a link of two joints, and as points that Drake ties."""
+    for loop in model.asset.loops:
+        element = ElementTree.SubElement(top, f"{OWN}loop", name=loop.name, type=str(loop.kind))
+        for tag, link in (("first", loop.first), ("second", loop.second)):
+            side = _leaf(element, f"{OWN}{tag}", link)
+            side.set("xyz", vector(loop.origin - origins[link]))
+            side.set("axis", vector(loop.axis))
+        for point in loop_points(loop, model.asset.mesh.diagonal):
+            ball = ElementTree.SubElement(top, f"{DRAKE}ball_constraint")
+            for key, link in (("A", loop.first), ("B", loop.second)):
+                _leaf(ball, f"{DRAKE}ball_constraint_body_{key}", link)
+            for key, link in (("p_AP", loop.first), ("p_BQ", loop.second)):
+                _leaf(ball, f"{DRAKE}ball_constraint_{key}", vector(point - origins[link]))
 
 
 def _pose(place: np.ndarray, rotation: np.ndarray) -> str:

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from jaxtyping import Float
 
+from anymesh.export.glb import Track
 from anymesh.geometry.kinematics import Position, link_transforms
 from anymesh.types import Asset, Joint, JointType, Loop
 from anymesh.types.motion import leaders
@@ -86,6 +87,20 @@ def closed(asset: Asset, positions: Mapping[str, Position]) -> dict[str, Positio
             J = np.stack([(left(share, x + step) - error) / SMALL for step in SMALL * np.eye(len(x))], 1)
             x = x - np.linalg.lstsq(J, error, 1e-6)[0]
     return at(1.0, x)
+
+
+def led_tracks(asset: Asset, made: Sequence[Track]) -> tuple[Track, ...]:
+    """Return tracks with those of followers, as their leaders have them; the first joint of a loop leads the others."""
+    tracks, ways, joints = {t.joint.name: t for t in made}, leaders(asset.joints), {j.name: j for j in asset.joints}
+    looped = [j for j in giving_way(asset) if j.type is not JointType.BALL]
+    for driver in [tracks[j.name] for j in looped[:1]]:
+        poses = [closed(asset, {driver.joint.name: float(amount)}) for amount in driver.amounts]
+        for j in looped[1:]:
+            tracks[j.name] = Track(j, driver.times, np.array([pose[j.name] for pose in poses], float))
+    for name, way in ways.items():
+        leader = tracks[way.joint]
+        tracks[name] = Track(joints[name], leader.times, way.ratio * leader.amounts + way.offset)
+    return tuple(tracks[name] for name in joints if name in tracks)
 
 
 def giving_way(asset: Asset) -> list[Joint]:

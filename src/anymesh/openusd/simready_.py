@@ -28,7 +28,7 @@ from anymesh.physics.resistance import Pull
 from anymesh.physics.substances import Substance
 from anymesh.rendering.drawing import Window, draw, ground, light_on, material_colors, render_target, sample, smoothed
 from anymesh.rendering.viewpoints import orbit_camera
-from anymesh.types import Asset, JointType
+from anymesh.types import Asset
 from anymesh.types.mesh import to_linear
 
 SIMREADY = "simready"
@@ -107,7 +107,7 @@ def _add_for_engines(pxr: Any, stage: Any, model: Model, body: ExportLink) -> No
         if prim.IsA(pxr.UsdGeom.Mesh):
             prim.AddAppliedSchema("NewtonMeshCollisionAPI")
     joint = body.link.joint
-    if joint is not None and joint.type is not JointType.FIXED:
+    if joint is not None and joint.name in model.resistances:
         prim, r = stage.GetPrimAtPath(f"/{model.asset.name}/joints/{joint.name}"), model.resistances[joint.name]
         prim.AddAppliedSchema("MjcJointAPI")
         for name, value in (("damping", r.damping), ("frictionloss", r.friction), ("armature", r.armature)):
@@ -118,7 +118,7 @@ def _add_grasps(pxr: Any, stage: Any, model: Model) -> None:
     """Add a line through each handle, along which the fingers of a gripper close."""
     for body in model.bodies:
         joint = body.link.joint
-        if joint is None or joint.type is JointType.FIXED:
+        if joint is None or joint.name not in model.resistances:
             continue
         handle = next((h for h in model.handles if h.joint == joint.name), None)
         on = body if handle is None else next(b for b in model.bodies if b.name == handle.link)

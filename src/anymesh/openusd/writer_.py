@@ -8,6 +8,7 @@ from __future__ import annotations
 import struct
 import zipfile
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from types import ModuleType
@@ -20,7 +21,9 @@ from anymesh.export.meshes import texture_files, visible, write_textures
 from anymesh.export.model import FOLDER, Drive, ExportConfig, ExportLink, Model, drives
 from anymesh.export.notation import principal, turning_x_to
 from anymesh.export.options import Base
+from anymesh.export.urdf import LIGHT
 from anymesh.formats.packed import EPOCH, PLAIN_FILE
+from anymesh.mechanisms.serial import one_axis
 from anymesh.names import legal_names
 from anymesh.openusd.geometry_ import add_shape, add_visual, place, quat, vec
 from anymesh.openusd.materials_ import UsdMaterials
@@ -28,8 +31,9 @@ from anymesh.openusd.states_ import add_states
 from anymesh.physics.mechanism import HandleFrame, Mechanism
 from anymesh.physics.resistance import Resistance
 from anymesh.physics.substances import Substance
-from anymesh.types import Hull, Joint, JointType
+from anymesh.types import Hull, Joint, JointType, Loop, Mimic
 from anymesh.types.mesh import TEXTURE_SLOTS
+from anymesh.types.motion import leaders
 
 # A USDZ is a zip without compression whose files begin at multiples of 64 bytes; the header of each is padded to that.
 ALIGNED, HEADER, EXTRA, PADDING = 64, 30, 4, 0x1986
@@ -109,8 +113,16 @@ def usd_stage(model: Model, config: ExportConfig, folder: Path, pictures: str) -
     for handle in model.handles:
         _add_handle(pxr, stage, top, model, handle)
     motors = drives(model)
-    for joint in model.asset.joints:
-        _add_joint(pxr, stage, top, model, joint, motors)
+    ways, taken = leaders(model.asset.joints), [*(b.name for b in model.bodies), *(j.name for j in model.asset.joints)]
+    ordered = sorted(model.asset.joints, key=lambda joint: joint.name in ways)  # a follower's schema depends on its leader
+    for joint in (replace(j, mimic=ways.get(j.name)) for j in ordered if j.type is not JointType.FREE):
+        steps = (joint,) if joint.type is JointType.BALL else one_axis(joint, taken, model.asset.mesh.diagonal)
+        for step in steps:
+            _add_joint(pxr, stage, top, model, step, motors)
+            if step.child != joint.child:
+                _add_light_body(pxr, stage, top, next(b for b in model.bodies if b.name == joint.child), step.child)
+    for loop in model.asset.loops:
+        _add_loop(pxr, stage, model, loop)
     scene = legal_names([model.asset.name, "physics_scene"])[-1]
     pxr.UsdPhysics.Scene.Define(stage, f"/{scene}")  # beside the asset, so that a reference to it adds no second scene
     return stage
@@ -121,16 +133,7 @@ def _link(top: str, name: str) -> str:
 
 
 def _add_body(pxr: Any, stage: Any, top: str, body: ExportLink, looks: UsdMaterials, config: ExportConfig) -> None:
-    frame = pxr.UsdGeom.Xform.Define(stage, _link(top, body.name))
-    place(pxr, frame, body.link.origin)
-    prim = frame.GetPrim()
-    pxr.UsdPhysics.RigidBodyAPI.Apply(prim)
-    mass = pxr.UsdPhysics.MassAPI.Apply(prim)
-    moments, axes = principal(body.inertia.tensor)
-    mass.CreateMassAttr(float(body.inertia.mass))
-    mass.CreateCenterOfMassAttr(vec(pxr, body.inertia.center))
-    mass.CreateDiagonalInertiaAttr(vec(pxr, moments))
-    mass.CreatePrincipalAxesAttr(quat(pxr, axes))
+    prim = _add_light_body(pxr, stage, top, body, body.name, 1.0)
     primitives, path = visible(body.link, config), f"{prim.GetPath()}/{body.name}_visual"
     mesh, counts = add_visual(pxr, stage, path, primitives, looks.mesh)
     looks.add_subsets(mesh, primitives, counts)
@@ -143,6 +146,21 @@ def _add_body(pxr: Any, stage: Any, top: str, body: ExportLink, looks: UsdMateri
             hull.CreateApproximationAttr(pxr.UsdPhysics.Tokens.convexHull)
         if substance is not None:
             bind_surface(pxr, stage, collider, substance)
+
+
+def _add_light_body(pxr: Any, stage: Any, top: str, body: ExportLink, name: str, share: float = LIGHT) -> Any:
+    """Add a body at the place of a link with a share of its mass, and return its prim."""
+    frame = pxr.UsdGeom.Xform.Define(stage, _link(top, name))
+    place(pxr, frame, body.link.origin)
+    prim = frame.GetPrim()
+    pxr.UsdPhysics.RigidBodyAPI.Apply(prim)
+    mass = pxr.UsdPhysics.MassAPI.Apply(prim)
+    moments, axes = principal(body.inertia.tensor)
+    mass.CreateMassAttr(share * float(body.inertia.mass))
+    mass.CreateCenterOfMassAttr(vec(pxr, body.inertia.center))
+    mass.CreateDiagonalInertiaAttr(vec(pxr, share * moments))
+    mass.CreatePrincipalAxesAttr(quat(pxr, axes))
+    return prim
 
 
 def bind_surface(pxr: Any, stage: Any, collider: Any, substance: Substance) -> None:
@@ -183,36 +201,88 @@ def _add_handle(pxr: Any, stage: Any, top: str, model: Model, handle: HandleFram
 
 
 def _add_joint(pxr: Any, stage: Any, top: str, model: Model, joint: Joint, motors: Mapping[str, Drive]) -> None:
-    origins = {link.name: link.origin for link in model.links}
-    kinds = {JointType.FIXED: pxr.UsdPhysics.FixedJoint, JointType.PRISMATIC: pxr.UsdPhysics.PrismaticJoint}
-    added = kinds.get(joint.type, pxr.UsdPhysics.RevoluteJoint).Define(stage, f"{top}/joints/{joint.name}")
-    added.CreateBody0Rel().SetTargets([_link(top, joint.parent)])
-    added.CreateBody1Rel().SetTargets([_link(top, joint.child)])
-    added.CreateLocalPos0Attr(vec(pxr, origins[joint.child] - origins[joint.parent]))
-    added.CreateLocalPos1Attr(pxr.Gf.Vec3f(0))
-    turned = np.eye(3) if joint.type is JointType.FIXED else turning_x_to(joint.axis)
-    added.CreateLocalRot0Attr(quat(pxr, turned))
-    added.CreateLocalRot1Attr(quat(pxr, turned))
+    added = _between(pxr, stage, model, joint, joint.type, (joint.parent, joint.child))
     excluded = {frozenset((pair.a, pair.b)) for pair in model.exclusions}
     added.CreateCollisionEnabledAttr(frozenset((joint.parent, joint.child)) not in excluded)
     if joint.type is JointType.FIXED:
         return
     added.CreateAxisAttr(pxr.UsdGeom.Tokens.x)
+    if joint.type is JointType.BALL:
+        _add_ball(pxr, added, joint, model.resistances[joint.name])
+        return
     per_unit = 1.0 if joint.type is JointType.PRISMATIC else float(np.pi / 180)  # USD's angles are in degrees
     if joint.limits is not None:
         added.CreateLowerLimitAttr(joint.limits[0] / per_unit)
         added.CreateUpperLimitAttr(joint.limits[1] / per_unit)
     kind = "linear" if joint.type is JointType.PRISMATIC else "angular"
-    motor = motors[joint.name]
-    drive = pxr.UsdPhysics.DriveAPI.Apply(added.GetPrim(), kind)
-    drive.CreateTypeAttr(pxr.UsdPhysics.Tokens.force)
-    drive.CreateMaxForceAttr(motor.effort)
-    drive.CreateTargetPositionAttr(0.0)
-    drive.CreateStiffnessAttr(motor.stiffness * per_unit)
-    drive.CreateDampingAttr(motor.damping * per_unit)
-    _add_resistance(pxr, added.GetPrim(), model.resistances[joint.name], kind, per_unit)
+    if joint.name in motors:
+        motor = motors[joint.name]
+        drive = pxr.UsdPhysics.DriveAPI.Apply(added.GetPrim(), kind)
+        drive.CreateTypeAttr(pxr.UsdPhysics.Tokens.force)
+        drive.CreateMaxForceAttr(motor.effort)
+        drive.CreateTargetPositionAttr(0.0)
+        drive.CreateStiffnessAttr(motor.stiffness * per_unit)
+        drive.CreateDampingAttr(motor.damping * per_unit)
+    if joint.name in model.resistances:
+        _add_resistance(pxr, added.GetPrim(), model.resistances[joint.name], kind, per_unit)
     if joint.name in model.mechanisms:
         _add_mechanism(pxr, added.GetPrim(), model.mechanisms[joint.name], per_unit)
+    if joint.mimic is not None:
+        _add_mimic(pxr, stage, added.GetPrim(), joint.mimic, per_unit)
+
+
+def _between(pxr: Any, stage: Any, model: Model, at: Joint | Loop, kind: JointType, links: tuple[str, str]) -> Any:
+    """Add a joint of a kind between two links, whose X is the axis of what it stands for."""
+    physics, origins = pxr.UsdPhysics, {link.name: link.origin for link in model.links}
+    kinds = {JointType.FIXED: physics.FixedJoint, JointType.PRISMATIC: physics.PrismaticJoint}
+    top, define = str(stage.GetDefaultPrim().GetPath()), {**kinds, JointType.BALL: physics.SphericalJoint}
+    added = define.get(kind, physics.RevoluteJoint).Define(stage, f"{top}/joints/{at.name}")
+    added.CreateBody0Rel().SetTargets([_link(top, links[0])])
+    added.CreateBody1Rel().SetTargets([_link(top, links[1])])
+    added.CreateLocalPos0Attr(vec(pxr, at.origin - origins.get(links[0], at.origin)))
+    added.CreateLocalPos1Attr(vec(pxr, at.origin - origins.get(links[1], at.origin)))
+    turned = np.eye(3) if kind is JointType.FIXED else turning_x_to(at.axis)
+    added.CreateLocalRot0Attr(quat(pxr, turned))
+    added.CreateLocalRot1Attr(quat(pxr, turned))
+    return added
+
+
+def _add_loop(pxr: Any, stage: Any, model: Model, loop: Loop) -> None:
+    """Add a joint that closes a loop, which is no part of the tree."""
+    added = _between(pxr, stage, model, loop, loop.kind, (loop.first, loop.second))
+    added.CreateCollisionEnabledAttr(False)
+    if loop.kind is not JointType.FIXED:
+        added.CreateAxisAttr(pxr.UsdGeom.Tokens.x)
+    added.CreateExcludeFromArticulationAttr(True)
+
+
+def _add_ball(pxr: Any, added: Any, joint: Joint, r: Resistance) -> None:
+    """Add the cone and the resistance of a ball, which only Newton has."""
+    if joint.limits is not None:
+        added.CreateConeAngle0LimitAttr(float(np.rad2deg(joint.limits[1])))
+        added.CreateConeAngle1LimitAttr(float(np.rad2deg(joint.limits[1])))
+    added.GetPrim().AddAppliedSchema("NewtonJointAPI")
+    for name, value in (("friction", r.friction), ("damping", r.damping), ("armature", r.armature)):
+        added.GetPrim().CreateAttribute(f"newton:{name}", pxr.Sdf.ValueTypeNames.Float, custom=False).Set(float(value))
+
+
+def _add_mimic(pxr: Any, stage: Any, prim: Any, m: Mimic, per_unit: float) -> None:
+    """Add what a joint follows, as Newton has it, and as PhysX has it, where a turn follows a turn.
+
+    Newton multiplies positions in rad and m; PhysX does not let slides follow.
+    """
+    leader, kinds = prim.GetPath().GetParentPath().AppendChild(m.joint), pxr.Sdf.ValueTypeNames
+    prim.AddAppliedSchema("NewtonMimicAPI")
+    prim.CreateRelationship("newton:mimicJoint", custom=False).SetTargets([leader])
+    values = {"newton:mimicCoef0": m.offset / per_unit, "newton:mimicCoef1": m.ratio}
+    if per_unit != 1 and stage.GetPrimAtPath(leader).GetTypeName() == "PhysicsRevoluteJoint":
+        prim.AddAppliedSchema("PhysxMimicJointAPI:rotX")
+        prim.CreateRelationship("physxMimicJoint:rotX:referenceJoint", custom=False).SetTargets([leader])
+        axis = prim.CreateAttribute("physxMimicJoint:rotX:referenceJointAxis", kinds.Token, False, pxr.Sdf.VariabilityUniform)
+        axis.Set("rotX")
+        values |= {"physxMimicJoint:rotX:gearing": -m.ratio, "physxMimicJoint:rotX:offset": -m.offset / per_unit}
+    for name, value in values.items():
+        prim.CreateAttribute(name, kinds.Float, custom=False).Set(float(value))
 
 
 def _add_resistance(pxr: Any, prim: Any, r: Resistance, kind: str, per_unit: float) -> None:

@@ -94,7 +94,7 @@ class Turntable:
 
 def film(asset: Asset, how: Turntable) -> Iterator[UInt8[np.ndarray, "H W 3"]]:
     """Yield the frames of a loop: the camera turns while every joint moves through its range and back, as in the GLB."""
-    moving = tracks(asset.joints, ExportConfig())
+    moving = tracks(asset, ExportConfig())
     length = LOOPS * float(max((t.times[-1] for t in moving), default=4.0))
     count = max(2, round(length * how.rate))
     toward = -opened_view(asset)[1].T_world_camera[:3, 2]
@@ -197,7 +197,7 @@ def sheet_film(
 
 def _moving(asset: Asset, size: int, materials: bool) -> tuple[float, Callable[[float], UInt8[np.ndarray, "h w 3"]]]:
     """Return the length of an asset's motion [s], and a function that draws it at a time [s]."""
-    moving = tracks(asset.joints, ExportConfig())
+    moving = tracks(asset, ExportConfig())
     length = float(max((t.times[-1] for t in moving), default=STILL_S))
     asset = replace(asset, mesh=smoothed(asset.mesh))
     color = None if materials else part_colors(asset)

@@ -36,7 +36,7 @@ def add_physics(model: Model, document: dict[str, Any], buffer: GlbBuffer) -> No
     physics = _Physics(model, document, buffer)
     for index, body in enumerate(model.bodies):
         physics.add_body(index + 1, body)
-    for joint in model.asset.joints:
+    for joint in (j for j in model.asset.joints if j.type is not JointType.FREE):
         physics.add_joint(joint)
     for handle in model.handles:
         physics.add_handle(handle)
@@ -159,11 +159,12 @@ class _Physics:
         """Return damping and a spring, as a drive, and the joint's drive; some engines keep the last."""
         kind = "linear" if joint.type is JointType.PRISMATIC else "angular"
         start = {"type": kind, "mode": "force", "axis": 0, "velocityTarget": 0.0}
-        forces = [start | {"damping": _plain(self._model.resistances[joint.name].damping)}]
+        axes = (0, 1, 2) if joint.type is JointType.BALL else (0,)
+        forces = [start | {"axis": axis, "damping": _plain(self._model.resistances[joint.name].damping)} for axis in axes]
         m = self._model.mechanisms.get(joint.name)
         if m is not None and m.stiffness:
             forces[0] |= {"stiffness": _plain(m.stiffness), "positionTarget": _plain(m.reference)}
-        if self._model.how.drives is Driven.POSITION:
+        if self._model.how.drives is Driven.POSITION and joint.name in self._drives:
             drive = self._drives[joint.name]
             gains = {"stiffness": _plain(drive.stiffness), "damping": _plain(drive.damping), "maxForce": _plain(drive.effort)}
             forces.append(start | {"positionTarget": 0.0} | gains)
@@ -194,7 +195,16 @@ def _limits(joint: Joint) -> list[dict[str, Any]]:
     still = {"min": 0.0, "max": 0.0}
     if joint.type is JointType.FIXED:
         return [{own: [0, 1, 2]} | still, {other: [0, 1, 2]} | still]
-    limits = [{other: [0, 1, 2]} | still, {own: [1, 2]} | still]
+    if joint.type is JointType.BALL:
+        cone = [] if joint.limits is None else [{own: [1, 2], "min": -_plain(joint.limits[1]), "max": _plain(joint.limits[1])}]
+        return [{other: [0, 1, 2]} | still, *cone]
+    if joint.type is JointType.SCREW:  # the extensions cannot couple its axes
+        limits = [{other: [1, 2]} | still, {own: [1, 2]} | still]
+        if joint.limits is not None:
+            low, high = sorted(_plain(joint.pitch / (2 * np.pi) * end) for end in joint.limits)
+            limits.append({other: [0], "min": low, "max": high})
+    else:
+        limits = [{other: [0, 1, 2]} | still, {own: [1, 2]} | still]
     if joint.limits is not None:
         limits.append({own: [0], "min": _plain(joint.limits[0]), "max": _plain(joint.limits[1])})
     return limits
