@@ -199,3 +199,12 @@ def test_three_sheets_at_an_edge_without_material_between_them_are_open() -> Non
 def test_labels_without_pairs_are_all_different() -> None:
     assert label_connected(3, np.zeros((0, 2), np.int64)).tolist() == [0, 1, 2]
     assert label_connected(5, np.array([[4, 1], [3, 0]])).tolist() == [0, 1, 2, 0, 1]
+
+
+def test_a_result_is_kept_for_equal_arrays_only() -> None:
+    points = CUBE + np.pi
+    first = weld(points)
+    assert weld(points.copy()) is first
+    points[0] = points[1]
+    assert weld(points) is not first
+    assert len(np.unique(weld(points))) == 7
