@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from asked import ASKED, PICTURE, parts
 from made import smaller
+from PIL import Image, ImageDraw
 
 from anymesh import pipeline
 from anymesh.cli import run
@@ -21,10 +22,14 @@ from anymesh.evaluation.evaluating import evaluate
 from anymesh.evaluation.ground_truth import example_truths, prepared
 from anymesh.evaluation.oracle import oracle
 from anymesh.prompted.answerers.file_answerer import answer_text, open_in, record_answers
-from anymesh.prompted.answerers.question_files import example_answer, explain_schema, find_questions
+from anymesh.prompted.answerers.question_files import QuestionStore, example_answer, explain_schema, find_questions
 from anymesh.prompted.answerers.recordings import Replay
+from anymesh.prompted.models.vision import Request
 from anymesh.prompted.questions.asking import BadAnswerError, a_list, an_object, check_schema, one_of
 from anymesh.prompted.questions.saved_question import answer_object, pack_question, unpack_question
+from anymesh.rendering.marks import font
+from anymesh.rendering.render import encode
+from anymesh.types import Picture
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 MESH = EXAMPLES / "meshes" / "storage_box.glb"
@@ -363,3 +368,17 @@ def test_json_stays_as_it_was_typed() -> None:
     schema = ASKED["motions"].question.schema()
     assert answer_text(' {"parts": []} ', schema) == '{"parts": []}'
     assert answer_text("words", schema) == "words"
+
+
+def test_an_answer_holds_for_pictures_that_differ_by_rounding_and_for_no_other_number(tmp_path: Path) -> None:
+    def drawn(number: str, off: int) -> Picture:
+        image = Image.new("RGB", (200, 200), (200, 200, 200))
+        ImageDraw.Draw(image).text((90, 90), number, fill=(0, 0, 0), font=font(14))
+        image.putpixel((20, 30), (200 - off,) * 3)
+        return encode(np.asarray(image), "picture 1: a view")
+
+    store = QuestionStore(tmp_path)
+    asked = [Request("marks", "", "which?", (drawn(*shown),), {"type": "object"}) for shown in (("8", 0), ("8", 90), ("9", 0))]
+    store.put(asked[0], {}).write_answer("{}")
+    assert [store.put(request, {}).answer() for request in asked] == ["{}", "{}", None]
+    assert store.put(replace(asked[1], text="which one?"), {}).answer() is None

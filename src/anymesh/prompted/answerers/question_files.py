@@ -24,6 +24,7 @@ from weakref import WeakValueDictionary, finalize
 from anymesh.errors import OptionError, OutputError
 from anymesh.pipeline.atomic_folder import locked
 from anymesh.prompted.models.vision import Request, request_key
+from anymesh.prompted.pictures.sheet import nearly_equal
 from anymesh.runtime import write_whole, writing
 from anymesh.types.exchange import Picture
 
@@ -256,6 +257,8 @@ class QuestionStore:
         with writing(self.folder):
             if question is None:
                 question = self._write(key, request, files)
+                if (like := next((q for q in self.questions() if q.key != key and _alike(q, question)), None)) is not None:
+                    question.write_answer(like.answer() or "")
         for other in list(self.questions()):
             if other.key != key and (other.answer() is None or other.refusal() is not None):
                 other.mark(outdated=True)
@@ -289,6 +292,15 @@ class QuestionStore:
             shutil.rmtree(hidden, ignore_errors=True)
             raise
         return QuestionFolder(path, record)
+
+
+def _alike(answered: QuestionFolder, question: QuestionFolder) -> bool:
+    """Return whether an answered question is the same but for rounding in its pictures, as of an object in another size."""
+    text = answered.answer()
+    names = ("kind", "system", "text", "schema", "pictures")
+    if text is None or is_left_to_geometry(text) or any(answered.record[n] != question.record[n] for n in names):
+        return False
+    return all(nearly_equal(a.png, b.png) for a, b in zip(answered.pictures(), question.pictures(), strict=True))
 
 
 def _move(hidden: Path, folder: Path, kind: str) -> Path:

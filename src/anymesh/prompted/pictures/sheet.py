@@ -6,8 +6,10 @@ import io
 import math
 from collections.abc import Sequence
 
+import numpy as np
 from PIL import Image, ImageDraw
 
+from anymesh.prompted.pictures.plates import window_sums
 from anymesh.rendering.marks import font
 from anymesh.types.exchange import Picture
 
@@ -16,6 +18,10 @@ MAX_PICTURES = 8  # pictures per call that models of 7 to 30 billion parameters 
 MAX_CELL, MIN_CELL = 900, 240  # [px] maximum and minimum of the longer side of one picture; the sheet grows to keep the minimum
 TEXT, LINE, GAP = 16, 21, 8  # [px] font size, line height, space between cells
 MAX_CAPTION_LINES = 3  # maximum number of lines per caption
+
+# of pictures that are equal but for rounding: difference of colours that counts, share of pixels with it, and the most of them
+# in a block [px]; another digit has more
+DIFFERENT, FEW, BLOCK, IN_BLOCK = 24, 1e-3, 12, 8
 
 
 def on_sheets(pictures: Sequence[Picture], most: int) -> tuple[Picture, ...]:
@@ -50,6 +56,15 @@ def question_sheet(pictures: Sequence[Picture], first: int = 1, largest: int = M
     sheet.save(buffer, "PNG")
     numbers = f"{first}..{first + len(pictures) - 1}" if len(pictures) > 1 else str(first)
     return Picture(buffer.getvalue(), f"contact sheet of pictures {numbers}")
+
+
+def nearly_equal(a: bytes, b: bytes) -> bool:
+    """Return whether two PNG pictures differ by no more than rounding: in few pixels, nowhere in as many as a number has."""
+    one, other = (np.asarray(Image.open(io.BytesIO(png)).convert("RGB"), np.int16) for png in (a, b))
+    if a == b or one.shape != other.shape:
+        return a == b
+    differs = (np.abs(one - other).max(2) > DIFFERENT).astype(float)
+    return bool(differs.mean() < FEW and window_sums(differs, BLOCK, BLOCK).max(initial=0) <= IN_BLOCK)
 
 
 def _title(number: int, picture: Picture) -> str:
