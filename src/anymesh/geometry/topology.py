@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import wraps
-from hashlib import blake2b
 from itertools import product
-from threading import Lock
-from typing import ParamSpec, TypeVar
 
 import numpy as np
 from jaxtyping import Bool, Float, Int
 from scipy.spatial import KDTree
 
-from anymesh.geometry.triangle_set import SLANTED, TriangleSet
+from anymesh.geometry.triangle_set import SLANTED, TriangleSet, remembering
 from anymesh.types import Brief
 from anymesh.types.triangles import bounds_of, face_cross, normals_and_areas, unshared
 
-P = ParamSpec("P")
-R = TypeVar("R")
 MIN_VOLUME_SHARE = 0.1  # of the volumes between the faces and their middle: a surface around less has no outside
 FLAT = 1e-9  # of the area to the power of 1.5: a smaller volume is rounding
 # [rad] faces at an edge with a smaller angle between them count as coplanar, to allow for imprecise exports
@@ -29,34 +22,7 @@ MAX_CRACK_RATIO = 5e-5
 MAX_CRACK_ENDS = 8  # ends of open edges that are joined with one, the nearest first
 MIN_MIXED_SHARE = 0.05  # of the edges of two faces: if more of these disagree, no winding is trusted
 MAX_AROUND = 1000  # faces around an edge, above which none of them bounds a solid
-REMEMBERED = 4  # results of one function that are kept, which limits memory
 MAX_COMPARED = 4_000_000  # pairs of faces around edges that are compared at once, which limits memory
-
-
-def remembering(function: Callable[P, R]) -> Callable[P, R]:
-    """Return a function of arrays with its last results, by the contents of these: stages ask the same of the same surface.
-
-    Reading the contents takes a tenth of the work that it saves. Results must not be changed.
-    """
-    results, lock = dict[bytes, R](), Lock()
-
-    @wraps(function)
-    def call(*arrays: P.args, **named: P.kwargs) -> R:
-        contents = blake2b(digest_size=16)
-        for array in map(np.ascontiguousarray, (*arrays, *named.values())):
-            contents.update(f"{array.dtype}{array.shape}".encode())
-            contents.update(array)
-        key = contents.digest()
-        known = results.get(key)
-        result = function(*arrays, **named) if known is None else known
-        with lock:
-            results.pop(key, None)
-            results[key] = result
-            while len(results) > REMEMBERED:
-                del results[next(iter(results))]
-        return result
-
-    return call
 
 
 @dataclass(frozen=True, eq=False)
