@@ -72,7 +72,14 @@ CONSUMERS = (
     Consumer("PhysX, SimReady", "ovphysx", "simready", "ovphysx"),
     Consumer("OpenUSD, SimReady", "openusd", "simready", "openusd"),
     Consumer("SimReady validator, SimReady", "simready", "simready", "simready"),
+    Consumer("robosuite, target", "mujoco", "robosuite", "robosuite"),
+    Consumer("RoboCasa, target", "mujoco", "robocasa", "robocasa"),
+    Consumer("ManiSkill, target", "sapien", "maniskill", "maniskill"),
+    Consumer("Genesis, target", "genesis", "genesis", "genesis", slow=True),
+    Consumer("PhysX, target Isaac Lab", "ovphysx", "isaaclab", "ovphysx"),
+    Consumer("OpenUSD, target Isaac Lab", "openusd", "isaaclab", "openusd"),
 )
+TARGETS = ("robosuite", "robocasa", "maniskill", "genesis", "isaaclab")
 
 
 HOMES = tuple(dict.fromkeys(c.home for c in CONSUMERS))
@@ -84,6 +91,11 @@ def write_asset(mesh: Path, folder: Path) -> None:
         return
     command = [sys.executable, "-m", "anymesh", "articulate", str(mesh), "-o", str(folder), "--formats", FORMATS]
     subprocess.run([*command, "--profile", "simready", "--quiet"], check=True)
+    for target in TARGETS:  # an asset has one; here all are kept
+        subprocess.run([*command[:3], "export", str(folder), "--target", target, "--quiet"], check=True)
+        shutil.move(folder / target, folder.parent / f".{target}")
+    for target in TARGETS:
+        shutil.move(folder.parent / f".{target}", folder / target)
 
 
 def ask(consumer: Consumer, folders: Sequence[Path], work: Path, homes: dict[str, str]) -> None:

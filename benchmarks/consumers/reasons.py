@@ -13,15 +13,16 @@ _NUMBERS = ("friction", "damping", "effort", "velocity", "armature")
 _WITHOUT_ARMATURE = ("MuJoCo, URDF", "Newton, URDF", "SAPIEN", "PyBullet", "Drake, SDF", "Pinocchio", "Genesis", "libsdformat")
 _NO_SPRINGS = "neither URDF, glTF nor UsdPhysics has springs, and Drake reads none of SDFormat"
 _WITHOUT_SPRINGS = (
-    "MuJoCo, URDF", "Newton, URDF", "SAPIEN", "PyBullet", "Drake", "Pinocchio", "Genesis", "OpenUSD", "Blender", "three.js",
+    "MuJoCo, URDF", "Newton, URDF", "SAPIEN", "ManiSkill", "PyBullet",
+    "Drake", "Pinocchio", "Genesis", "OpenUSD", "Blender", "three.js",
 )  # fmt: skip
 _SCHEMAS = "UsdPhysics has none; the value is in the schemas of PhysX and Newton, which OpenUSD keeps as plain attributes"
 REASONS = {
     ("MuJoCo", "velocity"): _NO_VELOCITY,
     ("Newton, MJCF", "velocity"): _NO_VELOCITY,
-    ("SAPIEN", "friction"): _SAPIEN,
-    ("SAPIEN", "effort"): _SAPIEN,
-    ("SAPIEN", "velocity"): _SAPIEN,
+    ("robosuite", "velocity"): _NO_VELOCITY,
+    ("RoboCasa", "velocity"): _NO_VELOCITY,
+    **{(consumer, name): _SAPIEN for consumer in ("SAPIEN", "ManiSkill") for name in ("friction", "effort", "velocity")},
     ("PyBullet", "masses"): "PyBullet gives a fixed base no mass",
     ("PyBullet", "inertia"): "PyBullet gives a fixed base no mass",
     ("Drake", "friction"): "Drake has no friction of joints; of URDF it warns",

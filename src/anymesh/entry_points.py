@@ -52,7 +52,8 @@ WRITE_SDF = "formats.sdf:write_sdf"
 WRITE_DAE = "formats.dae.writing:write_dae"
 GLTF_PHYSICS = "formats.gltf.physics:add_physics"
 
-# An asset as a ROS 2 package and as a zip.
+# An asset as a project's loader wants it, as a ROS 2 package and as a zip.
+WRITE_TARGET = "formats.targets.writing:write_target"
 WRITE_PACKAGE = "formats.packed:write_package"
 CHECK_ZIP = "formats.packed:check_zip"
 WRITE_ZIP = "formats.packed:write_zip"

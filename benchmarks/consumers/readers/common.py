@@ -23,6 +23,9 @@ from pathlib import Path
 
 import numpy as np
 
+TARGETS = {  # files of the folders for a project, which end in the name where it is not given
+    "robosuite": "model.xml", "robocasa": "model.xml", "maniskill": "mobility_cvx.urdf", "genesis": ".xml", "isaaclab": ".usdc",
+}  # fmt: skip
 TURN, SLIDE = 0.1, 0.01  # [rad], [m]: what joints without limits are moved by
 
 
@@ -34,8 +37,10 @@ class Asset:
     content: dict  # of asset.json
 
     def file(self, kind: str) -> Path:
-        """Return the file to open for a format; "simready" is that of the SimReady profile."""
+        """Return the file to open for a format or target; "simready" is that of the SimReady profile."""
         name = self.content["name"]
+        if kind in TARGETS:
+            return self.folder / kind / name / (name * TARGETS[kind].startswith(".") + TARGETS[kind])
         if kind == "simready":
             return self.folder / kind / name / "simready_usd" / f"{name}.usda"
         return self.folder / self.content["files"][kind]

@@ -1,4 +1,4 @@
-"""Genesis on the CPU, from the URDF, without the rotor's inertia of 0.1 that it adds to each joint by default."""
+"""Genesis on the CPU, from the URDF, without the rotor's inertia of 0.1 that it adds to each joint by default, or the MJCF."""
 
 from __future__ import annotations
 
@@ -19,7 +19,10 @@ def numbers(tensor) -> np.ndarray:
 
 def read(asset: Asset, variant: str) -> dict:
     scene = genesis.Scene(show_viewer=False)
-    shape = genesis.morphs.URDF(file=str(asset.file("urdf")), fixed=True, default_armature=0.0, merge_fixed_links=False)
+    if variant == "genesis":
+        shape = genesis.morphs.MJCF(file=str(asset.file(variant)))
+    else:
+        shape = genesis.morphs.URDF(file=str(asset.file(variant)), fixed=True, default_armature=0.0, merge_fixed_links=False)
     body = scene.add_entity(shape)
     scene.build()
 

@@ -6,7 +6,17 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
-from anymesh.entry_points import GLTF_PHYSICS, LOAD_USD, WRITE_MJCF, WRITE_SDF, WRITE_SIMREADY, WRITE_USD, WRITE_USDZ, resolve
+from anymesh.entry_points import (
+    GLTF_PHYSICS,
+    LOAD_USD,
+    WRITE_MJCF,
+    WRITE_SDF,
+    WRITE_SIMREADY,
+    WRITE_TARGET,
+    WRITE_USD,
+    WRITE_USDZ,
+    resolve,
+)
 from anymesh.export.glb import glb_bytes
 from anymesh.export.model import ExportConfig, Model
 from anymesh.export.options import Format, Profile
@@ -36,6 +46,7 @@ def write_formats(model: Model, folder: Path, formats: Sequence[Format], config:
         WRITERS[kind](model, folder, config)
     if model.how.profile is Profile.SIMREADY:
         resolve(WRITE_SIMREADY)(model, folder, config)
+    resolve(WRITE_TARGET)(model, folder)
 
 
 def _write_urdf(model: Model, folder: Path, config: ExportConfig) -> None:

@@ -59,14 +59,29 @@ class Profile(StrEnum):
     SIMREADY = "simready"
 
 
+class TargetProject(StrEnum):
+    """Project whose loader gets a folder of its own, beside the formats."""
+
+    NONE = "none"
+    ROBOCASA = "robocasa"
+    ROBOSUITE = "robosuite"
+    MANISKILL = "maniskill"
+    ISAACLAB = "isaaclab"
+    GENESIS = "genesis"
+
+
 USUAL_PRECISION = 0.0  # probability from which joints are written where none is asked for; 0: all are
 DEFAULT = (Format.URDF, Format.MJCF, Format.SDF, Format.GLB)
 GIVEN_MASS = "given_mass"  # name in asset.json of the mass of the whole, where mass is that of the parts
+NEEDED = {  # formats that the folder of a target is made of
+    TargetProject.ROBOCASA: (Format.MJCF,), TargetProject.ROBOSUITE: (Format.MJCF,), TargetProject.GENESIS: (Format.MJCF,),
+    TargetProject.MANISKILL: (Format.URDF,), TargetProject.ISAACLAB: (Format.USD,),
+}  # fmt: skip
 # least and greatest value of numbers, and how their message ends
 NUMBERS = {"mass": (1e-3, 1e6, " kg, or 0 for none given"), "precision": (0.0, 1.0, ": how likely a written joint is right")}
 CHOICES: Mapping[str, type[StrEnum]] = {  # options whose values are words
     "base": Base, "drives": Driven, "visuals": Visuals, "shapes": Shapes, "resistance": ResistanceLevel,
-    "profile": Profile,
+    "profile": Profile, "target": TargetProject,
 }  # fmt: skip
 
 
@@ -97,6 +112,7 @@ class ExportOptions:
     visuals: Visuals = Visuals.OBJ
     shapes: Shapes = Shapes.PRIMITIVES
     profile: Profile = Profile.NONE
+    target: TargetProject = TargetProject.NONE
     mass: float | None = None  # [kg] of the whole object, None if what it is made of decides
     precision: float = USUAL_PRECISION
 
@@ -110,7 +126,8 @@ class ExportOptions:
         how = cls() if before is None else cls._of(before)
         values = {k: _value(k, given[k]) for k in (f.name for f in fields(cls)) if given.get(k) is not None}
         how = replace(how, **values)
-        return how.with_formats((Format.USD,)) if how.profile is Profile.SIMREADY else how
+        how = how.with_formats((Format.USD,)) if how.profile is Profile.SIMREADY else how
+        return how.with_formats(NEEDED.get(how.target, ()))
 
     @classmethod
     def _of(cls, record: Mapping[str, Any]) -> ExportOptions:

@@ -224,6 +224,10 @@ class FormatOptions:
     profile: str | None = _option(
         None, "none (usual), or simready: also USD in layers, as NVIDIA's SimReady asks for it, in DIR/simready.", kind=str
     )
+    target: str | None = _option(
+        None, "none (usual), robocasa, robosuite, maniskill, isaaclab or genesis: also a folder for that project, DIR/TARGET.",
+        kind=str,
+    )  # fmt: skip
     mass: float | None = _option(
         None, "Mass of the whole object, 0 for that of its materials and walls.", metavar="KG", kind=float
     )
@@ -245,6 +249,7 @@ class Writing(TypedDict, total=False):
     visuals: str | None
     shapes: str | None
     profile: str | None
+    target: str | None
     mass: float | None
     precision: float | None
 

@@ -1,0 +1,1 @@
+"""An asset as the loaders of other projects want it."""
