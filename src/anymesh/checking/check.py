@@ -9,13 +9,13 @@ from anymesh.checking.bodies import check_collision, check_inertia, check_usual,
 from anymesh.checking.content import Content, read_content
 from anymesh.checking.engines import check_engine
 from anymesh.checking.engines.driving import SweepReport
-from anymesh.checking.engines.locate import MJCF, find_description, kind_of
+from anymesh.checking.engines.locate import MJCF, find_description, kind_of, mjcf_beside
 from anymesh.checking.engines.mjcf_ import read_mjcf
 from anymesh.checking.engines.rest_ import Rest, at_rest
 from anymesh.checking.engines.robot import Robot, read_urdf
 from anymesh.checking.joints import check_damping, check_direction, check_joints, check_motion
 from anymesh.checking.report import CheckReport, Finding, Severity, failure
-from anymesh.checking.schema_ import NAME, SCHEMA, check_asset_json, check_files, check_naming, check_tree
+from anymesh.checking.schema_ import NAME, SCHEMA, beyond_urdf, check_asset_json, check_files, check_naming, check_tree
 from anymesh.checking.shapes import HANDLES, check_handles, check_meshes, check_scale, check_texture
 from anymesh.errors import InputError, MissingExtraError
 from anymesh.runtime import read_json
@@ -44,8 +44,9 @@ def check_asset(path: str | Path, *, engines: Sequence[str] = ("mujoco",)) -> Ch
     sweeps: list[SweepReport] = []
     if any(f.check in (SCHEMA, "joints") and f.severity is Severity.FAILURE for f in findings):
         chosen = ()  # engines disagree on what is broken, or end the process
+    mjcf = mjcf_beside(file) if ours and chosen and beyond_urdf(read_json(file.parent / NAME) or {}, robot) else None
     for engine in chosen:
-        of_motion, sweep = check_motion(file, engine, ours=ours)
+        of_motion, sweep = check_motion(mjcf if mjcf is not None and engine == "mujoco" else file, engine, ours=ours)
         findings += of_motion
         sweeps += [] if sweep is None else [sweep]
     return CheckReport(str(path), tuple(findings), tuple(sweeps))
@@ -57,7 +58,9 @@ def _still(content: Content) -> Iterator[Finding]:
     beside = robot.path.parent / NAME
     ours = beside.is_file()
     schema = [*check_files(content), *(check_asset_json(beside, robot) if ours else ())]
-    joints = [*check_joints(robot, content.diagonal), *check_damping(robot)]
+    record = read_json(beside) if ours and not any(f.severity is Severity.FAILURE for f in schema) else None
+    beyond = beyond_urdf(record or {}, robot)
+    joints = [f for f in (*check_joints(robot, content.diagonal), *check_damping(robot)) if f.subject not in beyond]
     straight = not any(f.severity is Severity.FAILURE for f in joints)
     tree = f"{len(robot.links)} links and {len(robot.joints)} joints in a tree with the root {robot.roots[0]!r}"
     yield from _or_ok(SCHEMA, schema, f"{tree}{', asset.json matches its schema' if ours else ''}")
@@ -67,7 +70,6 @@ def _still(content: Content) -> Iterator[Finding]:
     yield from _or_ok("scale", [*check_scale(content)], f"the diagonal is {content.diagonal:.3g} m")
     yield from _or_ok("joints", joints, f"{len(robot.moving)} joints move, with axes, limits, effort and velocity")
     yield from _or_ok("inertia", [*check_inertia(content)], _masses(robot))
-    record = read_json(beside) if ours and not any(f.severity is Severity.FAILURE for f in schema) else None
     yield from _or_ok("usual", [*check_usual(content, record or {})], "size and mass are plausible for what it is")
     if record is not None:
         handles = sum("handle" in joint for joint in record["joints"])
@@ -79,7 +81,8 @@ def _still(content: Content) -> Iterator[Finding]:
     yield from _or_ok("collision", collision, fine)
     yield from _or_ok("texture", [*check_texture(content, ours=ours)], "materials and pictures are there")
     if straight:
-        yield from _or_ok("direction", [*check_direction(content)], "no joint drives its link into its parent")
+        ways = [f for f in check_direction(content) if f.subject not in beyond]
+        yield from _or_ok("direction", ways, "no joint drives its link into its parent")
 
 
 def _or_ok(check: str, findings: list[Finding], text: str) -> Iterator[Finding]:

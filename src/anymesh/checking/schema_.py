@@ -21,6 +21,7 @@ from anymesh.names import legal_name
 SCHEMA = "schema"
 NAME = "asset.json"
 MAX_VIOLATIONS = 5  # maximum number of reported violations
+CHAINS = ("screw", "ball", "free")  # types that a URDF writes as several joints, with links between them
 FIXED = "fixed"  # an MJCF has no names for such joints
 SAME = 1e-6  # tolerance between the numbers of the two files
 NAMING = "naming"
@@ -110,21 +111,52 @@ def _files(record: dict[str, Any], folder: Path) -> Iterator[Finding]:
 
 def _agreement(record: dict[str, Any], robot: Robot) -> Iterator[Finding]:
     """Check parts, joints and limits against those of the description, whose joints form a tree."""
-    joints = record["joints"]
+    joints, parts = record["joints"], [p["name"] for p in record["parts"]]
+    links, moving, above = [link.name for link in robot.links], robot.moving, {j.child: j.parent for j in robot.joints}
+    if any(j["type"] in CHAINS for j in joints):  # a chain counts as one joint
+        known = {j["name"] for j in joints}
+        links, moving = [n for n in links if n in parts], tuple(j for j in moving if j.name in known)
+
+        def part_above(link: str) -> str:
+            return link if link in parts or link not in above else part_above(above[link])
+
+        above = {child: part_above(parent) for child, parent in above.items() if child in parts}
     for word, recorded, described in (
-        ("parts", [p["name"] for p in record["parts"]], [link.name for link in robot.links]),
-        ("joints", [j["name"] for j in joints if j["type"] != FIXED], [j.name for j in robot.moving]),
-        ("parents", [(j["child"], j["parent"]) for j in joints], [(j.child, j.parent) for j in robot.joints]),
+        ("parts", parts, links),
+        ("joints", [j["name"] for j in joints if j["type"] != FIXED], [j.name for j in moving]),
+        ("parents", [(j["child"], j["parent"]) for j in joints], [*above.items()]),
     ):
         if sorted(recorded) != sorted(described):
             yield failure(
                 SCHEMA, NAME, f"its {word} {sorted(recorded)} are not those of {robot.path.name}: {sorted(described)}"
             )
     limits = {j.name: j.limits for j in robot.joints}
-    for joint in joints:
+    for joint in (j for j in joints if j["type"] not in CHAINS):
         other = limits.get(joint["name"])
         if joint["limits"] and other and max(abs(a - b) for a, b in zip(joint["limits"], other, strict=True)) > SAME:
             yield failure(SCHEMA, NAME, f"the limits of {joint['name']!r} are {joint['limits']}, in {robot.path.name} {other}")
+
+
+def beyond_urdf(record: dict[str, Any], robot: Robot) -> set[str]:
+    """Return the joints of a description that say only a part of a mechanism: chains for one joint, and what is on loops.
+
+    They are proved on the MJCF. record: asset.json.
+    """
+    joints = {j["name"]: j for j in record.get("joints", ())}
+    chains = {name for name, j in joints.items() if j["type"] in CHAINS}
+    helpers = {j.name for j in robot.joints} - joints.keys() if chains else set()
+    above = {j["child"]: j for j in joints.values()}
+    looped = set[str]()
+    for loop in record.get("loops", ()):
+        ways = []
+        for link in loop["links"]:
+            way = set[str]()
+            while link in above:
+                way.add(above[link]["name"])
+                link = above[link]["parent"]
+            ways.append(way)
+        looped |= ways[0] ^ ways[1]
+    return chains | helpers | looped
 
 
 def check_naming(robot: Robot) -> Iterator[Finding]:

@@ -56,7 +56,8 @@ def test_all_that_is_right_is_proved(tmp_path):
 
 
 def test_a_follower_that_its_limits_hold_back_is_a_fault(tmp_path):
-    (led,) = prove_mechanisms(written(tmp_path, "gears", reach=1.0))
+    lead, led = prove_mechanisms(written(tmp_path, "gears", reach=1.0))[-2:]
+    assert "not to its limit" in lead.faults[0]
     assert "from where its leader puts it" in led.faults[0]
     (led,) = prove_mechanisms(written(tmp_path, "gears", reach=4.1))
     assert not led.faults

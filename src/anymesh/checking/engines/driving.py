@@ -60,7 +60,7 @@ class JointSweep:
 
 @dataclass(frozen=True)
 class ProvedMechanism:
-    """What was proved of a mechanism. kind: follower, loop, ball or free.
+    """What was proved of a mechanism. kind: follower, loop, ball, free, or a leader that falls short.
 
     error: how far a follower was from its place [rad or m], a loop opened [m], a ball turned [rad], or a loose part was lifted
     [m]; faults: in words.

@@ -122,6 +122,10 @@ class _MechanismBench:
         for lead in self.leading:
             for goal in self._range(lead):
                 unstable |= not self._moved(lead, goal, behind, opened)
+                reached = float(self._amounts()[lead])
+                if abs(reached - goal) > BEHIND * float(np.ptp(self._range(lead))):
+                    fault = f"it comes to {reached:.3g} only, not to its limit {goal:.3g}"
+                    yield ProvedMechanism("leader", self.model.joint(lead).name, abs(reached - goal), (fault,))
         for joint, error in behind.items():
             most, name = BEHIND * float(np.ptp(self._range(joint))), self.model.joint(joint).name
             fault = f"it is up to {error:.3g} from where its leader puts it; at most {most:.3g} is valid"
@@ -138,6 +142,10 @@ class _MechanismBench:
         limited = self.model.jnt_limited[joint] and high - low < ENDLESS * most
         return (float(low), float(high)) if limited else (-most, most)
 
+    def _amounts(self) -> Float[np.ndarray, " n"]:
+        """Return how far hinges and slides are from rest [rad or m], by the number of the joint."""
+        return self.data.qpos[self.model.jnt_qposadr] - self.model.qpos0[self.model.jnt_qposadr]
+
     def _moved(self, lead: int, goal: float, behind: dict[int, float], opened: list[float]) -> bool:
         """Move a joint from rest to a limit; return whether the simulation stayed stable."""
         mujoco, model, data = self.mujoco, self.model, self.data
@@ -150,7 +158,7 @@ class _MechanismBench:
             mujoco.mj_step(model, data)
             if is_unstable(data):
                 return False
-            q = data.qpos[model.jnt_qposadr] - model.qpos0[model.jnt_qposadr]
+            q = self._amounts()
             for joint, (leader, coefficients) in self.follow.items():
                 error = abs(float(q[joint] - np.polynomial.polynomial.polyval(q[leader], coefficients)))
                 behind[joint] = max(behind[joint], error)
@@ -167,16 +175,19 @@ class _MechanismBench:
         mujoco, model, data = self.mujoco, self.model, self.data
         dof, at = int(model.jnt_dofadr[joint]), int(model.jnt_qposadr[joint])
         limit = float(model.jnt_range[joint, 1]) if model.jnt_limited[joint] else np.pi
-        turned = 0.0
+        turned, dofs = 0.0, slice(dof, dof + 3)
+        friction = model.dof_frictionloss[dofs].copy()
+        model.dof_frictionloss[dofs] = 0  # what overcomes it would press into the limit, which is soft
         for k, sign in ((k, sign) for k in range(3) for sign in (1, -1)):
             mujoco.mj_resetData(model, data)
-            needed = float(model.dof_M0[dof + k]) * limit + float(model.dof_frictionloss[dof + k])
-            data.qfrc_applied[dof + k] = sign * 10 * (needed + float(model.dof_damping[dof + k]) * limit)
-            for _ in range(round(1.0 / STEP)):
+            pull = 10 * float(model.dof_M0[dof + k]) + float(model.dof_damping[dof + k])  # turns it within about a second
+            data.qfrc_applied[dof + k] = sign * pull * limit
+            for _ in range(round(1.5 / STEP)):
                 mujoco.mj_step(model, data)
                 turned = max(
                     turned, 2 * float(np.arccos(min(abs(float(data.qpos[at : at + 4] @ model.qpos0[at : at + 4])), 1.0)))
                 )
+        model.dof_frictionloss[dofs] = friction
         faults = [f"it turns by {turned:.3g} rad, beyond its limit of {limit:.3g}"] if turned > limit + SLACK_RAD else []
         faults += [f"it turns by {turned:.3g} rad only"] if turned < limit / 2 else []
         return ProvedMechanism("ball", model.joint(joint).name, turned, tuple(faults))
