@@ -1,11 +1,12 @@
 """Every joint of some assets, moved by a floating gripper that is given only the best pose of grasps.json.
 
-    python -m benchmarks.grasps FOLDER [--out TABLE.md] [--trials 10]
+    python -m benchmarks.grasps FOLDER [--out TABLE.md] [--trials 10] [--joints 6]
 
-FOLDER holds assets (of `anymesh articulate`, or of known parts and joints); grasps.json is written where there is none. A joint
-is moved if it makes 90 % of the way from rest to its farther limit (at most 90 degrees, 60 if it is endless), with the hand led
-along the joint. The first try is as stated. In the others the object is displaced by up to 3 mm and 1 degree without the
-gripper knowing, with other friction, mass and damping, drawn with another seed than those by which the poses were ranked.
+FOLDER holds assets (of `anymesh articulate`, or of known parts and joints); grasps.json is written where there is none. Of one
+with more joints, as many are measured, spread over its list. A joint is moved if it makes 90 % of the way from rest to its
+farther limit (at most 90 degrees, 60 if it is endless), with the hand led along the joint. The first try is as stated. In the
+others the object is displaced by up to 3 mm and 1 degree without the gripper knowing, with other friction, mass and damping,
+drawn with another seed than those by which the poses were ranked.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import numpy as np
 from anymesh.applications.grasps.grasps import NAME, JointGrasps, read_grasps, write_grasps
 from anymesh.applications.grasps.ranking_ import VARIED, placed, rank_grasps
 from anymesh.applications.policy.controller_ import DONE, follow_target
-from anymesh.applications.policy.objects_ import find_assets
+from anymesh.applications.policy.objects_ import find_assets, moving_joints
 from anymesh.applications.policy.robots_ import GRIPPER, Gripper
 from anymesh.errors import AnymeshError
 
@@ -35,12 +36,19 @@ def moved(asset: Path, found: JointGrasps, gripper: Gripper, trials: int) -> tup
     return share, float(np.mean(others))
 
 
-def rows(folder: Path, trials: int) -> Iterator[tuple[str, JointGrasps, float, float]]:
+def grasps_of(asset: Path, most: int) -> tuple[Gripper, tuple[JointGrasps, ...]]:
+    """Return what grasps.json says of some joints, or of joints ranked now."""
+    if not (asset / NAME).is_file():
+        names = moving_joints(asset)
+        some = [names[k * len(names) // most] for k in range(most)] if len(names) > most else names
+        write_grasps(asset / NAME, [rank_grasps(asset, name)[0] for name in some], GRIPPER, 0)
+    return read_grasps(asset / NAME)
+
+
+def rows(folder: Path, trials: int, most: int) -> Iterator[tuple[str, JointGrasps, float, float]]:
     for asset in find_assets(folder):
         try:
-            if not (asset / NAME).is_file():
-                write_grasps(asset / NAME, rank_grasps(asset), GRIPPER, 0)
-            gripper, joints = read_grasps(asset / NAME)
+            gripper, joints = grasps_of(asset, most)
         except AnymeshError as error:
             print(f"{asset.name}: {error}")
             continue
@@ -53,10 +61,11 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--out", type=Path)
     parser.add_argument("--trials", type=int, default=10)
+    parser.add_argument("--joints", type=int, default=6)
     args = parser.parse_args()
     lines = ["| asset | joint | pose | score | made | displaced | why not |", "|---|---|---|---|---|---|---|"]
     made: dict[str, list[tuple[bool, float]]] = {}
-    for name, found, share, others in rows(args.folder, args.trials):
+    for name, found, share, others in rows(args.folder, args.trials, args.joints):
         best, score = (found.grasps[0].kind.value, f"{found.grasps[0].score:.2f}") if found.grasps else ("-", "-")
         made.setdefault(name, []).append((share >= DONE, others))
         why = found.reason or "-" if not found.after else f"after {', '.join(n for n, _ in found.after)}"

@@ -1,5 +1,6 @@
 """What the live page draws: the parts as they are, axes and limits where the joints are, overlays with the right size."""
 
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -12,7 +13,19 @@ from anymesh.geometry.kinematics import link_transforms
 from anymesh.physics.inertia import Inertia
 from anymesh.types import Asset, Box, Cylinder, Joint, JointType, Part, Segmentation
 from anymesh.viewer.panels import head, joint_table, selection
-from anymesh.viewer.scene import Surfaces, apart, box_lines, color_of, inertia_box, joint_lines, shape_surface, swayed
+from anymesh.viewer.scene import (
+    Surfaces,
+    apart,
+    box_lines,
+    color_of,
+    gripper_lines,
+    inertia_box,
+    joint_lines,
+    read_grippers,
+    report_scene,
+    shape_surface,
+    swayed,
+)
 from anymesh.viewer.session import part_poses
 
 
@@ -145,3 +158,34 @@ def test_names_from_a_file_are_escaped_and_warnings_come_first():
     assert text.index("is odd") < text.index("a note")
     assert "2 corrections not saved" in text
     assert "1 correction not saved" in head(asset, unsaved=1, note="", tool="")
+
+
+def test_the_best_grasp_of_a_joint_stands_for_its_handle_and_what_is_wrong_is_left_out(tmp_path):
+    asset = cabinet()
+    joint, other = asset.joints[:2]
+    handle = {
+        "link": joint.child,
+        "place": [0, 0, 1],
+        "approach": [0, 1, 0],
+        "closing": [0, 0, 1],
+        "width": 0.02,
+        "depth": 0.03,
+    }
+    record = {
+        "joints": [{"name": joint.name, "handle": handle}, {"name": other.name, "handle": {**handle, "link": other.child}}]
+    }
+    (tmp_path / "asset.json").write_text(json.dumps(record))
+    pose = {"pose": np.eye(4).tolist(), "prehensile": True, "width": 0.01}
+    bad = {"pose": [[1, 2], [3, 4]], "prehensile": True, "width": 0.01}
+    hand = {"finger": {"tip": 0.012}}
+    joints = [{"joint": joint.name, "link": joint.child, "grasps": [pose]}, {"joint": "x", "link": "x", "grasps": [pose]}, 3]
+    (tmp_path / "grasps.json").write_text(json.dumps({"gripper": hand, "joints": joints}))
+    first, second = read_grippers(tmp_path, asset)
+    assert (first.link, first.grasp, second.link, second.grasp) == (joint.child, True, other.child, False)
+    assert np.allclose(first.T[:3, 3], joint.origin)
+    assert np.allclose(gripper_lines(second, 0.1)[:2, 0].mean(0), (0, 0.03, 1))  # the tips, ahead of the handle's place
+    assert [g["link"] for g in report_scene(asset, looks=False, grippers=(first, second))["grippers"]] == [1, 2]
+    joints[0]["grasps"] = [bad]
+    (tmp_path / "grasps.json").write_text(json.dumps({"gripper": hand, "joints": joints}))
+    assert [g.grasp for g in read_grippers(tmp_path, asset)] == [False, False]
+    assert read_grippers(tmp_path / "nothing", asset) == ()

@@ -24,7 +24,7 @@ from anymesh.viewer.looks import has_looks
 from anymesh.viewer.panels import SMALL, Page, badge, head, joint_table, scale_of
 from anymesh.viewer.parts.panel_ import PartPanel
 from anymesh.viewer.review_ import ReviewPanel
-from anymesh.viewer.scene import shown_range, swayed
+from anymesh.viewer.scene import read_grippers, shown_range, swayed
 from anymesh.viewer.scene_ import SceneView
 from anymesh.viewer.session import Clock, Session
 
@@ -52,11 +52,12 @@ class PlayPanel:
             with gui.add_folder("Shown"):  # no hint above or below a slider: it would cover it
                 self._textures = gui.add_checkbox("Textures", False)
                 self._axes = gui.add_checkbox("Axes and limits", True)
+                self._grippers = gui.add_checkbox("Grasps", False, hint="Cyan: the best; green: handles")
                 self._collision = gui.add_checkbox("Collision shapes", False)
                 self._inertia = gui.add_checkbox("Inertia", False, hint="Boxes of even density with the mass and moments")
                 self._explode = gui.add_slider("Exploded", 0.0, 1.0, 0.01, 0.0)
             self._explode.on_update(_by_hand(lambda: page.act(self._set_explode)))
-            for box in (self._textures, self._axes, self._collision, self._inertia):
+            for box in (self._textures, self._axes, self._grippers, self._collision, self._inertia):
                 box.on_update(_by_hand(lambda: page.act(self._set_shown)))
             with gui.add_folder("Why", expand_by_default=False):
                 self._why = gui.add_html("")
@@ -127,7 +128,14 @@ class PlayPanel:
         self._chosen = self._chosen or view.textured != self._textures.value
         view.textured, view.axes = self._textures.value, self._axes.value
         view.collision, view.inertia = self._collision.value, self._inertia.value
+        self.read_grippers()
         self._page.refresh()
+
+    def read_grippers(self) -> None:
+        """Show the handles and grasps that the folder has now."""
+        session = self._page.session
+        shown = session is not None and self._grippers.value
+        self._page.view.grippers = read_grippers(session.folder, session.asset) if shown else ()
 
 
 def saved_line(unsaved: int, saved: str) -> str:
@@ -200,6 +208,7 @@ class LivePage:
             self.playing, self._saved = None, ""
             self.view.look_at(self.session.asset.mesh)
             self.play.choose_looks(self.session.asset)
+            self.play.read_grippers()
             self.refresh()
             self._show_controls()
 
@@ -298,6 +307,7 @@ class LivePage:
     def save(self) -> None:
         if self.session is not None:
             self.session.save()
+            self.play.read_grippers()
             self._saved = f"Saved at {self._clock()[11:16]} to {self.session.folder}"
             self.refresh()
             self.show_message(f"All files are written to {self.session.folder}", "Saved")

@@ -46,7 +46,7 @@ from anymesh.types import (
     Texture,
 )
 from anymesh.types.triangles import normals_and_areas
-from anymesh.viewer.scene import report_scene
+from anymesh.viewer.scene import GripperMark, read_grippers, report_scene
 
 PREVIEW = "preview.png"
 THUMBNAIL = (240, 180)  # [px]
@@ -158,9 +158,8 @@ def _joint(record: Mapping[str, Any]) -> Joint:
 
 def _proposal(record: Mapping[str, Any]) -> ProposedJoint:
     part = Part(record["child"], record["label"], record["part_confidence"], record["part_reason"])
-    return ProposedJoint(
-        part, _joint(record), float(record["probability"]), str(record["motion"]), np.zeros(0, int)
-    )  # no faces
+    no_faces = np.zeros(0, int)
+    return ProposedJoint(part, _joint(record), float(record["probability"]), str(record["motion"]), no_faces)
 
 
 def _exchange(folder: Path, path: Path) -> Exchange | None:
@@ -318,7 +317,7 @@ def folder_entry(folder: Path, title: str, *, faces: int) -> ReportEntry:
         return ReportEntry(title, None, problem=str(error))
     shown, notes = displayed(asset, faces=faces)
     glb = display_glb(shown) if notes else glb_path(folder).read_bytes()
-    return _entry(title, asset, shown, glb, notes, _preview(folder / PREVIEW))
+    return _entry(title, asset, shown, glb, notes, _preview(folder / PREVIEW), read_grippers(folder, asset))
 
 
 def asset_entry(asset: Asset, *, faces: int) -> ReportEntry:
@@ -353,12 +352,15 @@ def picture_key(png: bytes) -> str:
     return hashlib.sha256(png).hexdigest()[:16]
 
 
-def _entry(title: str, asset: Asset, shown: Asset, glb: bytes, notes: tuple[str, ...], preview: bytes) -> ReportEntry:
+def _entry(
+    title: str, asset: Asset, shown: Asset, glb: bytes, notes: tuple[str, ...], preview: bytes,
+    grippers: tuple[GripperMark, ...] = (),
+) -> ReportEntry:  # fmt: skip
     mesh = asset.mesh
     return ReportEntry(
         title=title,
         asset=asset,
-        scene=report_scene(shown, looks=materials_shown(mesh.materials, mesh.corner_color)),
+        scene=report_scene(shown, looks=materials_shown(mesh.materials, mesh.corner_color), grippers=grippers),
         glb=gzip.compress(glb, 6, mtime=0),
         preview=preview,
         pictures=_pictures(asset),

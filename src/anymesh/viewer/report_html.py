@@ -264,12 +264,14 @@ def _tools(entry: ReportEntry) -> str:
     if not entry.glb:
         return ""
     looks = bool(entry.scene and entry.scene["looks"])
+    gripped = bool(entry.scene and entry.scene["grippers"])
     moves = "" if entry.asset and any(j.type is not JointType.FIXED for j in entry.asset.joints) else " disabled"
     return (
         f'<div class="tools"><button class="all"{moves}>▶ Play all</button><button class="rest"{moves}>Rest</button>'
         '<button class="home">Reset view</button>'
         f'<label><input type="checkbox" class="looks"{" checked" if looks else ""}> materials</label>'
         '<label><input type="checkbox" class="axes" checked> axes</label>'
+        f'<label{"" if gripped else " hidden"}><input type="checkbox" class="grippers" checked> grasps</label>'
         '<label class="explode">explode <input type="range" min="0" max="1" step="any" value="0" class="apart" '
         'aria-label="explode"></label></div>'
     )

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -16,6 +18,7 @@ from anymesh.mechanisms.following import follower_tables
 from anymesh.physics.inertia import Inertia
 from anymesh.rendering.marks import axis_line, ring
 from anymesh.rendering.preview import BASE, LIFT, PALETTE, opened_view
+from anymesh.runtime import read_json
 from anymesh.types import Asset, Box, Brief, Cylinder, Hull, Joint, JointType, Mesh, Shape
 from anymesh.types.motion import SLIDING
 from anymesh.types.triangles import unshared
@@ -225,7 +228,63 @@ def palette() -> dict[str, str]:
     return {name: "#{:02x}{:02x}{:02x}".format(*(int(v) for v in color)) for name, color in rows.items()}
 
 
-def report_scene(asset: Asset, *, looks: bool) -> dict[str, Any]:
+@dataclass(frozen=True, eq=False)
+class GripperMark(Brief):
+    """A gripper at a part: its best grasp, or the frame of its handle.
+
+    T: (4, 4) in the asset frame at rest, z along the approach, y along the closing direction; width: between the fingers [m];
+    depth: of the tips ahead of the origin [m].
+    """
+
+    link: str
+    T: Float[np.ndarray, "4 4"]
+    width: float
+    depth: float
+    grasp: bool
+
+
+def read_grippers(folder: Path, asset: Asset) -> tuple[GripperMark, ...]:
+    """Return the best grasp of each joint that an asset's folder states, else its handle, without those that cannot be read."""
+    grippers, origin = {}, {asset.segmentation.parts[0].name: np.zeros(3), **{j.child: j.origin for j in asset.joints}}
+    stated = (read_json(folder / "asset.json") or {}, read_json(folder / "grasps.json") or {})
+    for grasp, record in enumerate(stated):
+        joints = record.get("joints")
+        for joint in joints[: len(asset.joints)] if isinstance(joints, list) else ():
+            with suppress(KeyError, TypeError, ValueError, IndexError, AttributeError):
+                T, width, depth = _grasp(joint, record) if grasp else _handle(joint["handle"])
+                link = joint["link"] if grasp else joint["handle"]["link"]
+                T[:3, 3] += origin[link] * grasp  # which is in the frame of its link
+                if np.isfinite([*T.ravel(), width, depth]).all() and np.allclose(T[:3, :3] @ T[:3, :3].T, np.eye(3), atol=1e-3):
+                    grippers[joint["joint" if grasp else "name"]] = GripperMark(link, T, width, depth, bool(grasp))
+    return tuple(grippers.values())
+
+
+def _handle(handle: dict[str, Any]) -> tuple[Float[np.ndarray, "4 4"], float, float]:
+    y, z = np.array(handle["closing"], float), np.array(handle["approach"], float)
+    T = np.eye(4)
+    T[:3, :3], T[:3, 3] = np.stack([np.cross(y, z), y, z], 1), handle["place"]
+    return T, float(handle["width"]), float(handle["depth"])
+
+
+def _grasp(joint: dict[str, Any], record: dict[str, Any]) -> tuple[Float[np.ndarray, "4 4"], float, float]:
+    best, tip = joint["grasps"][0], float(record["gripper"]["finger"]["tip"])
+    T = np.array(best["pose"], float).reshape(4, 4)
+    held = bool(best["prehensile"])
+    return T, float(best["width"]), tip if held else 0.0  # what presses does so with its tips
+
+
+def gripper_lines(gripper: GripperMark, size: float) -> Float[np.ndarray, "4 2 3"]:
+    """Return two fingers, the palm and the arm of a gripper as segments in the asset frame [m]. size: of what is drawn [m]."""
+    y, ahead = max(gripper.width, size / 4) / 2, min(gripper.depth, size)
+    palm = [0, 0, -size / 2]
+    own = np.array(
+        [[[0, -y, ahead], [0, -y, palm[2]]], [[0, y, ahead], [0, y, palm[2]]], [[0, -y, palm[2]], [0, y, palm[2]]],
+         [palm, [0, 0, -1.5 * size]]]
+    )  # fmt: skip
+    return own @ gripper.T[:3, :3].T + gripper.T[:3, 3]
+
+
+def report_scene(asset: Asset, *, looks: bool, grippers: tuple[GripperMark, ...] = ()) -> dict[str, Any]:
     """Return plain values, lengths [m] in the asset frame at rest, parts by index. looks: start with materials."""
     number = {part.name: k for k, part in enumerate(asset.segmentation.parts)}
     carried = {joint.child: joint for joint in asset.joints}
@@ -249,7 +308,13 @@ def report_scene(asset: Asset, *, looks: bool) -> dict[str, Any]:
     order = {joint.name: k for k, joint in enumerate(asset.joints)}
     for name, (leader, positions) in follower_tables(asset).items():
         joints[order[name]]["follows"] = {"joint": order[leader], "positions": positions}
-    return {"links": links, "joints": joints, "looks": looks, "ring": RING * asset.mesh.diagonal, **_first_view(asset)}
+    size = RING * asset.mesh.diagonal
+    drawn = [
+        {"link": number[g.link], "grasp": g.grasp, "lines": gripper_lines(g, 2 * size).reshape(-1).tolist()}
+        for g in grippers
+        if g.link in number
+    ]
+    return {"links": links, "joints": joints, "looks": looks, "ring": size, "grippers": drawn, **_first_view(asset)}
 
 
 def _joint_data(asset: Asset, joint: Joint, number: dict[str, int], corners: np.ndarray, middle: np.ndarray) -> dict[str, Any]:

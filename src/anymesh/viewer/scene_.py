@@ -18,11 +18,23 @@ from anymesh.types import Asset, JointType, Mesh, Segmentation
 from anymesh.types.camera import Camera
 from anymesh.types.triangles import unshared
 from anymesh.viewer.looks import FROM_Y_UP, Ground, mesh_glb
-from anymesh.viewer.scene import DisplayMesh, Surfaces, box_lines, color_of, inertia_box, joint_lines, shade_of, shape_surface
+from anymesh.viewer.scene import (
+    RADIUS,
+    DisplayMesh,
+    GripperMark,
+    Surfaces,
+    box_lines,
+    color_of,
+    gripper_lines,
+    inertia_box,
+    joint_lines,
+    shade_of,
+    shape_surface,
+)
 from anymesh.viewer.session import part_poses
 
 AXIS, SENSE, RANGE, SELECTED, CHOSEN = (190, 20, 40), (190, 20, 40), (30, 110, 200), (255, 120, 0), (230, 0, 200)
-INERTIA = (140, 70, 200)
+INERTIA, HANDLE, GRASP = (140, 70, 200), (0, 135, 90), (0, 160, 200)
 THIN, THICK = 2.0, 3.0  # [px] line widths
 SEE_THROUGH = 0.35  # opacity of overlays
 DISTANCE, FOV = 2.3, np.deg2rad(35)  # of the first view: distance in diagonals; vertical field of view
@@ -46,6 +58,8 @@ class SceneView:
         self._made = count()  # part of every name: a tab reuses the pose of a removed node for a new one with the same name
         self._built: tuple[Asset, Model] | None = None
         self._marks: list[Any] = []
+        self._grippers: list[Any] = []
+        self.grippers: tuple[GripperMark, ...] = ()  # that are drawn
         self._ground = Ground(self._scene)
         self.textured, self.axes, self.collision, self.inertia = False, True, False, False
         self._scene.set_up_direction("+z")
@@ -73,17 +87,28 @@ class SceneView:
         """Draw an asset; unchanged parts are not redrawn."""
         _remove(self._marks)
         _remove(self._overlays)
+        _remove(self._grippers)
         if self._drawn is None or self._drawn[0] is not asset.segmentation or self._drawn[1] != self.textured:
             self._draw_parts(asset)
             self._drawn = (asset.segmentation, self.textured)
         self._asset = asset
         self._ground.lay(asset.mesh, asset.segmentation.face_part)
         self._draw_axes(asset)
+        for gripper in self.grippers:
+            if gripper.link in self._frames:
+                lines, color = gripper_lines(gripper, 2 * RADIUS * asset.mesh.diagonal), GRASP if gripper.grasp else HANDLE
+                self._grippers.append(self._lines(self._below(gripper.link), lines, color, 2 * THICK))
         self._draw_overlays(asset)
 
     def clear(self) -> None:
         """Remove the asset from the scene."""
-        for handles in (self._marks, self._overlays, [*self._frames.values()], [frame for _, frame in self._axes]):
+        for handles in (
+            self._marks,
+            self._grippers,
+            self._overlays,
+            [*self._frames.values()],
+            [frame for _, frame in self._axes],
+        ):
             _remove(handles)
         self._frames, self._meshes, self._looks, self._axes = {}, {}, [], []
         self._asset = self._drawn = self._built = None

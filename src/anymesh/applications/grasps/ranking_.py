@@ -141,7 +141,7 @@ def _in_front(object_: TaskObject) -> str | None:
     for name, value in thing.opened:
         data.qpos[model.joint(name).qposadr[0]] = value
     mujoco.mj_forward(model, data)
-    joint_of = {int(model.jnt_bodyid[j]): model.joint(j).name for j in single_joints(model)}
+    joint_of = {int(model.jnt_bodyid[j]): model.joint(j).name for j in single_joints(model) if model.jnt_limited[j]}
     shown = shown_geoms(model)
     surfaces = [geom_triangles(mujoco, model, data, geom) for geom in shown]
     bodies = np.repeat(model.body_weldid[model.geom_bodyid[shown]], [len(some) for some in surfaces])

@@ -60,6 +60,7 @@
       on(".home", "click", () => this.view?.home());
       on(".looks", "change", (e) => this.view?.colors(e.target.checked));
       on(".axes", "change", (e) => this.view?.axes(e.target.checked));
+      on(".grippers", "change", (e) => this.view?.grippers(e.target.checked));
       on(".apart", "input", () => { this.show(); this._apply(); });
     }
 
@@ -136,6 +137,7 @@
       this.stage.classList.add("live");
       this._habits();
       this.view.axes(this.find(".axes").checked);
+      this.view.grippers(this.find(".grippers").checked);
       this.view.colors(this.find(".looks").checked);
       this._apply();
       const live = entries.filter((e) => e.view).sort((a, b) => b.used - a.used);

@@ -1,7 +1,7 @@
 // One asset in 3D. Lengths are metres; the scene's own frame is the asset frame (Z up), glTF's Y up is turned into it.
 "use strict";
 const AnymeshView = (() => {
-  const T = THREE, AXIS = 0xbe1428, PATH = 0x555555, PICKED = 0x1e6ef5, HELD = 0x00875a;
+  const T = THREE, AXIS = 0xbe1428, PATH = 0x555555, PICKED = 0x1e6ef5, HELD = 0x00875a, GRASP = 0x00a0c8;
   const METAL = 0.4; // no more than this: there is no room to be mirrored
   const SLIDES = new Set(["prismatic", "free"]);
   const lead = (joint, amount) => (joint.pitch ?? 0) / (2 * Math.PI) * amount; // along the axis of a screw
@@ -34,7 +34,7 @@ const AnymeshView = (() => {
       this.scene.add(this.root);
       this._adopt(gltf);
       this._marks();
-      this._handles(gltf);
+      this._grippers();
       stage.prepend(this.canvas);
       this.controls = new T.OrbitControls(this.camera, this.canvas);
       this.controls.addEventListener("change", () => { this.dirty = true; });
@@ -116,34 +116,23 @@ const AnymeshView = (() => {
       });
     }
 
-    // A handle as its node says: an arrow along the approach, and where the two fingers close.
-    _handles(gltf) {
-      const found = [];
-      gltf.scene.traverse((object) => { if (object.userData.handle) found.push(object); });
-      const paint = new T.MeshBasicMaterial({ color: HELD, depthTest: false, transparent: true, opacity: 0.9 });
-      for (const node of found) {
-        const { width, depth } = node.userData.handle, size = this.data.ring, thick = size / 8, group = new T.Group();
-        const bar = (length, turn) => {
-          const mesh = new T.Mesh(new T.CylinderGeometry(thick / 2, thick / 2, length, 8), paint);
-          mesh.rotation.x = turn;
-          return mesh;
-        };
-        const shaft = bar(size, Math.PI / 2), head = new T.Mesh(new T.ConeGeometry(2 * thick, 4 * thick, 12), paint);
-        shaft.position.z = -1.5 * size;
-        head.position.z = -size + 2 * thick;
-        head.rotation.x = Math.PI / 2;
-        const palm = bar(width + thick, 0), reach = size / 2 + Math.min(depth, size);
-        palm.position.z = -size / 2;
-        for (const side of [-1, 1]) {
-          const finger = bar(reach, Math.PI / 2);
-          finger.position.set(0, side * (width + thick) / 2, reach / 2 - size / 2);
-          group.add(finger);
+    // Handles and best grasps: two fingers, a palm and an arm, as segments in the asset frame at rest.
+    _grippers() {
+      const thick = this.data.ring / 9;
+      this.marked = this.data.grippers.map((gripper) => {
+        const paint = new T.MeshBasicMaterial({ color: gripper.grasp ? GRASP : HELD, depthTest: false, transparent: true, opacity: 0.9 });
+        const group = new T.Group(), origin = vector(this.data.links[gripper.link].origin);
+        for (let k = 0; k < gripper.lines.length; k += 6) {
+          const a = vector(gripper.lines.slice(k, k + 3)).sub(origin), b = vector(gripper.lines.slice(k + 3, k + 6)).sub(origin);
+          const along = b.clone().sub(a), bar = new T.Mesh(new T.CylinderGeometry(thick, thick, along.length(), 8), paint);
+          bar.position.copy(a).add(b).multiplyScalar(0.5);
+          bar.quaternion.setFromUnitVectors(new T.Vector3(0, 1, 0), along.normalize());
+          group.add(bar);
         }
-        group.add(shaft, head, palm);
         group.traverse((mark) => { mark.renderOrder = 10; mark.userData.mark = true; });
-        node.add(group);
-        this.marks.push(group);
-      }
+        this.nodes[gripper.link].add(group);
+        return group;
+      });
     }
 
     _path(joint, frame) {
@@ -195,6 +184,11 @@ const AnymeshView = (() => {
 
     axes(shown) {
       for (const mark of this.marks) mark.visible = shown;
+      this.dirty = true;
+    }
+
+    grippers(shown) {
+      for (const gripper of this.marked) gripper.visible = shown;
       this.dirty = true;
     }
 
