@@ -8,13 +8,13 @@ import numpy as np
 import pytest
 from assets import box
 from known import QUICK, Watched, known, ready, true_answers, visual_prompts
-from made import EDGE, PLATE, PULL
+from made import EDGE, PLATE, PULL, turn
 from scenes import Scene
 from test_answers_weighed import case
 
 from anymesh.prompted.motions.cases import make_cases
 from anymesh.prompted.motions.joints import Questions, prompt_joints
-from anymesh.prompted.motions.offers import MotionOffers
+from anymesh.prompted.motions.offers import MotionOffers, ways_of_copy
 from anymesh.prompted.motions.verify import Choice, PartAnswers, _to_one_side
 from anymesh.prompted.pictures.views import is_beside
 
@@ -81,3 +81,20 @@ def test_copies_open_to_one_side_by_all_answers_and_geometry() -> None:
     middles = [mesh.triangles[segmentation.face_part == k].mean((0, 1)) for k in (1, 2)]
     ways = [float(np.cross(j.axis, middle - j.origin) @ Y) for j, middle in zip(made.joints, middles, strict=True)]
     assert max(ways) < 0  # to the front, as answered for both
+
+
+def flap(x: float, side: float) -> list:
+    """Return a flap at x [m] with a horn at its outer end, so that the two sides are mirror images alone."""
+    horn = x + side * 0.11
+    return [box((x - 0.15, 0.0, 0.0), (x + 0.15, 0.1, 0.02)), box((horn - 0.04, 0.1, 0.0), (horn + 0.04, 0.2, 0.02))]
+
+
+def test_mirror_images_are_asked_about_once_and_turn_mirrored() -> None:
+    scene: Scene = {"base": [box((-0.6, -0.4, 0.0), (0.6, -0.002, 0.02))], "left": flap(-0.4, -1.0), "right": flap(0.4, 1.0)}
+    _, whole, segmentation = ready(scene)
+    left, right = make_cases(whole, segmentation, None, QUICK)
+    assert left.shape == right.shape == (1, 2)
+    hinge = turn(np.array([0.9, 0.1, 0.0]) / np.hypot(0.9, 0.1), (-0.4, 0.0, 0.0))
+    (mirrored,) = ways_of_copy(hinge, left, right)
+    assert mirrored.axis == pytest.approx([hinge.axis[0], -hinge.axis[1], 0])
+    assert mirrored.origin == pytest.approx([0.4, 0, 0])

@@ -109,6 +109,7 @@ def make_cases(
         contexts |= zip(numbers, share_opening_directions(some), strict=True)
         copies |= {i: tuple(k for k in numbers if k != i and _are_alike(contexts[i], contexts[k])) for i in numbers}
         shape |= _asked_once(numbers, shapes, [p.label for p in segmentation.parts], recognized)
+    shape = _mirror_images(shapes, [(p.label, over) for p, over in zip(segmentation.parts, parent, strict=True)]) | shape
     frame = straightening(whole.shape.normals, whole.shape.areas)[:3, :3]
     cases = []
     for i, part in enumerate(segmentation.parts[1:], start=1):
@@ -145,16 +146,44 @@ def _asked_once(
     """
     groups: list[list[int]] = []
     for i in numbers:
-        alike = [g for g in groups if labels[g[0]] == labels[i] and _is_copy(shapes[g[0]], shapes[i])]
+        alike = [g for g in groups if labels[g[0]] == labels[i] and is_copy(shapes[g[0]], shapes[i])]
         (alike[0] if alike else groups.append([]) or groups[-1]).append(i)
     told = {i: recognized[labels[i]].moves if labels[i] in recognized else None for i in numbers}
     each = {i: told[i] in (None, JointType.REVOLUTE) for i in numbers}
     return {i: tuple(g) for g in groups if len(g) > MAX_ASKED_EACH or not each[g[0]] for i in g}
 
 
-def _is_copy(a: TriangleSet, b: TriangleSet) -> bool:
+def _mirror_images(shapes: Sequence[TriangleSet], kinds: Sequence[tuple[str, int]]) -> dict[int, tuple[int, ...]]:
+    """Return, for parts that are mirror images alone, such as the flaps of two wings, the parts whose motions one answer names.
+
+    kinds: label and parent of each part.
+    """
+    once: dict[int, tuple[int, ...]] = {}
+    for i in range(1, len(shapes)):
+        rest = [k for k in range(i + 1, len(shapes)) if kinds[k] == kinds[i] and k not in once and i not in once]
+        size = {k: abs(np.log(shapes[k].area / shapes[i].area)) for k in rest}
+        near = [k for k in rest if size[k] < COPY_RATIO and _is_mirrored(shapes[i], shapes[k])]
+        mirrored = [k for k in near if not is_copy(shapes[i], shapes[k])]
+        once |= dict.fromkeys((i, *mirrored), (i, *mirrored)) if mirrored else {}
+    return once
+
+
+def is_copy(a: TriangleSet, b: TriangleSet) -> bool:
+    """Return whether a part is another one moved along."""
+    return _fits(b, a.samples.points[::4] + b.box.center - a.box.center)
+
+
+def _is_mirrored(a: TriangleSet, b: TriangleSet) -> bool:
+    """Return whether a part is another one mirrored, across the plane midway."""
     shift = b.box.center - a.box.center
-    return float(b.tree.distance(a.samples.points[::4] + shift).mean()) < COPY_RATIO * a.box.diagonal
+    across = shift / max(float(np.linalg.norm(shift)), 1e-12)
+    points = a.samples.points[::4] - a.box.center
+    return _fits(b, points - 2 * (points @ across)[:, None] * across + b.box.center)
+
+
+def _fits(shape: TriangleSet, points: Float[np.ndarray, "n 3"]) -> bool:
+    """Return whether points lie on a part of this shape."""
+    return float(shape.tree.distance(points).mean()) < COPY_RATIO * shape.box.diagonal
 
 
 def _are_alike(a: PartContext, b: PartContext) -> bool:

@@ -26,7 +26,7 @@ from anymesh.articulation.limits import STROKE_RATIO, pressed
 from anymesh.articulation.rank_motions import PartMotionScores, motion_scores
 from anymesh.config import FACING_COSINE
 from anymesh.motion.part_context import PartContext
-from anymesh.prompted.motions.cases import PartCase, answered_range
+from anymesh.prompted.motions.cases import PartCase, answered_range, is_copy
 from anymesh.prompted.motions.lines import CENTRAL, pivots, prismatic
 from anymesh.prompted.questions.prompting import JointAppearance, MotionTable
 from anymesh.types import JointType, Motion
@@ -296,9 +296,23 @@ def lines_of_copies(lines: Sequence[PartCase], others: Mapping[int, PartCase]) -
     for first in lines:
         for case in (others[n] for n in first.shape if n in others):
             assert first.asked is not None
-            shift = case.context.part.box.center - first.context.part.box.center
-            moved = replace(first.asked, origin=first.asked.origin + shift)
+            moved = ways_of_copy(first.asked, first, case)[0]
             yield replace(case, asked=opening_slide(case) if case.kind is JointAppearance.SLIDE_OUT else moved)
+
+
+def ways_of_copy(motion: Motion, first: PartCase, copy: PartCase) -> tuple[Motion, ...]:
+    """Return a motion of a part for one of its shape: moved along unless that is a mirror image alone, and mirrored."""
+    middle, there = (case.context.part.box.center for case in (first, copy))
+    shift = there - middle
+    across = shift / max(float(np.linalg.norm(shift)), 1e-12)
+    sign = -1.0 if motion.kind is JointType.REVOLUTE else 1.0  # a turn is mirrored the other way round
+    mirrored = replace(
+        motion,
+        axis=sign * (motion.axis - 2 * (motion.axis @ across) * across),
+        origin=motion.origin - 2 * ((motion.origin - middle) @ across) * across + shift,
+    )
+    along = (replace(motion, origin=motion.origin + shift),) if is_copy(first.context.part, copy.context.part) else ()
+    return (*along, mirrored)
 
 
 class MovedPoints:

@@ -28,7 +28,16 @@ from anymesh.config import FACING_COSINE, Config
 from anymesh.prompted.models.reliability import ProbeCount, given_answer, in_words, trust
 from anymesh.prompted.motions.cases import PartCase, ask_each
 from anymesh.prompted.motions.lines import prismatic
-from anymesh.prompted.motions.offers import FEW, MotionOffers, ShownPick, fits, make_offers, moves_as, nearest_motion
+from anymesh.prompted.motions.offers import (
+    FEW,
+    MotionOffers,
+    ShownPick,
+    fits,
+    make_offers,
+    moves_as,
+    nearest_motion,
+    ways_of_copy,
+)
 from anymesh.prompted.pictures.sides import UNNAMED, SeenFrom, Sides
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
 from anymesh.prompted.questions.prompting import JointAppearance, MotionPick, MotionTable, PartFit, WhichMotions
@@ -289,17 +298,7 @@ def _of_copy(first: MotionOffers, copy: MotionOffers, pick: ShownPick) -> ShownP
     """Return a pick among the motions of a part for those of its copy: moved along with it or, as likely, mirrored."""
     if pick.picked is None:
         return ShownPick(copy.shown, None)
-    motion = first.motions[pick.picked].opening_motion
-    middle, there = (o.case.context.part.box.center for o in (first, copy))
-    shift = there - middle
-    across = shift / max(float(np.linalg.norm(shift)), 1e-12)
-    sign = -1.0 if motion.kind is JointType.REVOLUTE else 1.0  # a turn is mirrored the other way round
-    mirrored = replace(
-        motion,
-        axis=sign * (motion.axis - 2 * (motion.axis @ across) * across),
-        origin=motion.origin - 2 * ((motion.origin - middle) @ across) * across + shift,
-    )
-    ways = (replace(motion, origin=motion.origin + shift), mirrored)
+    ways = ways_of_copy(first.motions[pick.picked].opening_motion, first.case, copy.case)
     offered = {k for way in ways if (k := nearest_motion(copy, way)) is not None}
     best = max(offered, key=lambda k: copy.shares[k], default=None)
     return ShownPick(copy.shown if best is None else tuple({*copy.shown, best}), best)
