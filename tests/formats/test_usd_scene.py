@@ -235,8 +235,43 @@ def general_joints(folder):
     assert found.mesh.joints[0].axis == pytest.approx([0, 0, 1])
 
 
+def balls(folder):
+    cone = 'float physics:coneAngle0Limit = 40\nfloat physics:coneAngle1Limit = 30\nuniform token physics:axis = "Z"\n'
+    found, _ = read(folder, bodies("base", "door") + joint("SphericalJoint", cone))
+    (ball,) = found.mesh.joints
+    assert (ball.type, ball.limits) == ("ball", pytest.approx((0, math.radians(30))))
+    found, _ = read(folder, bodies("base", "door") + joint("SphericalJoint", ""))
+    assert (found.mesh.joints[0].limits, found.mesh.joints[0].range_known) == (None, True)
+
+
+def followers(folder):
+    limits = "float physics:lowerLimit = 0\nfloat physics:upperLimit = 90\n"
+    theirs = "rel physxMimicJoint:rotX:referenceJoint = </top/hinge>\nfloat physxMimicJoint:rotX:gearing = 2\n"
+    ours = "rel newton:mimicJoint = </top/hinge>\nfloat newton:mimicCoef1 = -2\n"
+    for words in (theirs, ours):
+        text = bodies("base", "door", "lid") + joint("RevoluteJoint", limits)
+        found, warnings = read(folder, text + joint("RevoluteJoint", limits + words, "base", "lid", "twin"))
+        leader = next(k for k, j in enumerate(found.mesh.joints) if j.name == "door")
+        (follower,) = (j for j in found.mesh.joints if j.name == "lid")
+        assert (follower.follows, follower.ratio, warnings) == (leader, -2.0, [])
+    base, twin = bodies("base", "door", "lid"), ("base", "lid", "twin")
+    circle = joint("RevoluteJoint", limits + "rel newton:mimicJoint = </top/twin>\n")
+    found, _ = read(folder, base + circle + joint("RevoluteJoint", limits + ours, *twin))
+    assert [j.follows for j in found.mesh.joints] == [None, None]
+    found, warnings = read(folder, base + joint("RevoluteJoint", limits) + joint("PrismaticJoint", limits + ours, *twin))
+    assert warnings == ["joint 'twin' is read without what it follows: a revolute joint cannot lead a prismatic one"]
+
+
+def loose_bodies(folder):
+    found, _ = read(folder, bodies("base", "door", "lid") + joint("RevoluteJoint", ""))
+    assert [(str(j.type), j.name) for j in found.mesh.joints] == [("continuous", "door"), ("free", "lid")]
+    assert [n.joint for n in found.mesh.nodes] == [-1, 0, 1]
+    found, _ = read(folder, bodies("base", "door"))
+    assert not found.mesh.joints  # of a file without joints, nothing is known
+
+
 def left_out_joints(folder):
-    text = bodies("base", "door", "lid") + joint("SphericalJoint", "", name="ball")
+    text = bodies("base", "door", "lid") + joint("DistanceJoint", "", name="ball")
     text += joint("RevoluteJoint", "bool physics:jointEnabled = 0", name="off") + joint("FixedJoint", "", name="weld")
     text += joint("RevoluteJoint", "", "door", "lid", "one")
     text += joint("RevoluteJoint", "uniform bool physics:excludeFromArticulation = 1", "base", "lid", "loop")
@@ -244,7 +279,7 @@ def left_out_joints(folder):
     assert [j.reason for j in found.mesh.joints] == ["from the joint one of the file"]
     assert [n.joint for n in found.mesh.nodes] == [-1, -1, 0]
     assert warnings == [
-        "joint 'ball' left out: a SphericalJoint is neither a hinge nor a slide",
+        "joint 'ball' left out: a DistanceJoint is no hinge, slide or ball",
         "joint 'off' left out: it is switched off in the file",
         "joint 'loop' left out: it closes a loop of joints",
     ]
@@ -267,6 +302,9 @@ ROWS = {
     "UsdSkel": skeletons,
     "RevoluteJoint, PrismaticJoint, FixedJoint": joints,
     "a general Joint with one free degree": general_joints,
+    "SphericalJoint": balls,
+    "`NewtonMimicAPI`, `PhysxMimicJointAPI`": followers,
+    "a rigid body that no joint holds, if the file has joints": loose_bodies,
     "other joints, joints that close loops or are switched off": left_out_joints,
 }
 

@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from assets import box, cabinet, mesh_of, slanted
+from mechanical import doors, gears, jar, pot, stick
+from models import CONFIG, model_of
 from scenes_that_move import cabinet as scene
 
 from anymesh import pipeline
@@ -13,8 +15,10 @@ from anymesh.export.glb import glb_bytes
 from anymesh.export.links import split_links
 from anymesh.export.model import ExportConfig
 from anymesh.loading import load_mesh, place_mesh
+from anymesh.openusd.writer_ import write_usd
 from anymesh.stated.stages import with_stated_joints, with_stated_parts
 from anymesh.types import Joint, JointType, Node, Part, Segmentation, StatedJoint
+from anymesh.types.motion import leaders
 
 X, Y, Z = np.eye(3)
 
@@ -108,3 +112,25 @@ def test_stages_keep_the_stated_joint(tmp_path):
         pipeline.joints(tmp_path / "steps", animation="none")
     pipeline.segment(path, tmp_path / "steps", animation="ignore", force=True)
     assert all("animation" not in joint.reason for joint in pipeline.joints(tmp_path / "steps"))
+
+
+@pytest.mark.parametrize("make", [doors, gears, jar, stick, pot])
+def test_our_own_usd_gives_back_what_follows_what_screws_balls_and_loose_parts(make, tmp_path):
+    asset = make()
+    write_usd(model_of(asset), tmp_path, CONFIG)
+    mesh = load_mesh(tmp_path / f"{asset.name}.usdc").mesh
+    joints = with_stated_joints(
+        mesh, with_stated_parts(mesh, Segmentation(np.zeros(len(mesh.faces), int), (Part("base", "base"),))), ()
+    )
+    assert {j.child: j.mimic and (j.mimic.joint, j.mimic.ratio) for j in joints} == {
+        j.child: (way := leaders(asset.joints).get(j.name)) and (child_of(asset, way.joint) + "_joint", way.ratio)
+        for j in asset.joints
+    }
+    for joint in asset.joints:
+        (again,) = (j for j in joints if j.child == joint.child)
+        assert (again.type, again.pitch) == (joint.type, pytest.approx(joint.pitch))
+        assert again.limits == pytest.approx(joint.limits, abs=1e-5)
+
+
+def child_of(asset, name):
+    return next(j.child for j in asset.joints if j.name == name)

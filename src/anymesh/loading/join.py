@@ -104,7 +104,7 @@ def join(meshes: list[Mesh]) -> Mesh:
     for mesh in meshes:
         first = len(joints)
         nodes += [replace(n, joint=n.joint + first if n.joint >= 0 else -1) for n in mesh.nodes]
-        joints += [replace(j, parent=None if j.parent is None else j.parent + first) for j in mesh.joints]
+        joints += [replace(j, parent=_later(j.parent, first), follows=_later(j.follows, first)) for j in mesh.joints]
     names = unique_names(node.name for node in nodes)
     vertices, count = _offsets(len(m.vertices) for m in meshes), _offsets(len(m.nodes) for m in meshes)
     return Mesh(
@@ -143,3 +143,7 @@ def _normals(meshes: list[Mesh]) -> np.ndarray | None:
         return None
     flat = [np.repeat(m.face_normals[:, None], 3, 1) if m.corner_normal is None else m.corner_normal for m in meshes]
     return np.concatenate(flat).astype(np.float32)
+
+
+def _later(number: int | None, first: int) -> int | None:
+    return None if number is None else number + first

@@ -16,7 +16,8 @@ from anymesh.loading.scene_graph import is_generic
 from anymesh.names import legal_names
 from anymesh.pipeline.results import JointResult, SegmentationResult, joint_result, segmentation_result
 from anymesh.pipeline.solving import GeometryStages
-from anymesh.types import Joint, JointType, Mesh, Part, Segmentation, StatedJoint
+from anymesh.types import MOVING, Joint, JointType, Mesh, Mimic, Part, Segmentation, StatedJoint
+from anymesh.types.motion import with_implied_limits
 from anymesh.vocabulary import recognize
 
 MIN_SHARED = 0.5  # share of a part's area in the faces that a stated joint moves, from which they are the same
@@ -126,11 +127,17 @@ def with_stated_joints(
             limits = None if stated.limits is None else (min(stated.limits[0], 0.0), max(stated.limits[1], 0.0))
             kind = JointType.FIXED if limits == (0.0, 0.0) else stated.type
             limits = None if kind is JointType.FIXED else limits
-            joint = Joint(name, kind, parent_name, names[k], stated.origin, axis, limits, 1.0, stated.reason)
+            pitch = stated.pitch if kind is JointType.SCREW else 0.0
+            joint = Joint(name, kind, parent_name, names[k], stated.origin, axis, limits, 1.0, stated.reason, pitch=pitch)
         else:
             joint = _completed(stated, by_part[k], segmentation, parent_name)
         of_part[names[k]] = joint
-    return tuple(of_part[name] for name in names[1:])
+    leads = {k: moved[leader] for j, k in moved.items() if (leader := mesh.joints[j].follows) in moved}
+    for j, k in moved.items():
+        own, lead = of_part[names[k]], of_part.get(names[leads.get(k, 0)])
+        if lead is not None and {own.type, lead.type} <= {*MOVING}:
+            of_part[names[k]] = replace(own, mimic=Mimic(lead.name, mesh.joints[j].ratio))
+    return with_implied_limits([of_part[name] for name in names[1:]])
 
 
 def _is_whole(joint: StatedJoint) -> bool:

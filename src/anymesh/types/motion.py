@@ -223,7 +223,7 @@ class Joint:
 
     def __repr__(self) -> str:
         axis = f"axis {brief(self.axis)} through {brief(self.origin)}"
-        motion = " ".join(f"{self.type} {extent(self)}".split())
+        motion = " ".join(f"{self.type} {extent(self)}".split()) + (f", follows {self.mimic.joint}" if self.mimic else "")
         return f"Joint {self.name!r}: {self.child} on {self.parent}, {motion}, {axis}, confidence {self.confidence:.2f}"
 
     @property

@@ -19,9 +19,14 @@ WORLD = ""  # path of what no rigid body holds
 KINDS = {
     "PhysicsRevoluteJoint": JointType.REVOLUTE,
     "PhysicsPrismaticJoint": JointType.PRISMATIC,
+    "PhysicsSphericalJoint": JointType.BALL,
     "PhysicsFixedJoint": JointType.FIXED,
 }
 AXES = ("X", "Y", "Z")
+TURNING = (JointType.REVOLUTE, JointType.CONTINUOUS)
+ALONG = 0.999  # least cosine of two axes that are one
+MIMICS = [("newton:mimicJoint", "newton:mimicCoef1", 1.0)]
+MIMICS += [(f"physxMimicJoint:rot{a}:referenceJoint", f"physxMimicJoint:rot{a}:gearing", -1.0) for a in AXES]
 Motion = tuple[JointType | None, int, tuple[float, float]]  # what moves, the axis of the frame, limits [rad or units]
 Warn = Callable[[str], None]
 NOISE = 1e-3  # [rad, or of APART] smaller distances from position 0 are rounding
@@ -30,7 +35,10 @@ APART = 1e-3  # of the object's diagonal; frames of a joint that are further apa
 
 @dataclass(frozen=True, eq=False)
 class UsdJoint(Brief):
-    """A joint of the file. a, b: paths of its bodies; T_a, T_b: its frame, by either, in the stage; limits [rad or units]."""
+    """A joint of the file. a, b: paths of its bodies; T_a, T_b: its frame, by either, in the stage; limits [rad or units].
+
+    follows: name of the joint that leads it, "" for none; ratio: of their positions [rad or units].
+    """
 
     name: str
     type: JointType
@@ -41,6 +49,8 @@ class UsdJoint(Brief):
     T_b: Float[np.ndarray, "4 4"]
     limits: tuple[float, float]
     excluded: bool
+    follows: str = ""
+    ratio: float = 1.0
 
 
 def add_joints(
@@ -59,6 +69,13 @@ def add_joints(
     body_of = [_owner(path, bodies) for path in paths]
     roots = [str(p.GetPath()) for p in stage.Traverse() if p.HasAPI(pxr.UsdPhysics.ArticulationRootAPI)]
     joints, of_body = _tree(stated, roots, body_of, APART * mesh.diagonal, warn)
+    up = np.array([0.0, 1.0, 0.0] if pxr.UsdGeom.GetStageUpAxis(stage) == "Y" else [0.0, 0.0, 1.0])
+    for body in sorted((reader.bodies & set(body_of)) - {*of_body}):
+        prim = stage.GetPrimAtPath(body)
+        if not value(pxr.UsdPhysics.RigidBodyAPI(prim).GetKinematicEnabledAttr()):
+            of_body[body], place = len(joints), to_stage(prim)[:3, 3]
+            reason = "from a body of the file that no joint holds"
+            joints.append(StatedJoint(JointType.FREE, place, up, None, name=str(prim.GetName()), reason=reason))
     nodes = tuple(replace(node, joint=of_body.get(body, -1)) for node, body in zip(mesh.nodes, body_of, strict=True))
     return replace(mesh, nodes=nodes, joints=tuple(joints))
 
@@ -111,14 +128,14 @@ class _Reader:
         self.bodies = {str(p.GetPath()) for p in everything if p.HasAPI(pxr.UsdPhysics.RigidBodyAPI)}
 
     def read(self, prim: Any) -> UsdJoint | None:
-        """Return a joint; None, with a warning, for one that is switched off or that is neither a hinge nor a slide."""
+        """Return a joint; None, with a warning, for one that is switched off or that is no hinge, slide or ball."""
         joint, name = self._pxr.UsdPhysics.Joint(prim), str(prim.GetName())
         if value(joint.GetJointEnabledAttr()) is False:
             self._warn(f"joint {name!r} left out: it is switched off in the file")
             return None
         kind, axis, limits = self._motion(prim)
         if kind is None:
-            self._warn(f"joint {name!r} left out: a {kind_of(prim).removeprefix('Physics')} is neither a hinge nor a slide")
+            self._warn(f"joint {name!r} left out: a {kind_of(prim).removeprefix('Physics')} is no hinge, slide or ball")
             return None
         ends = [self._end(rel) for rel in (joint.GetBody0Rel(), joint.GetBody1Rel())]
         (a, T_a), (b, T_b) = ends
@@ -127,7 +144,19 @@ class _Reader:
         if a == b or not (np.isfinite(T_a).all() and np.isfinite(T_b).all()):
             self._warn(f"joint {name!r} left out: it does not connect two bodies by finite frames")
             return None
-        return UsdJoint(name, kind, a, b, axis, T_a, T_b, limits, bool(value(joint.GetExcludeFromArticulationAttr())))
+        return UsdJoint(
+            name, kind, a, b, axis, T_a, T_b, limits, bool(value(joint.GetExcludeFromArticulationAttr())), *self._leader(prim)
+        )
+
+    def _leader(self, prim: Any) -> tuple[str, float]:
+        """Return the joint that leads one, and the ratio of their positions; PhysX states its opposite."""
+        for relationship, factor, sign in MIMICS:
+            targets = prim.GetRelationship(relationship).GetTargets() if prim.GetRelationship(relationship) else []
+            ratio = value(prim.GetAttribute(factor))
+            ratio = sign * (1.0 if ratio is None else float(ratio))
+            if targets and math.isfinite(ratio) and ratio:
+                return str(targets[0].name), ratio
+        return "", 1.0
 
     def _end(self, rel: Any) -> tuple[str, np.ndarray]:
         """Return the body that a relationship means, and the transform of its target to the stage."""
@@ -144,6 +173,11 @@ class _Reader:
         if kind is None:
             return self._general(prim) if kind_of(prim) == "PhysicsJoint" else (None, 0, (0.0, 0.0))
         schema = self._pxr.UsdPhysics
+        if kind is JointType.BALL:
+            ball = schema.SphericalJoint(prim)
+            cones = [value(a) for a in (ball.GetConeAngle0LimitAttr(), ball.GetConeAngle1LimitAttr())]
+            axis, known = str(value(ball.GetAxisAttr())), [math.radians(c) for c in cones if c is not None and 0 < c <= 180]
+            return kind, AXES.index(axis) if axis in AXES else 0, (0.0, min(known, default=math.inf))
         joint = (schema.RevoluteJoint if kind is JointType.REVOLUTE else schema.PrismaticJoint)(prim)
         axis = str(value(joint.GetAxisAttr()))
         low, high = value(joint.GetLowerLimitAttr()), value(joint.GetUpperLimitAttr())
@@ -200,6 +234,7 @@ def _tree(
         return body != WORLD, not rooted, body in children, -used.count(body)
 
     stated: list[StatedJoint] = []
+    read: list[tuple[UsdJoint, str]] = []
     of_body: dict[str, int] = {}
     for root in sorted(bodies, key=rank):
         if root in of_body:
@@ -219,9 +254,45 @@ def _tree(
                     continue
                 of_body[other] = len(stated)
                 stated.append(_stated(joint, other, of_body[here], apart, warn))
+                read.append((joint, other))
     for joint in loops:
         warn(f"joint {joint.name!r} left out: it closes a loop of joints")
-    return stated, of_body
+    return _coupled(stated, read, used, warn), of_body
+
+
+def _coupled(
+    stated: Sequence[StatedJoint], read: Sequence[tuple[UsdJoint, str]], used: Sequence[str], warn: Warn
+) -> list[StatedJoint]:
+    """Return joints with what they follow; a slide that follows the turn of a body without a mesh, on its axis, is a screw.
+
+    read: each joint as in the file, and the body that it moves.
+    """
+    number, made = {joint.name: k for k, (joint, _) in enumerate(read)}, list(stated)
+    for k, (joint, _) in enumerate(read):
+        leader, seen = number.get(joint.follows), {k}
+        while leader is not None and leader not in seen and read[leader][0].follows in number:
+            seen.add(leader)
+            leader = number[read[leader][0].follows]
+        if leader is None or leader in seen:
+            continue
+        own, lead = stated[k], stated[leader]
+        if own.type is JointType.PRISMATIC and own.parent == leader and read[leader][1] not in used and lead.type in TURNING:
+            along = float(own.axis @ lead.axis)
+            turn = replace(lead, name=own.name, reason=own.reason, type=JointType.SCREW)
+            made[k] = replace(turn, pitch=2 * math.pi * joint.ratio * math.copysign(1.0, along)) if abs(along) > ALONG else own
+        elif (own.type in TURNING and lead.type in TURNING) or own.type is lead.type is JointType.PRISMATIC:
+            made[k] = replace(own, follows=leader, ratio=_whole_ratio(k, number, read))
+        else:
+            warn(f"joint {joint.name!r} is read without what it follows: a {lead.type} joint cannot lead a {own.type} one")
+    return made
+
+
+def _whole_ratio(k: int, number: dict[str, int], read: Sequence[tuple[UsdJoint, str]]) -> float:
+    """Return the ratio of a follower to the end of its chain."""
+    ratio = 1.0
+    while read[k][0].follows in number:
+        ratio, k = ratio * read[k][0].ratio, number[read[k][0].follows]
+    return ratio
 
 
 def _stated(joint: UsdJoint, moved: str, parent: int, apart: float, warn: Warn) -> StatedJoint:
@@ -241,12 +312,14 @@ def _stated(joint: UsdJoint, moved: str, parent: int, apart: float, warn: Warn) 
         k = (joint.axis + 1) % 3
         now = math.atan2(float(np.cross(R_a[:, k], R_b[:, k]) @ axis), float(R_a[:, k] @ R_b[:, k]))
     now = 0.0 if abs(now) < NOISE * (apart if slides else 1.0) else now
+    if joint.type is JointType.BALL:
+        now, axis = 0.0, R_a[:, joint.axis]
     finite = bool(np.isfinite(limits).all())
     kind = JointType.CONTINUOUS if joint.type is JointType.REVOLUTE and not finite else joint.type
     sign = 1.0 if moved == joint.b else -1.0
     return StatedJoint(
         kind, joint.T_a[:3, 3], sign * axis,
         (limits[0] - now, limits[1] - now) if finite and kind is not JointType.FIXED else None,
-        range_known=finite or kind is JointType.CONTINUOUS,
+        range_known=finite or kind in (JointType.CONTINUOUS, JointType.BALL),
         name=moved.rpartition("/")[2], reason=f"from the joint {joint.name} of the file", parent=None if parent < 0 else parent,
     )  # fmt: skip
