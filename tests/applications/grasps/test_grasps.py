@@ -117,6 +117,19 @@ def test_what_hides_a_part_is_opened_first(tmp_path):
     assert [name for name, _ in tray.after] == ["door_joint"]
 
 
+def test_an_asset_states_its_joints_and_those_that_are_not_tried(tmp_path):
+    case(tmp_path, BUTTON.replace("button_joint", "unstated"))
+    joints = [{"name": "knee", "type": "ball", "child": "shin"}, {"name": "still", "type": "fixed", "child": "foot"}]
+    (tmp_path / "asset.json").write_text(json.dumps({"joints": joints}))
+    (knee,) = rank_grasps(tmp_path)
+    assert (knee.joint, knee.link, knee.grasps, knee.reason) == (
+        "knee",
+        "shin",
+        (),
+        "only hinges and slides are tried, found ball",
+    )
+
+
 def test_errors_say_what_is_valid(tmp_path):
     with pytest.raises(OptionError, match="valid are tray_joint"):
         rank_grasps(case(tmp_path, TRAY.format(y=0)), "tray")

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -41,17 +41,24 @@ BESIDE, DIP = 0.001, 0.006  # [m] between the side of the fingers and a place, a
 Candidate = tuple[GraspKind, Target]
 
 
-def stated_handle(handle: Mapping[str, Any]) -> Target:
-    """Return where the tool grasps a handle of asset.json: as deep as its fingers reach, at most to the handle's middle."""
-    z, y = np.array(handle["approach"], float), np.array(handle["closing"], float)
-    deep = np.clip(min(handle["depth"] - REACH - CLEAR, handle["width"] / 2), 0, REACH)
+def stated_handle(handle: Any) -> Target | None:
+    """Return where the tool grasps a handle of asset.json: as deep as its fingers reach, at most to the handle's middle.
+
+    None if there is no handle, or if it cannot be read.
+    """
     T = np.eye(4)
-    T[:3, :3], T[:3, 3] = np.stack([np.cross(y, z), y, z], 1), np.array(handle["place"]) + deep * z
-    return Target(GripperContact.GRASP, T, float(handle["width"]), 1.0)
+    try:
+        z, y, width = np.array(handle["approach"], float), np.array(handle["closing"], float), float(handle["width"])
+        deep = np.clip(min(float(handle["depth"]) - REACH - CLEAR, width / 2), 0, REACH)
+        T[:3, :3], T[:3, 3] = np.stack([np.cross(y, z), y, z], 1), np.array(handle["place"], float) + deep * z
+    except (KeyError, TypeError, ValueError):
+        return None
+    turns = np.isfinite(T).all() and np.allclose(T[:3, :3] @ T[:3, :3].T, np.eye(3), atol=1e-3)
+    return Target(GripperContact.GRASP, T, width, 1.0) if turns else None
 
 
 def candidates(
-    object_: TaskObject, gripper: Gripper, handle: Mapping[str, Any] | None, contact: GripperContact, *, seed: int
+    object_: TaskObject, gripper: Gripper, handle: Any, contact: GripperContact, *, seed: int
 ) -> Iterator[Candidate]:
     """Yield grasps or pushes of the part of the object's joint, the most promising first, computed as they are asked for.
 
@@ -63,8 +70,9 @@ def candidates(
         yield from ((GraspKind.PUSH, t) for t in pushes[:PER_REGION])
         yield from _without_hold(object_, surfaces, gripper, seed)
         return
-    if handle is not None and handle["width"] < gripper.stroke - ROOM:
-        yield GraspKind.HANDLE, stated_handle(handle)
+    stated = stated_handle(handle)
+    if stated is not None and stated.width < gripper.stroke - ROOM:
+        yield GraspKind.HANDLE, stated
     for kind, faces in _regions(object_, surfaces):
         rest = np.concatenate([surfaces.others, surfaces.part[~faces]])
         own = replace(surfaces, part=surfaces.part[faces], others=rest)

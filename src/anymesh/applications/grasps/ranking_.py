@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from jaxtyping import Float
@@ -26,6 +27,7 @@ from anymesh.geometry.raycast_ import RayScene
 from anymesh.mujoco_ import load_mujoco
 from anymesh.names import listed
 from anymesh.runtime import Progress, read_json, silent, writing
+from anymesh.types import JointType
 from anymesh.types.triangles import unshared
 
 GOOD, SURE, SCORED = 4, 0.95, 12  # grasps above a score with which the search ends, or that are scored
@@ -46,14 +48,25 @@ def rank_grasps(
     Raise InputError if the asset cannot be read, OptionError for an unknown joint.
     """
     path = Path(asset)
-    names = moving_joints(path)
+    names, stated = moving_joints(path), _stated(path)
+    asked = (joint,) if joint is not None else tuple(n for n in names if not stated or n in stated)
     if joint is not None and joint not in names:
         raise OptionError(f"--joint: found {joint!r}; valid are {listed(names) or 'none, since no joint moves'}")
-    chosen, ranked = names if joint is None else (joint,), []
-    for number, name in enumerate(chosen):
-        progress("grasps", name, number, len(chosen))
+    ranked = []
+    for number, name in enumerate(asked):
+        progress("grasps", name, number, len(asked))
         ranked.append(_ranked(path, name, gripper, seed))
-    return tuple(ranked)
+    others = [j for n, j in stated.items() if n not in names and j.get("type") != JointType.FIXED] if joint is None else []
+    reason = "only hinges and slides are tried, found {}"
+    return (*ranked, *(JointGrasps(j["name"], j["child"], 0.0, (), reason=reason.format(j.get("type"))) for j in others))
+
+
+def _stated(path: Path) -> dict[str, dict[str, Any]]:
+    """Return the joints of asset.json by name, none for a file."""
+    record = (read_json(path / "asset.json") or {}) if path.is_dir() else {}
+    joints = record.get("joints")
+    named = [j for j in joints if isinstance(j, dict)] if isinstance(joints, list) else []
+    return {str(j["name"]): j for j in named if {"name", "child"} <= j.keys()}
 
 
 def gripper_simulation(object_: TaskObject, gripper: Gripper) -> TaskSimulation:
@@ -89,8 +102,7 @@ def _of_object(path: Path, object_: TaskObject, gripper: Gripper, seed: int) -> 
     Grasps come first, pushes only if no grasp does it; for short slides the other way round.
     """
     thing, simulation = object_.thing, gripper_simulation(object_, gripper)
-    stated = (read_json(path / "asset.json") or {}).get("joints", []) if path.is_dir() else []
-    handle = next((j["handle"] for j in stated if j.get("name") == thing.joint and "handle" in j), None)
+    handle = _stated(path).get(thing.joint, {}).get("handle")
     contacts = [GripperContact.GRASP, GripperContact.PUSH]
     if not thing.turns and abs(object_.goal.goal) < SHORT:
         contacts.reverse()
