@@ -7,9 +7,11 @@ import numpy as np
 import pytest
 from assets import cabinet, slanted
 from browser import Tab
+from mechanical import doors, jar, linkage, stick
 from moved import agree, changed, frames, slide
 from shown import asked, folder_of, hostile, picture
 
+from anymesh.mechanisms.following import together
 from anymesh.viewer.report import asset_html, write_report
 
 pytestmark = pytest.mark.slow
@@ -34,6 +36,26 @@ def test_sliders_move_the_right_part_to_the_right_place(opened: Tab) -> None:
         agree(opened, 0, asset, positions)
         assert opened.value("anymesh.positions(0)") == pytest.approx({j.name: positions.get(j.name, 0.0) for j in asset.joints})
     assert opened.errors == []
+
+
+@pytest.mark.parametrize(
+    ("make", "moved"),
+    [
+        (linkage, {"crank_joint": -0.5}),
+        (doors, {"hinge": 1.2, "first": 0.1}),
+        (jar, {"thread": 9.0}),
+        (stick, {"socket": -0.4}),
+    ],
+)
+def test_one_slider_moves_what_follows_and_screws_and_balls_move(tab: Tab, tmp_path, make, moved) -> None:
+    asset = make()
+    tab.open(write_report(folder_of(asset, tmp_path / "asset")).path)
+    tab.until("anymesh.ready(0)")
+    assert tab.page.locator("input[aria-label]:not([aria-label=explode])").count() == len(moved)
+    for name, amount in moved.items():
+        slide(tab, name, amount)
+    agree(tab, 0, asset, together(asset, moved))
+    assert tab.errors == []
 
 
 def test_pixels_change_where_the_part_is_and_not_elsewhere(opened: Tab) -> None:

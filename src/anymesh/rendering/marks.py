@@ -17,6 +17,7 @@ from scipy import ndimage
 from anymesh.geometry.kinematics import link_transforms
 from anymesh.types import Asset, Brief, JointType
 from anymesh.types.camera import Camera
+from anymesh.types.motion import SLIDING
 from anymesh.types.triangles import transformed
 
 AXIS_COLOR = (190, 20, 40)
@@ -105,7 +106,7 @@ def axis_shapes(asset: Asset, positions: Mapping[str, float], least: float = MIN
         if joint.type is JointType.FIXED:
             continue
         corners = asset.mesh.triangles[asset.segmentation.face_part == number[joint.child]].reshape(-1, 3)
-        slides, T = joint.type is JointType.PRISMATIC, transforms[joint.parent]
+        slides, T = joint.type in SLIDING, transforms[joint.parent]
         size = min(max(SMALL_AXIS * float(np.linalg.norm(np.ptp(corners, axis=0))), least * whole), whole)
         ends, center = axis_line(corners, joint.origin, joint.axis, slides, size)
         circle = None if slides else transformed(ring(center, joint.axis, RING_RADIUS * size), T)

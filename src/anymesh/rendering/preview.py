@@ -199,7 +199,7 @@ def opened_view(asset: Asset) -> tuple[Mesh, Camera]:
 def describe(joint: Joint, part: float) -> str:
     """Describe a joint in one line: type, range, confidence. part: confidence that its child is a part, 1 if that is given."""
     sure = f"confidence {joint.confidence:.2f}" if part == 1 else f"part {part:.2f}, joint {joint.confidence:.2f}"
-    return f"{joint.child}: {joint.type.value} {extent(joint)}, {sure}"
+    return f"{joint.child}: {f'{joint.type} {extent(joint)}'.strip()}, {sure}"
 
 
 def _legend(asset: Asset, width: int) -> UInt8[np.ndarray, "h W 3"]:

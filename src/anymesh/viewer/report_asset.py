@@ -36,8 +36,10 @@ from anymesh.types import (
     Exchange,
     Joint,
     JointType,
+    Loop,
     Material,
     Mesh,
+    Mimic,
     Part,
     Picture,
     ProposedJoint,
@@ -45,6 +47,7 @@ from anymesh.types import (
     Source,
     Texture,
 )
+from anymesh.types.motion import with_implied_limits
 from anymesh.types.triangles import normals_and_areas
 from anymesh.viewer.scene import GripperMark, read_grippers, report_scene
 
@@ -102,11 +105,12 @@ def read_asset(folder: Path) -> Asset:
             source=Source(source["path"], source["sha256"], T, source["up"], tuple(source["notes"]), source.get("credits", {})),
             mesh=mesh,
             segmentation=Segmentation(_face_part(mesh, parts), parts),
-            joints=tuple(_joint(joint) for joint in record["joints"]),
+            joints=with_implied_limits([_joint(joint) for joint in record["joints"]]),
             answerer=record["answerer"],
             warnings=tuple(map(str, record["warnings"])),
             exchanges=read_transcript(folder / TRANSCRIPT),
             notes=tuple(map(str, record.get("finish", ()))),  # since schema 1.2
+            loops=tuple(map(_loop, record.get("loops", ()))),
             proposals=tuple(_proposal(p) for p in record.get("proposals", ())),  # since schema 1.4
         )
     except (KeyError, TypeError, ValueError, AttributeError) as error:
@@ -141,25 +145,22 @@ def _face_part(mesh: Mesh, parts: Sequence[Part]) -> np.ndarray:
 
 
 def _joint(record: Mapping[str, Any]) -> Joint:
-    axis = np.array(record["axis"], float)
-    limits = record["limits"]
-    return Joint(
-        name=record["name"],
-        type=JointType(record["type"]),
-        parent=record["parent"],
-        child=record["child"],
-        origin=np.array(record["origin"], float),
-        axis=axis / np.linalg.norm(axis),
-        limits=None if limits is None else (float(limits[0]), float(limits[1])),
-        confidence=record["confidence"],
-        reason=record["reason"],
-    )
+    axis, limits, mimic = np.array(record["axis"], float), record["limits"], record.get("mimic")
+    names = record["name"], JointType(record["type"]), record["parent"], record["child"]
+    ends = None if limits is None else (float(limits[0]), float(limits[1]))
+    motion = np.array(record["origin"], float), axis / np.linalg.norm(axis), ends
+    led, pitch = None if mimic is None else Mimic(**mimic), float(record.get("pitch", 0.0))
+    return Joint(*names, *motion, record["confidence"], record["reason"], mimic=led, pitch=pitch)
+
+
+def _loop(record: Mapping[str, Any]) -> Loop:
+    origin, axis = (np.array(record[key], float) for key in ("origin", "axis"))
+    return Loop(record["name"], *record["links"], origin, axis / np.linalg.norm(axis), JointType(record["type"]))
 
 
 def _proposal(record: Mapping[str, Any]) -> ProposedJoint:
     part = Part(record["child"], record["label"], record["part_confidence"], record["part_reason"])
-    no_faces = np.zeros(0, int)
-    return ProposedJoint(part, _joint(record), float(record["probability"]), str(record["motion"]), no_faces)
+    return ProposedJoint(part, _joint(record), float(record["probability"]), str(record["motion"]), np.zeros(0, int))
 
 
 def _exchange(folder: Path, path: Path) -> Exchange | None:
@@ -383,8 +384,7 @@ def thumbnail(preview: bytes) -> bytes:
         width, height = image.size
         panel = image.convert("RGB").crop((2 * width // 3, 0, width, height))
     panel.thumbnail(THUMBNAIL)
-    buffer = io.BytesIO()
-    panel.save(buffer, "JPEG", quality=QUALITY)
+    panel.save(buffer := io.BytesIO(), "JPEG", quality=QUALITY)
     return buffer.getvalue()
 
 

@@ -48,6 +48,7 @@ const AnymeshView = (() => {
       this.nodes = this.data.links.map(() => null);
       this.meshes = this.data.links.map(() => []);
       gltf.scene.traverse((object) => {
+        if (object === gltf.scene || object.parent === gltf.scene) return; // what turns Z up, which may be called like a part
         const node = gltf.parser.associations.get(object)?.nodes;
         const link = numbers.get(node === undefined ? (object.userData.name ?? object.name) : gltf.parser.json.nodes[node].name);
         if (link !== undefined) this.nodes[link] ??= object;
