@@ -76,6 +76,8 @@ class ContactBench:
         contacts = data.contact
         depth, pair = -np.asarray(contacts.dist), np.asarray(contacts.geom)
         deep = np.flatnonzero(depth > least)
+        if not len(deep):
+            return []
         order = deep[np.lexsort((deep, -depth[deep], pair[deep, 1], pair[deep, 0]))]
         first = np.r_[True, (np.diff(pair[order], axis=0) != 0).any(1)][: len(order)]
         return [
