@@ -77,15 +77,15 @@ def _frame(triangles: Float[np.ndarray, "k 3 3"], way: Float[np.ndarray, " 3"], 
     if spot is None:
         return None
     across = np.cos(DIRECTIONS)[:, None] * seen.axes[0] + np.sin(DIRECTIONS)[:, None] * seen.axes[1]
-    widths = np.array([np.diff(seen.run(spot, y))[0] for y in across])
+    widths = np.diff(seen.run(spot, across), axis=1)[:, 0]
     across = across[widths <= EQUAL * widths.min()]
-    lengths = np.array([np.diff(seen.run(spot, x))[0] for x in np.cross(across, -way)])
+    lengths = np.diff(seen.run(spot, np.cross(across, -way)), axis=1)[:, 0]
     y = across[int(np.argmax(EQUAL * lengths >= lengths.max()))]
     x = np.cross(y, -way)
-    spot = spot + seen.run(spot, y).mean() * y
-    low, high = seen.run(spot, x)
+    spot = spot + seen.run(spot, y[None]).mean() * y
+    low, high = seen.run(spot, x[None])[0]
     spot = spot + (np.clip(0.0, low + FINGER, high - FINGER) if high - low > 2 * FINGER else (low + high) / 2) * x
-    ends = seen.run(spot, y)
+    ends = seen.run(spot, y[None])[0]
     place = seen.surface(spot)
     if place is None or scene.first_hit((place + AWAY * seen.size * way)[None], way[None]).distance[0] < HAND:
         return None
@@ -128,15 +128,18 @@ class _Seen:
         off = np.linalg.norm(at - (self.low + self.high) / 2, axis=-1) + depth
         return at[np.unravel_index(np.where(ridge, off, np.inf).argmin(), off.shape)] @ self.axes
 
-    def run(self, spot: Float[np.ndarray, " 3"], direction: Float[np.ndarray, " 3"]) -> Float[np.ndarray, " 2"]:
-        """Return from where to where the outline goes on along a direction [m], from a place within it; once finer."""
-        reach, ends = np.array([-1.0, 1.0]) * float(np.linalg.norm(self.high - self.low)), np.zeros(2)
+    def run(self, spot: Float[np.ndarray, " 3"], directions: Float[np.ndarray, "d 3"]) -> Float[np.ndarray, "d 2"]:
+        """Return from where to where the outline goes on along directions [m], from a place within it; once finer."""
+        ends = np.zeros((len(directions), 2))
+        reach = np.tile([-1.0, 1.0], (len(directions), 1)) * float(np.linalg.norm(self.high - self.low))
         for _ in range(2):
             for k in range(2):
-                steps = np.linspace(0, reach[k], FINE)
-                free = ~np.isfinite(self.hits(spot + steps[:, None] * direction))
-                free[0] = False
-                ends[k] = steps[int(free.argmax()) - 1] if free.any() else steps[-1]
+                steps = np.linspace(np.zeros(len(directions)), reach[:, k], FINE, axis=1)
+                at = spot + steps[:, :, None] * directions[:, None]
+                free = ~np.isfinite(self.hits(at.reshape(-1, 3))).reshape(steps.shape)
+                free[:, 0] = False
+                last = np.where(free.any(1), free.argmax(1), FINE) - 1
+                ends[:, k] = steps[np.arange(len(directions)), last]
             reach = ends + np.array([-2.0, 2.0]) * np.abs(reach) / FINE
         return ends
 
