@@ -76,6 +76,7 @@ TOGETHER = "mechanisms.following:together"
 WITH_GEARS = "mechanisms.meshing:with_gears"
 PARSE_MECHANISMS = "mechanisms.choosing:parse_mechanisms"
 NAMED_STATES = "mechanisms.states:named_states"
+PLACES = "mechanisms.places:find_places"
 
 # Scenes of several objects.
 SCENE_WARNING = "applications.scenes.objects:scene_warning"

@@ -44,6 +44,7 @@ def asset_record(model: Model) -> dict[str, Any]:
         **({"loops": [_loop(loop) for loop in asset.loops]} if asset.loops else {}),
         **({"proposals": [_proposal(asset, p) for p in asset.proposals]} if model.how.precision else {}),
         **({"states": {name: {j: _round(v) for j, v in at.items()} for name, at in states.items()}} if states else {}),
+        **({"places": [p.record() for p in model.places]} if model.places else {}),
         "no_contact": [{"links": [e.a, e.b], "reason": e.why} for e in model.exclusions],
         "answerer": asset.answerer,
         "usage": usage(asset.exchanges),

@@ -13,10 +13,10 @@ from typing import Any
 
 import numpy as np
 
-from anymesh.entry_points import CHOOSE_MECHANISMS, HANDLE_FRAMES, NAMED_STATES, RESISTANCES, USUAL_BODIES, resolve
+from anymesh.entry_points import CHOOSE_MECHANISMS, HANDLE_FRAMES, NAMED_STATES, PLACES, RESISTANCES, USUAL_BODIES, resolve
 from anymesh.export.flat_looks import losses, tiled, tinted, with_materials
 from anymesh.export.links import Link, split_links, with_legal_names
-from anymesh.export.options import Driven, ExportOptions, Shapes, Visuals
+from anymesh.export.options import Driven, ExportOptions, Shapes, TargetProject, Visuals
 from anymesh.geometry.surface import plain_triangles
 from anymesh.physics.collision import CollisionConfig, collision_shapes
 from anymesh.physics.convex import as_hull, planes
@@ -112,6 +112,7 @@ class Model:
     mechanisms: Mapping[str, Mechanism] = field(default_factory=dict)
     handles: tuple[HandleFrame, ...] = ()
     states: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
+    places: tuple[Any, ...] = ()  # `PlaceFrame` of `mechanisms`
 
     @property
     def links(self) -> Sequence[Link]:
@@ -183,7 +184,10 @@ def build_model(
     chosen, resisting = resolve(CHOOSE_MECHANISMS)(asset, inertias, resistances, how.mechanisms)
     handles = resolve(HANDLE_FRAMES)(asset, resisting)
     states = resolve(NAMED_STATES)(asset, {b.name: b.shapes for b in bodies}, [(e.a, e.b) for e in excluded])
-    return Model(asset, tuple(bodies), resisting, how, tuple(excluded), chosen, handles, states)
+    finished = asset.source_face is not None  # before, insides are not hollow
+    taken = [handle.name for handle in handles]
+    places = resolve(PLACES)(asset, states.get("closed", {}), taken) if finished or how.target is TargetProject.ROBOCASA else ()
+    return Model(asset, tuple(bodies), resisting, how, tuple(excluded), chosen, handles, states, places)
 
 
 def _weighing(bodies: Sequence[ExportLink], mass: float, config: InertiaConfig) -> list[ExportLink]:

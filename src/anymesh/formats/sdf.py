@@ -74,9 +74,10 @@ def sdf_text(model: Model) -> str:
         _add_joint(element, joint, names, model)
     _add_loops(element, model, origins)
     taken = [*origins, *names.values()]
-    for handle, name in zip(model.handles, legal_names([*taken, *(h.name for h in model.handles)])[len(taken) :], strict=True):
-        frame = ElementTree.SubElement(element, "frame", name=name, attached_to=handle.link)
-        _leaf(frame, "pose", _pose(handle.place - origins[handle.link], handle.R))
+    frames = (*model.handles, *model.places)
+    for at, name in zip(frames, legal_names([*taken, *(f.name for f in frames)])[len(taken) :], strict=True):
+        frame = ElementTree.SubElement(element, "frame", name=name, attached_to=at.link)
+        _leaf(frame, "pose", _pose(at.place - origins[at.link], at.R))
     return document(root)
 
 

@@ -23,6 +23,7 @@ from anymesh.export.notation import principal, turning_x_to
 from anymesh.export.options import Base
 from anymesh.export.urdf import LIGHT
 from anymesh.formats.packed import EPOCH, PLAIN_FILE
+from anymesh.mechanisms.places import PlaceFrame
 from anymesh.mechanisms.serial import one_axis
 from anymesh.names import legal_names
 from anymesh.openusd.geometry_ import add_shape, add_visual, place, quat, vec
@@ -111,7 +112,13 @@ def usd_stage(model: Model, config: ExportConfig, folder: Path, pictures: str) -
     _add_exclusions(pxr, stage, top, model)
     _add_root_joint(pxr, stage, top, model)
     for handle in model.handles:
-        _add_handle(pxr, stage, top, model, handle)
+        frame = _add_frame(pxr, stage, top, model, handle)
+        for name, value in zip(("length", "width", "depth"), handle.size, strict=True):
+            frame.CreateAttribute(f"handle:{name}", pxr.Sdf.ValueTypeNames.Float).Set(float(value))
+    for at in model.places:
+        frame = _add_frame(pxr, stage, top, model, at)
+        frame.CreateAttribute("place:size", pxr.Sdf.ValueTypeNames.Float3).Set(vec(pxr, at.size))
+        frame.CreateAttribute("place:inside", pxr.Sdf.ValueTypeNames.Bool).Set(at.inside)
     motors = drives(model)
     ways, taken = leaders(model.asset.joints), [*(b.name for b in model.bodies), *(j.name for j in model.asset.joints)]
     ordered = sorted(model.asset.joints, key=lambda joint: joint.name in ways)  # a follower's schema depends on its leader
@@ -191,13 +198,12 @@ def _add_root_joint(pxr: Any, stage: Any, top: str, model: Model) -> None:
     fixed.CreateBody1Rel().SetTargets([_link(top, model.bodies[0].name)])
 
 
-def _add_handle(pxr: Any, stage: Any, top: str, model: Model, handle: HandleFrame) -> None:
-    """Add the frame of a handle below its link, with its size [m]."""
-    frame = pxr.UsdGeom.Xform.Define(stage, f"{_link(top, handle.link)}/{handle.name}")
-    place(pxr, frame, handle.place - next(link.origin for link in model.links if link.name == handle.link))
-    frame.AddOrientOp().Set(quat(pxr, handle.R))
-    for name, value in zip(("length", "width", "depth"), handle.size, strict=True):
-        frame.GetPrim().CreateAttribute(f"handle:{name}", pxr.Sdf.ValueTypeNames.Float).Set(float(value))
+def _add_frame(pxr: Any, stage: Any, top: str, model: Model, at: HandleFrame | PlaceFrame) -> Any:
+    """Add the frame of a handle or place below its link; return its prim."""
+    frame = pxr.UsdGeom.Xform.Define(stage, f"{_link(top, at.link)}/{at.name}")
+    place(pxr, frame, at.place - next(link.origin for link in model.links if link.name == at.link))
+    frame.AddOrientOp().Set(quat(pxr, at.R))
+    return frame.GetPrim()
 
 
 def _add_joint(pxr: Any, stage: Any, top: str, model: Model, joint: Joint, motors: Mapping[str, Drive]) -> None:

@@ -44,6 +44,7 @@ CATCHES = 2  # group of the actuators that are catches and detents, which no com
 HANDLES, PLATE = 4, 5e-4  # group of the sites, which viewers hide at first; half thickness [m]
 # [bytes] larger visual meshes are not loaded to compile the model: of a million faces, that takes 2 s and 700 MB
 MOST_COMPILED, STAND_IN = 4 << 20, b"v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+PLACES = 5  # group of the sites of places
 DRIVES = 1  # group of the actuators: `actuatorgroupdisable="1"` makes the asset passive
 
 
@@ -279,6 +280,10 @@ def with_digits(text: str, model: Model, motors: Mapping[str, Drive], compiled: 
         place, size = vector(handle.place - origins[handle.link]), vector((*handle.size[:2] / 2, PLATE))
         words = {"name": handle.name, "type": "box", "pos": place, "quat": vector(quaternion(handle.R)), "size": size}
         ElementTree.SubElement(bodies[handle.link], "site", words, group=str(HANDLES))
+    for at in model.places:
+        middle, turned = at.place + at.size[2] / 2 * at.R[:, 2] - origins[at.link], vector(quaternion(at.R))
+        words = {"name": at.name, "type": "box", "pos": vector(middle), "quat": turned, "size": vector(at.size / 2)}
+        ElementTree.SubElement(bodies[at.link], "site", words, group=str(PLACES), rgba="0.2 0.6 1 0.3")
     joints = {element.get("name"): element for element in root.iter("joint")}
     for joint in model.asset.joints:
         if joint.type is JointType.SCREW:

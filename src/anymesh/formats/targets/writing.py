@@ -25,11 +25,19 @@ from anymesh.export.model import FOLDER, ExportLink, Model
 from anymesh.export.notation import document, quaternion, rpy, vector
 from anymesh.export.options import Base, Format, TargetProject
 from anymesh.geometry.kinematics import link_transforms
+from anymesh.kinds.usual import kind_of
+from anymesh.names import legal_names
 from anymesh.rendering.viewpoints import away
+from anymesh.types import JointType
 
 Sub = ElementTree.SubElement
 GROUPS = {"visual": {"contype": "0", "conaffinity": "0", "group": "1"}, "collision": {"group": "0"}}  # instead of our classes
 BITS = range(1, 31)  # of contacts, beside the one that everything has
+# RoboCasa's names of insides, and of doors' joints, by kind of object; those of `SHELVED` are counted from below
+REGIONS = {"microwave": "tray", "fridge": "fridge_shelf", "oven": "rack", "dishwasher": "rack"}
+SHELVED = ("fridge", "oven", "dishwasher")
+DOORS = {"microwave": "microjoint", "fridge": "fridge_door_joint", "oven": "door_joint", "dishwasher": "door_joint"}
+ALONG = 0.9998  # minimum cosine of a region's axes to those of the object, within a degree
 NO_ARMATURE = "1e-9"  # [kg m2]
 SUFFIXES = {".obj", ".mtl", ".dae", ".png", ".jpg"}
 
@@ -101,9 +109,17 @@ def _write_object(model: Model, folder: Path, into: Path) -> None:
     for name, place in sites.items():
         Sub(outer, "site", name=name, pos=vector(place), size="0.005", rgba="0 0 0 0")
     if model.how.target is TargetProject.ROBOCASA:
-        for name in ("reg_main", "reg_bbox"):
-            _region(inner, name, np.zeros(3), half)
+        regions = {"main": (low, high), "bbox": (low, high), **_regions(model, R)}
+        for name, (least, most) in regions.items():
+            words = {
+                "name": f"reg_{name}",
+                "type": "box",
+                "pos": vector((least + most) / 2 - middle),
+                "size": vector((most - least) / 2),
+            }
+            Sub(inner, "geom", words, group="1", contype="0", conaffinity="0", mass="0", rgba="0 1 0 0")
         _closed_at_zero(root, model)
+        _name_doors(root, model)
     ElementTree.indent(root)
     (into / "model.xml").write_text(ElementTree.tostring(root, encoding="unicode") + "\n", encoding="utf-8", newline="\n")
 
@@ -116,9 +132,45 @@ def _copy_assets(root: ElementTree.Element, folder: Path, into: Path) -> None:
         shutil.copyfile(folder / str(element.get("file")), file)
 
 
-def _region(body: ElementTree.Element, name: str, place: np.ndarray, half: np.ndarray) -> None:
-    words = {"name": name, "type": "box", "pos": vector(place), "size": vector(half)}
-    Sub(body, "geom", words, group="1", contype="0", conaffinity="0", mass="0", rgba="0 1 0 0")
+def _regions(model: Model, R: np.ndarray) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Return the lowest and highest corner of RoboCasa's regions by name, turned by R: places along the axes when closed.
+
+    Insides of what RoboCasa has a fixture of are called as it looks for them, else `int`, the largest first; others are `top`.
+    """
+    closed = link_transforms(model.asset, model.states.get("closed", {}))
+    slides = {j.child for j in model.asset.joints if j.type is JointType.PRISMATIC}
+    regions, kind = dict[str, tuple[np.ndarray, np.ndarray]](), _kind(model)
+    shelved, largest = kind in SHELVED, sorted(model.places, key=lambda p: -float(np.prod(p.size)))
+    for at in model.places if shelved else largest:
+        T = R @ closed[at.link][:3]
+        axes = T[:, :3] @ at.R
+        if np.abs(axes).max(1).min() < ALONG:
+            continue
+        foot, half = T @ [*at.place, 1.0], np.abs(axes) @ at.size / 2
+        name = "int" if at.inside else "top"
+        if at.inside and kind in REGIONS:
+            name = REGIONS[kind].replace("shelf", "drawer" if at.link in slides else "shelf")
+        number = sum(other.rstrip("0123456789").rstrip("_") == name for other in regions)
+        numbered = f"{name}{number}" if shelved and at.inside else f"{name}_{number}" if number else name
+        low, high = np.array([*-half[:2], 0.0]), np.array([*half[:2], 2 * half[2]])
+        regions[numbered] = foot + low, foot + high
+    return regions
+
+
+def _kind(model: Model) -> str:
+    kind = kind_of(model.asset.category, model.asset.name)
+    return "" if kind is None else kind.name
+
+
+def _name_doors(root: ElementTree.Element, model: Model) -> None:
+    """Call the doors' joints as RoboCasa's fixture of this kind looks for them."""
+    doors = [j.name for j in model.asset.joints if j.type is JointType.REVOLUTE and j.name in model.states.get("open", {})]
+    word = DOORS.get(_kind(model))
+    taken = [str(e.get("name")) for e in root.iter() if e.get("name") not in (None, *doors)]
+    new = dict(zip(doors, legal_names([*taken, *[word] * len(doors)])[len(taken) :], strict=True)) if word else {}
+    for element in root.iter():
+        keys = ("joint", "joint1", "joint2", *(["name"] if element.tag == "joint" else []))
+        element.attrib.update({k: new[element.attrib[k]] for k in keys if element.get(k) in new})
 
 
 def _contacts(root: ElementTree.Element, pairs: list[tuple[str, str]]) -> None:
