@@ -16,7 +16,7 @@ from anymesh.export.formats import WRITERS, load_libraries, main_file, write_for
 from anymesh.export.model import Exclusion, drives
 from anymesh.export.notation import principal, quaternion, rpy, turning_x_to
 from anymesh.export.options import DEFAULT, Base, Driven, ExportOptions, Format, parse_formats
-from anymesh.formats.sdf import joint_names
+from anymesh.formats.robot.sdf import joint_names
 from anymesh.physics.resistance import ResistanceLevel
 from anymesh.types import Box, Cylinder, JointType
 

@@ -16,11 +16,11 @@ from anymesh.export.glb import GlbBuffer
 from anymesh.export.model import build_model
 from anymesh.export.notation import DRAKE
 from anymesh.export.options import ExportOptions
-from anymesh.export.urdf import urdf_text
 from anymesh.formats.gltf.joints import KHR
 from anymesh.formats.gltf.physics import add_physics
-from anymesh.formats.mjcf.writer_ import write_mjcf
-from anymesh.formats.sdf import sdf_text
+from anymesh.formats.robot.mjcf_ import write_mjcf
+from anymesh.formats.robot.sdf import sdf_text
+from anymesh.formats.robot.urdf import urdf_text
 from anymesh.openusd.writer_ import write_usd
 from anymesh.physics.substances import SUBSTANCES
 from anymesh.types import Material, Part, Segmentation

@@ -12,11 +12,11 @@ from pxr import Gf, Usd, UsdGeom, UsdPhysics
 from scipy.spatial.transform import Rotation
 
 from anymesh.export.glb import GlbBuffer, tracks
-from anymesh.export.urdf import urdf_text
 from anymesh.formats.gltf.joints import KHR
 from anymesh.formats.gltf.physics import add_physics
-from anymesh.formats.mjcf.writer_ import write_mjcf
-from anymesh.formats.sdf import sdf_text
+from anymesh.formats.robot.mjcf_ import write_mjcf
+from anymesh.formats.robot.sdf import sdf_text
+from anymesh.formats.robot.urdf import urdf_text
 from anymesh.geometry.kinematics import link_transforms
 from anymesh.mechanisms.closing import closed, loop_gap
 from anymesh.mechanisms.serial import one_axis

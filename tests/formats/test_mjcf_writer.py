@@ -13,7 +13,7 @@ from models import CONFIG, desk, model_of, with_meshes
 from anymesh.errors import OutputError
 from anymesh.export.model import WITHIN, Exclusion, drives
 from anymesh.export.options import Base, Driven
-from anymesh.formats.mjcf.writer_ import write_mjcf
+from anymesh.formats.robot.mjcf_ import write_mjcf
 from anymesh.types import Hull, Material
 
 

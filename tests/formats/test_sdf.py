@@ -10,7 +10,7 @@ from models import CONFIG, desk, model_of, with_meshes
 
 from anymesh.export.model import Exclusion
 from anymesh.export.options import Base
-from anymesh.formats.sdf import joint_names, sdf_text, write_sdf
+from anymesh.formats.robot.sdf import joint_names, sdf_text, write_sdf
 
 
 def parsed(model) -> ElementTree.Element:

@@ -15,9 +15,9 @@ from anymesh.errors import OptionError
 from anymesh.export.asset_json import asset_record
 from anymesh.export.model import Model
 from anymesh.export.options import Base, Driven, ExportOptions, Format
-from anymesh.export.urdf import urdf_text
-from anymesh.formats.mjcf.writer_ import write_mjcf
-from anymesh.formats.sdf import sdf_text
+from anymesh.formats.robot.mjcf_ import write_mjcf
+from anymesh.formats.robot.sdf import sdf_text
+from anymesh.formats.robot.urdf import urdf_text
 from anymesh.mechanisms.choosing import choose_mechanisms, parse_mechanisms
 from anymesh.openusd.writer_ import write_usd
 

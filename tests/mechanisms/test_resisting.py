@@ -10,7 +10,7 @@ from models import CONFIG, model_of, with_meshes
 
 from anymesh.export.links import split_links
 from anymesh.export.options import Base, Driven
-from anymesh.formats.mjcf.writer_ import write_mjcf
+from anymesh.formats.robot.mjcf_ import write_mjcf
 from anymesh.mechanisms.resisting import KINDS, TILT, kind_of, resistances
 from anymesh.physics.inertia import link_inertia
 from anymesh.physics.resistance import GRAVITY, Resistance, ResistanceLevel

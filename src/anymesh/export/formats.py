@@ -13,6 +13,7 @@ from anymesh.entry_points import (
     WRITE_SDF,
     WRITE_SIMREADY,
     WRITE_TARGET,
+    WRITE_URDF,
     WRITE_USD,
     WRITE_USDZ,
     resolve,
@@ -20,7 +21,6 @@ from anymesh.entry_points import (
 from anymesh.export.glb import glb_bytes
 from anymesh.export.model import ExportConfig, Model
 from anymesh.export.options import Format, Profile
-from anymesh.export.urdf import urdf_text
 
 Writer = Callable[[Model, Path, ExportConfig], None]  # writes into an asset folder with its meshes/
 
@@ -49,10 +49,6 @@ def write_formats(model: Model, folder: Path, formats: Sequence[Format], config:
     resolve(WRITE_TARGET)(model, folder)
 
 
-def _write_urdf(model: Model, folder: Path, config: ExportConfig) -> None:
-    (folder / main_file(Format.URDF, model.asset.name)).write_text(urdf_text(model), encoding="utf-8", newline="\n")
-
-
 def _write_glb(model: Model, folder: Path, config: ExportConfig) -> None:
     glb = glb_bytes(model.asset, model.links, config, partial(resolve(GLTF_PHYSICS), model))
     (folder / main_file(Format.GLB, model.asset.name)).write_bytes(glb)
@@ -63,7 +59,7 @@ def _by_name(place: str, model: Model, folder: Path, config: ExportConfig) -> No
 
 
 WRITERS: Mapping[Format, Writer] = {
-    Format.URDF: _write_urdf,
+    Format.URDF: partial(_by_name, WRITE_URDF),
     Format.MJCF: partial(_by_name, WRITE_MJCF),
     Format.USD: partial(_by_name, WRITE_USD),
     Format.SDF: partial(_by_name, WRITE_SDF),

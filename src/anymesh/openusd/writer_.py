@@ -21,8 +21,8 @@ from anymesh.export.meshes import texture_files, visible, write_textures
 from anymesh.export.model import FOLDER, Drive, ExportConfig, ExportLink, Model, drives
 from anymesh.export.notation import principal, turning_x_to
 from anymesh.export.options import Base
-from anymesh.export.urdf import LIGHT
 from anymesh.formats.packed import EPOCH, PLAIN_FILE
+from anymesh.formats.robot.urdf import LIGHT
 from anymesh.mechanisms.places import PlaceFrame
 from anymesh.mechanisms.serial import one_axis
 from anymesh.names import legal_names

@@ -12,8 +12,8 @@ from anymesh.export.asset_json import asset_record
 from anymesh.export.meshes import write_meshes
 from anymesh.export.model import ExportConfig, build_model
 from anymesh.export.options import ExportOptions
-from anymesh.export.urdf import urdf_text
-from anymesh.formats.mjcf.writer_ import write_mjcf
+from anymesh.formats.robot.mjcf_ import write_mjcf
+from anymesh.formats.robot.urdf import urdf_text
 from anymesh.openusd.writer_ import write_usd
 
 STEP, SETTLE, SLIDE = 0.002, 200, 500  # [s]; steps

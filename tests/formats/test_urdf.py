@@ -16,7 +16,7 @@ from anymesh.export.formats import write_formats
 from anymesh.export.model import drives
 from anymesh.export.notation import DRAKE
 from anymesh.export.options import Base, Driven, Format
-from anymesh.export.urdf import urdf_text
+from anymesh.formats.robot.urdf import urdf_text
 from anymesh.types import JointType
 
 ASSETS = {"cabinet": cabinet, "slanted": slanted, "desk": desk}

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from pathlib import Path
 from typing import assert_never
 from xml.etree import ElementTree
 
 import numpy as np
 
-from anymesh.entry_points import LOOP_POINTS, ONE_AXIS, resolve
 from anymesh.export.links import Link
 from anymesh.export.meshes import display_color, material_names, painted, widest
-from anymesh.export.model import ExportLink, Model, drives
+from anymesh.export.model import ExportConfig, ExportLink, Model, drives
 from anymesh.export.notation import DRAKE, document, moments, number, rpy, vector
 from anymesh.export.options import Driven, Visuals
+from anymesh.mechanisms.closing import loop_points
+from anymesh.mechanisms.serial import one_axis
 from anymesh.physics.inertia import Inertia
 from anymesh.physics.resistance import Resistance
 from anymesh.types import Asset, Box, Cylinder, Hull, Joint, JointType, Mesh, Shape
@@ -24,6 +26,11 @@ LIGHT = 1e-3  # mass of a link between joints that move one part, over that of t
 FREELY = (0.0, 100.0)  # effort and velocity of a joint that nothing resists
 # By default, MuJoCo drops visuals and folders of mesh names, and fuses static links.
 MUJOCO = {"discardvisual": "false", "fusestatic": "false", "strippath": "false", "balanceinertia": "true"}
+
+
+def write_urdf(model: Model, folder: Path, config: ExportConfig) -> None:
+    """Write <name>.urdf into an asset folder with its meshes/."""
+    (folder / f"{model.asset.name}.urdf").write_text(urdf_text(model), encoding="utf-8", newline="\n")
 
 
 def urdf_text(model: Model) -> str:
@@ -46,7 +53,7 @@ def urdf_text(model: Model) -> str:
     ways = leaders(asset.joints)
     for joint in (replace(j, mimic=ways.get(j.name)) for j in asset.joints):
         shift, all_resist = origins[joint.child] - origins[joint.parent], joint.type is JointType.BALL
-        for step in resolve(ONE_AXIS)(joint, [*origins, *(j.name for j in asset.joints)], asset.mesh.diagonal):
+        for step in one_axis(joint, [*origins, *(j.name for j in asset.joints)], asset.mesh.diagonal):
             resists = all_resist or step.name == joint.name
             _add_joint(robot, step, shift, model.resistances.get(joint.name) if resists else None)
             shift = 0 * shift
@@ -151,7 +158,7 @@ def _add_loops(robot: ElementTree.Element, asset: Asset, origins: Mapping[str, n
         element = sub(robot, "loop", name=loop.name, type=str(loop.kind))
         for side, link in (("first", loop.first), ("second", loop.second)):
             sub(element, side, link=link, xyz=vector(loop.origin - origins[link]), axis=vector(loop.axis))
-        for point in resolve(LOOP_POINTS)(loop, asset.mesh.diagonal):
+        for point in loop_points(loop, asset.mesh.diagonal):
             ball = sub(robot, f"{DRAKE}ball_constraint")
             for name, link in (("A", loop.first), ("B", loop.second)):
                 sub(ball, f"{DRAKE}ball_constraint_body_{name}", name=link)

@@ -1,1 +1,0 @@
-"""MJCF: the model of MuJoCo."""
