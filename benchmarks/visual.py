@@ -2,6 +2,7 @@
 
 python -m benchmarks.visual ask FOLDER --place infinigen=DIR --wait --jobs 4    asks, in FOLDER/NNN/PROTOCOL/, to the end
 python -m benchmarks.visual keep FOLDER                                         answers to benchmarks/recordings/, no pictures
+python -m benchmarks.visual changed FOLDER --against REVISION                   a table of what was done anew, and calls before
 python -m benchmarks.visual table --place infinigen=DIR                         reports/visual.md, from the recordings alone
 
 Objects have numbers in the folders of questions, as their names would show what they are (`recordings/objects.json`), and what
@@ -13,6 +14,7 @@ from __future__ import annotations
 
 import json
 import shutil
+import subprocess
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -25,10 +27,12 @@ from anymesh.errors import AnymeshError, OpenQuestionError
 from anymesh.evaluation.datasets.named import open_dataset
 from anymesh.evaluation.evaluate_sample import EvalConfig, EvalProtocol, evaluate_sample
 from anymesh.evaluation.record import Record, record_of, record_text
+from anymesh.evaluation.score import ObjectScore
 from anymesh.pipeline.answering import choose_answerer
 from anymesh.pipeline.solving import solve
 from anymesh.prompted.answerers.file_answerer import open_questions
 from anymesh.prompted.answerers.question_files import ANSWER, OWNER, QUESTION, find_questions
+from anymesh.prompted.models.budget import max_picture_tokens
 from anymesh.types.questions import VisualAnswerer
 from benchmarks import RECORDINGS, REPORTS, parser_of, table_head, table_row
 from benchmarks.visual_choices import FILE as CHOICES
@@ -53,12 +57,12 @@ drawers are pulled out, knobs turn about their own middle, a handle is opposite 
 the same way when their surfaces, and with them regions and pictures, were found otherwise; for nine of them the kinds of some
 joints were answered before the picture was seen.
 Since then questions changed: kinds and motions are one question, which leaves out joints that geometry is sure of; kinds
-have counts and marks equals; points are drawn in two views. All questions about 002 to 009, 013 and 014 (end to end) were
-answered anew, by a general model, from their pictures. It had read this page before, and with it names, results and numbers
-of joints, and had seen the scores of earlier objects before 009, 013 and 014;
-001, 024 and 027 were left out, as this page tells the truth about them. The others do not
-replay until they are answered anew; the exceptions are 018, 022 and 065, whose points in two views were answered by an
-answerer who had seen the examples before. With parts given, nothing was answered anew.
+have counts and marks equals; points are drawn in two views; the first question has smaller pictures. All questions about the
+objects in the first table (end to end) were answered anew, by a general model, from their pictures. It had read this page
+before, and with it names, results and numbers of joints, and had seen the scores of earlier objects before 009, 013, 014 and
+021 to 071; 001, 024 and 027 were left out, as this page tells the truth about them. The other tables are of the older
+questions, and the objects that are not in the first table do not replay until they are answered anew. With parts given,
+nothing was answered anew.
 
 Recall: true movable parts found with an IoU of .5 or more. mIoU: over the true parts, 0 for a part that was not found. For
 joints that were found: type (turns or slides, as the true joint does), exact type (revolute and continuous distinguished),
@@ -168,6 +172,52 @@ def keep(folder: Path) -> None:
         print(f"kept {place.relative_to(RECORDINGS)}: {record_of(done.read_text(encoding='utf-8')).score.name}")
 
 
+def changed(folder: Path, revision: str) -> str:
+    """Return a table of the objects that are done in a folder, with calls and pictures as recorded at a revision.
+
+    Tokens: of the input, as `openai:gpt-4o` counts its pictures, with four bytes of text per token.
+    """
+    names = "joints|calls before|after|pictures before|after|tokens in|recall|type|angle [deg]|mIoU".split("|")
+    lines, counts, scores = table_head(["object", *names]), [], []
+    for done in sorted(results_of(folder).glob(f"*/{EvalProtocol.END_TO_END}/{RECORD}")):
+        number, record = done.parent.parent.name, record_of(done.read_text(encoding="utf-8"))
+        asked = [q for q in find_questions(folder / number / EvalProtocol.END_TO_END) if q.answer() and not q.outdated]
+        before = _pictures_at(revision, number)
+        tokens = sum(max_picture_tokens("openai", "gpt-4o", *picture.size) for q in asked for picture in q.pictures()) + sum(
+            len(str(q.record[name])) // 4 for q in asked for name in ("system", "text", "schema")
+        )
+        counts.append((len(before), len(asked), sum(before), sum(len(q.pictures()) for q in asked), tokens))
+        scores.append(record.score)
+        lines.append(table_row([f"{number} {record.score.name}", *_changed([counts[-1]], [record.score])]))
+    return "\n".join([*lines, table_row(["all", *_changed(counts, scores)]), ""])
+
+
+def _changed(counts: Sequence[tuple[int, ...]], scores: Sequence[ObjectScore]) -> list[str]:
+    joints = [j for s in scores for j in s.joints]
+    found = [j for j in joints if j.type_found is not None]
+    true = sum(s.true for s in scores)
+    means = [fmean(column) for column in zip(*counts, strict=True)]
+    return [
+        str(len(joints)),
+        *(f"{mean:.0f}" if len(counts) == 1 or mean > 1000 else f"{mean:.1f}" for mean in means),
+        _share(sum(s.matched for s in scores), true),
+        _share(sum(j.type_right for j in found), len(found)),
+        f"{fmean(j.angle or 0.0 for j in found):.2f}" if found else "",
+        _share(sum(s.part_miou * s.true for s in scores), true),
+    ]
+
+
+def _pictures_at(revision: str, number: str) -> list[int]:
+    """Return the number of pictures of each question of an object's recording at a revision."""
+    place = (RECORDINGS / number / EvalProtocol.END_TO_END).relative_to(RECORDINGS.parents[1]).as_posix()
+
+    def git(*words: str) -> str:
+        return subprocess.run(["git", *words], cwd=RECORDINGS.parents[1], capture_output=True, text=True, check=True).stdout
+
+    names = [n for n in git("ls-tree", "-r", "--name-only", revision, place).split() if n.endswith(QUESTION)]
+    return [len(json.loads(git("show", f"{revision}:{name}"))["pictures"]) for name in names]
+
+
 def row_of(item: Item, protocol: EvalProtocol) -> Row:
     """Answer one object from its recording."""
     folder, setting = RECORDINGS / item.number / protocol, EvalConfig(protocol, (item.change,))
@@ -239,7 +289,8 @@ def _each(work, tasks: Sequence[tuple], jobs: int) -> Iterator:
 
 def main() -> None:
     parser = parser_of(__doc__)
-    parser.add_argument("what", choices=("ask", "keep", "table"))
+    parser.add_argument("what", choices=("ask", "keep", "changed", "table"))
+    parser.add_argument("--against", default="HEAD", help="for changed: a revision with the recordings before")
     parser.add_argument("folder", nargs="?", type=Path, help="of questions; not for table")
     parser.add_argument("--place", action="append", default=[], metavar="SET=PLACE", help="where a data set lies; may repeat")
     parser.add_argument("--only", default="", metavar="NUMBERS", help="of objects, with commas between")
@@ -254,6 +305,8 @@ def main() -> None:
     protocols = [p for p in PROTOCOLS if options.protocol in (None, p)]
     if options.what == "keep":
         keep(options.folder)
+    elif options.what == "changed":
+        print(changed(options.folder, options.against))
     elif options.what == "table":
         recorded = [(i, p) for i in found for p in protocols if (RECORDINGS / i.number / p).is_dir()]
         table(recorded, options.jobs, options.markdown)
