@@ -139,8 +139,9 @@ class _MechanismBench:
         turns = self.model.jnt_type[joint] == self.mujoco.mjtJoint.mjJNT_HINGE
         most = np.pi if turns else self.extent
         low, high = self.model.jnt_range[joint] - self.model.qpos0[self.model.jnt_qposadr[joint]]
-        limited = self.model.jnt_limited[joint] and high - low < ENDLESS * most
-        return (float(low), float(high)) if limited else (-most, most)
+        if not self.model.jnt_limited[joint]:
+            return -most, most
+        return (float(low), float(high)) if high - low <= ENDLESS * most else (max(float(low), -most), min(float(high), most))
 
     def _amounts(self) -> Float[np.ndarray, " n"]:
         """Return how far hinges and slides are from rest [rad or m], by the number of the joint."""

@@ -97,7 +97,10 @@ def make_bench(mujoco: Any, path: Path) -> tuple[MujocoBench, tuple[tuple[str, s
     limited = model.jnt_limited.astype(bool)[:, None]
     unlimited = np.where(model.jnt_type == mujoco.mjtJoint.mjJNT_SLIDE, model.stat.extent, np.pi)[:, None] * (-1.0, 1.0)
     limited &= np.ptp(model.jnt_range, axis=1)[:, None] <= ENDLESS * unlimited[:, 1:]
-    ranges = np.where(limited, model.jnt_range, unlimited).reshape(-1, 2)
+    stated = np.where(model.jnt_limited.astype(bool)[:, None], model.jnt_range, unlimited)
+    ranges = np.where(limited, stated, np.clip(unlimited, stated[:, :1], stated[:, 1:])).reshape(
+        -1, 2
+    )  # of many turns, the first
     single = (int(mujoco.mjtJoint.mjJNT_HINGE), int(mujoco.mjtJoint.mjJNT_SLIDE))
     joints = tuple(k for k in range(model.njnt) if int(model.jnt_type[k]) in single)
     followers, undriven = _coupled(model, joints, couplings, loops)
