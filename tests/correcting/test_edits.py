@@ -26,8 +26,10 @@ from anymesh.correcting import (
     SplitComponents,
     SplitPart,
     apply,
+    corrections_of,
 )
-from anymesh.types import Asset, JointType
+from anymesh.correcting.listing import part_rows
+from anymesh.types import Asset, JointType, Mimic
 
 
 def joint(asset: Asset, part: str):
@@ -235,3 +237,53 @@ def test_what_makes_no_sense_is_refused_with_the_reason(correction, told):
     with pytest.raises(CorrectionError) as error:
         apply(cabinet(), correction)
     assert told in str(error.value)
+
+
+def corrected(asset, part, **operations):
+    for correction in corrections_of(asset, part, operations):
+        asset = apply(asset, correction)
+    return asset
+
+
+def test_a_part_follows_another_and_its_limits_are_implied():
+    asset = corrected(cabinet(), "drawer", mimic="door,-0.1")
+    door, drawer = (joint(asset, name) for name in ("door", "drawer"))
+    assert drawer.mimic == Mimic(door.name, -0.1)
+    assert drawer.limits == pytest.approx(sorted(-0.1 * end for end in door.limits))
+    wider = corrected(asset, "door", limits="0,150")
+    assert joint(wider, "drawer").limits[0] == pytest.approx(-0.1 * np.deg2rad(150))
+    with pytest.raises(CorrectionError, match="whose limits give its own"):
+        corrected(asset, "drawer", limits="0,0.1")
+    with pytest.raises(CorrectionError, match="is led by it"):
+        corrected(asset, "door", mimic="drawer")
+    assert joint(corrected(asset, "drawer", mimic="none"), "drawer").mimic is None
+    assert joint(corrected(asset, "door", type="fixed"), "drawer").mimic is None  # it cannot lead any more
+    assert joint(corrected(asset, "door", rename="hatch"), "drawer").mimic.joint in {j.name for j in asset.joints} | {
+        "hatch_joint"
+    }
+    assert joint(corrected(asset, "door", remove=True), "drawer").mimic is None
+
+
+def test_screws_balls_and_loose_parts():
+    screw = joint(corrected(cabinet(), "knob", screw="-3mm"), "knob")
+    assert (screw.type, screw.pitch) == (JointType.SCREW, pytest.approx(-0.003))
+    plain = joint(corrected(corrected(cabinet(), "knob", screw="3mm"), "knob", type="continuous"), "knob")
+    assert plain.pitch == 0
+    ball = joint(corrected(cabinet(), "knob", type="ball", limits="20"), "knob")
+    assert ball.limits == pytest.approx((0, np.deg2rad(20)))
+    assert joint(corrected(cabinet(), "door", type="free"), "door").limits is None
+    with pytest.raises(CorrectionError, match="give screw instead of type"):
+        corrected(cabinet(), "knob", type="screw")
+
+
+def test_loops_are_set_renamed_and_removed():
+    asset = corrected(cabinet(), "drawer", loop="door,0.1,0,20cm,ball")
+    (loop,) = asset.loops
+    assert (loop.first, loop.second, loop.kind) == ("drawer", "door", JointType.BALL)
+    assert loop.origin == pytest.approx((0.1, 0, 0.2))
+    assert "joined to door" in next(row["motion"] for row in part_rows(asset) if row["part"] == "drawer")
+    assert corrected(asset, "door", rename="hatch").loops[0].second == "hatch"
+    assert corrected(asset, "drawer", loop="none").loops == ()
+    assert corrected(asset, None, merge="drawer,door").loops == ()
+    with pytest.raises(CorrectionError, match="is no loop"):
+        corrected(cabinet(), "drawer", loop="door,0.1,0")

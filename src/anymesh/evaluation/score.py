@@ -278,7 +278,7 @@ def _followers(sample: EvalSample, joints: tuple[Joint, ...], counterparts: Mapp
             continue
         sign = np.sign(ours[own].axis @ joint.axis) * np.sign(ours[lead].axis @ true[joint.follows.leader].axis)
         ratio, coupled = sign * ways[own].ratio / ways[lead].ratio, coupled + 1
-        right += joint.follows.ratio is None or abs(ratio / joint.follows.ratio - 1) < RIGHT_RATIO
+        right += joint.follows.ratio is None or bool(abs(ratio / joint.follows.ratio - 1) < RIGHT_RATIO)
     group = {name: _group(name, true) for name in true}
     names = {j.name: of_true.get(j.child, "") for j in joints}
     invented = sum(group.get(names[n], n) != group.get(names[way.joint], way.joint) for n, way in led.items())

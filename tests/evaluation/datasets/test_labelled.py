@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,9 +11,11 @@ import pytest
 from assets import box, mesh_of
 
 from anymesh.errors import InputError
+from anymesh.evaluation.datasets.labelled import LabelledFolder
 from anymesh.evaluation.datasets.named import open_dataset
-from anymesh.evaluation.ground_truth import prepared
-from anymesh.types import JointType
+from anymesh.evaluation.ground_truth import Following, prepared
+from anymesh.evaluation.score import score
+from anymesh.types import JointType, Mimic
 
 
 def written(folder: Path, **changes) -> Path:
@@ -97,3 +100,29 @@ def test_labels_are_whole_numbers_from_0(tmp_path: Path, change) -> None:
     np.save(place / "labels.npy", change(np.load(place / "labels.npy")))
     with pytest.raises(InputError, match="valid is one integer per face, 0 for the base"):
         open_dataset(f"labelled:{tmp_path}").truth("some_1", tmp_path / "out")
+
+
+def test_what_a_part_follows_is_read_from_a_ratio_or_a_name(tmp_path: Path) -> None:
+    door, drawer = ({**JOINT, "name": "door"}, {**JOINT, "part": 2, "name": "flap", "limits": [0, 0.75]})
+    for mimic, ratio in (("base_to_door", None), ("top_hinge", None), ({"joint": "door", "ratio": -0.5}, -0.5)):
+        folder = tmp_path / str(len(list(tmp_path.iterdir())))
+        folder.mkdir()
+        written(folder, joints=[door, drawer | {"mimic": mimic, "dof_of_link": 2}])
+        sample = prepared(LabelledFolder(folder).truth("some_1", tmp_path / "out"))
+        _, flap = sample.truth.joints
+        assert flap.follows == Following("part_1", ratio)
+        assert flap.freedoms == 2
+        led = sample.asset().joints[1]
+        assert led.mimic == Mimic("part_1_joint", 0.5 if ratio is None else ratio)  # not told: that of the ranges
+        scored = score(sample, sample.segmentation(), sample.asset().joints).followers
+        assert (scored.true, scored.found, scored.right, scored.invented) == (1, 1, 1, 0)
+        free = tuple(replace(j, mimic=None) for j in sample.asset().joints)
+        assert score(sample, sample.segmentation(), free).followers.found == 0
+
+
+def test_followers_that_are_none_are_counted(tmp_path: Path) -> None:
+    written(tmp_path, joints=[JOINT, {**JOINT, "part": 2}])
+    sample = prepared(LabelledFolder(tmp_path).truth("some_1", tmp_path / "out"))
+    first, second = sample.asset().joints
+    made = score(sample, sample.segmentation(), (first, replace(second, mimic=Mimic(first.name, 1.0)))).followers
+    assert (made.true, made.found, made.invented) == (0, 0, 1)
