@@ -84,33 +84,35 @@ def with_gears(mesh: Mesh, segmentation: Segmentation, joints: Sequence[Joint]) 
     The wheel with the largest part beside its teeth leads, such as that with a crank.
     """
     turning = [j for j in joints if j.type in TURNING and j.mimic is None]
-    pairs = [(a, b) for a, b in combinations(turning, 2) if abs(float(a.axis @ b.axis)) > PARALLEL]
-    if not pairs:
-        return tuple(joints)
     number = segmentation.numbers
-    points = {j.name: _edge_points(mesh.triangles[segmentation.faces(number[j.child])]) for pair in pairs for j in pair}
+    faces = {j.name: mesh.triangles[segmentation.faces(number[j.child])] for j in turning}
+    size = {name: float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0))) for name, triangles in faces.items()}
+    near = [(a, b) for a, b in combinations(turning, 2) if _apart(a, b) < (size[a.name] + size[b.name]) / 2]
+    points = {name: _edge_points(faces[name]) for name in {j.name for pair in near for j in pair}}
     ratios: dict[str, dict[str, float]] = {}
-    for a, b in pairs:
+    for a, b in near:
         if (ratio := _ratio(a, b, points[a.name], points[b.name])) is not None:
             ratios.setdefault(a.name, {})[b.name] = ratio
             ratios.setdefault(b.name, {})[a.name] = 1 / ratio
-    return _led(joints, ratios, {n: float(np.linalg.norm(np.ptp(points[n], axis=0))) for n in ratios})
+    return _led(joints, ratios, size)
+
+
+def _apart(a: Joint, b: Joint) -> float:
+    """Return the distance of two axes [m], infinite unless they are parallel."""
+    off = b.origin - a.origin
+    return float(np.linalg.norm(off - (off @ a.axis) * a.axis)) if abs(float(a.axis @ b.axis)) > PARALLEL else np.inf
 
 
 def _ratio(a: Joint, b: Joint, of_a: Points, of_b: Float[np.ndarray, "m 3"]) -> float | None:
     """Return how much b turns for a turn of a, None if they do not mesh."""
-    axis, off = a.axis, b.origin - a.origin
-    distance = float(np.linalg.norm(off - (off @ axis) * axis))
-    heights = of_a @ axis, of_b @ axis
+    heights = of_a @ a.axis, of_b @ a.axis
     low, high = max(h.min() for h in heights), min(h.max() for h in heights)
     wheels = []
     for joint, points, height in zip((a, b), (of_a, of_b), heights, strict=True):
         beside = points[(height >= low) & (height <= high)]
-        if len(beside) < BINS or not distance < 2 * np.linalg.norm(np.ptp(points, axis=0)):
-            return None
-        wheels.append(teeth(beside, joint.origin, axis))
+        wheels.append(teeth(beside, joint.origin, a.axis) if len(beside) >= BINS else None)
     first, second = wheels
-    if first is None or second is None or not first.meshes(second, distance):
+    if first is None or second is None or not first.meshes(second, _apart(a, b)):
         return None
     return -first.count / second.count * (1.0 if a.axis @ b.axis > 0 else -1.0)
 
