@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from assets import cabinet
 from correctable import write_output
+from mechanical import doors, linkage
 
 import anymesh
 from anymesh.cli import run
@@ -132,3 +133,14 @@ def test_joints_of_old_assets_have_no_others(tmp_path) -> None:
     written = read_asset(write_output(tmp_path / "out"))
     assert all(isinstance(j, Joint) and j.others == () for j in written.joints)
     assert written.proposals == ()
+
+
+def test_followers_and_loops_go_with_what_leads_and_joins_them() -> None:
+    def doubted(asset, name):
+        joints = (replace(j, confidence=0.1 if j.name == name else 1.0) for j in asset.joints)
+        return with_proposals(replace(asset, joints=tuple(joints)), 0.9)
+
+    written = doubted(doors(), "hinge")
+    assert [p.joint.name for p in written.proposals] == ["hinge", "twin"]
+    assert [j.mimic and j.mimic.joint for j in doubted(doors(), "second").joints] == [None, "hinge", None, "first"]
+    assert not doubted(linkage(), "coupler_joint").loops

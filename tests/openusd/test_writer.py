@@ -5,6 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from assets import cabinet, slanted, solid
+from mechanical import MECHANISMS
 from models import CONFIG, desk, model_of, with_meshes
 from pxr import Gf, Usd, UsdGeom, UsdPhysics, UsdShade, UsdValidation
 
@@ -27,7 +28,7 @@ def stage_of(model, folder):
 
 
 @pytest.mark.parametrize("base", Base)
-@pytest.mark.parametrize("make", [cabinet, slanted, desk])
+@pytest.mark.parametrize("make", [cabinet, slanted, desk, *MECHANISMS])
 def test_all_validators_of_openusd_pass(make, base, tmp_path):
     validators = UsdValidation.ValidationRegistry().GetOrLoadAllValidators()
     assert any("ArticulationChecker" in v.GetMetadata().name for v in validators)

@@ -11,6 +11,7 @@ import numpy as np
 from anymesh.correcting.articulations import calibration
 from anymesh.correcting.motions import motion_words
 from anymesh.types import Asset, Joint, JointType, Part, ProposedJoint, Segmentation
+from anymesh.types.motion import leaders
 
 
 def probability(parts: Sequence[Part], joint: Joint) -> float:
@@ -32,10 +33,12 @@ def combined(part: float, joint: float, numbers: Mapping[str, float]) -> float:
 
 
 def unsure(asset: Asset, precision: float) -> dict[str, float]:
-    """Return the probability of the joints below a precision, by their part."""
+    """Return the probability of the joints below a precision, by their part; a follower is as sure as its leader at most."""
     moving = (joint for joint in asset.joints if joint.type is not JointType.FIXED)
     known = {joint.child: probability(asset.segmentation.parts, joint) for joint in moving}
-    return {name: p for name, p in known.items() if p < precision}
+    left, child = {name: p for name, p in known.items() if p < precision}, {j.name: j.child for j in asset.joints}
+    led = {child[name]: left[child[way.joint]] for name, way in leaders(asset.joints).items() if child[way.joint] in left}
+    return led | left
 
 
 def with_proposals(asset: Asset, precision: float) -> Asset:
@@ -57,7 +60,9 @@ def with_proposals(asset: Asset, precision: float) -> Asset:
     kept = [part.name for part in parts if part.name not in left]
     number = np.array([kept.index(carrier(part.name)) for part in parts])
     faces = {part.name: asset.segmentation.faces(k) for k, part in enumerate(parts)}
-    joints = tuple(replace(j, parent=carrier(j.parent)) for j in asset.joints if j.child not in left)
+    ways = leaders(asset.joints)  # the chain of a follower may lead over one that is left out
+    kept_joints = (j for j in asset.joints if j.child not in left)
+    joints = tuple(replace(j, parent=carrier(j.parent), mimic=ways.get(j.name)) for j in kept_joints)
     proposed = tuple(
         ProposedJoint(next(p for p in parts if p.name == j.child), j, left[j.child], motion_words(asset, j), faces[j.child])
         for j in asset.joints
@@ -68,6 +73,7 @@ def with_proposals(asset: Asset, precision: float) -> Asset:
         asset,
         segmentation=Segmentation(number[asset.segmentation.face_part], tuple(p for p in parts if p.name not in left)),
         joints=joints,
+        loops=tuple(loop for loop in asset.loops if not {loop.first, loop.second} & {*left}),
         proposals=(*asset.proposals, *proposed),
         warnings=tuple(w for w in asset.warnings if not w.startswith(about)),
     )

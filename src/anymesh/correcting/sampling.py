@@ -15,6 +15,7 @@ from anymesh.export import write_asset
 from anymesh.export.options import ExportOptions
 from anymesh.runtime import Progress, cache_folder, silent, write_json
 from anymesh.types import Asset
+from anymesh.types.motion import leaders
 
 FOLDER, MANIFEST = "samples", "samples.json"
 MAX_SAMPLES = 1000
@@ -43,7 +44,9 @@ class Variants:
             name = f"{asset.name}_{k + 1:04d}"
             progress("samples", name, k, self.count)
             place, choices = folder / FOLDER / name, drawn(asset, np.random.default_rng((self.seed, k)))
-            joints = tuple(articulations(joint)[choices[joint.name]] for joint in asset.joints)
+            chosen, ways = [articulations(j)[choices[j.name]] for j in asset.joints], leaders(asset.joints)
+            lead = {n: way for n, way in ways.items() if not choices[n] and not choices[way.joint]}  # others follow none
+            joints = tuple(replace(j, mimic=lead.get(j.name)) for j in chosen)
             place.mkdir(parents=True)
             variant = replace(asset, name=name, joints=joints, exchanges=(), proposals=(), warnings=())
             write_asset(variant, place, how, cache=cache_folder("shapes"))
