@@ -19,6 +19,7 @@ from typing import Any
 
 import anyio
 import pytest
+from assets import cabinet
 from PIL import Image
 
 pytest.importorskip("mcp")
@@ -26,8 +27,11 @@ pytest.importorskip("mcp")
 from mcp.client.client import Client
 from mcp.client.stdio import StdioServerParameters, stdio_client
 
-from anymesh.agents.server_ import make_server
+from anymesh.agents.server_ import _as_arguments, make_server
+from anymesh.agents.tools import _corrected
 from anymesh.cli import run
+from anymesh.correcting import CorrectionError
+from anymesh.correcting.history import History
 from anymesh.errors import InputError
 from anymesh.evaluation.ground_truth import example_truths, prepared
 from anymesh.evaluation.oracle import oracle
@@ -258,3 +262,23 @@ def test_stdio_carries_nothing_but_the_protocol(work: Path) -> None:
     (line,) = done.stdout.splitlines()
     assert json.loads(line)["result"]["serverInfo"]["name"] == "anymesh"
     assert time.monotonic() - begin < 30
+
+
+def test_options_of_the_command_line_are_told_as_arguments_of_tools() -> None:
+    told = "to use the answer, give --scale 0.45:longest; --at-least 1 helps; --detail low and a--scale b stay"
+    assert _as_arguments(told) == (
+        "to use the answer, give scale 0.45:longest; at_least 1 helps; --detail low and a--scale b stay"
+    )
+
+
+@pytest.mark.parametrize(
+    ("correction", "told"),
+    [
+        ({"correction": "set_limits", "part": "door", "lower": "a", "upper": 1}, "wrong kind|needs part, lower"),
+        ({"correction": ["a"]}, "unknown correction"),
+        ({"correction": "choose_motion", "part": "door"}, "needs part, type"),
+    ],
+)
+def test_a_correction_with_a_value_of_the_wrong_kind_says_so(correction: dict, told: str) -> None:
+    with pytest.raises(CorrectionError, match=told):
+        _corrected(History((cabinet(),)), correction)
