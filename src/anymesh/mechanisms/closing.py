@@ -12,7 +12,7 @@ from anymesh.geometry.kinematics import Position, link_transforms
 from anymesh.types import Asset, Joint, JointType, Loop
 from anymesh.types.motion import leaders
 
-STEP = 0.1  # [rad, or of the asset's diagonal] by which a position grows before the loops are closed again
+STEP = 0.25  # [rad, or of the asset's diagonal] by which a position grows before the loops are closed again
 ROUNDS, SMALL, CLOSED = 20, 1e-6, 1e-12  # of Newton's method; its difference; gap over the diagonal at which it ends
 APART = 0.1  # of the diagonal: distance of the points that hold two links together; an estimate
 Transforms = Mapping[str, Float[np.ndarray, "4 4"]]

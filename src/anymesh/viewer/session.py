@@ -148,7 +148,7 @@ class Session:
 
     def _within(self, joint: Joint) -> float:
         at = self.positions.get(joint.name, 0.0)
-        return at if joint.limits is None else float(np.clip(at, *joint.limits))
+        return at if joint.limits is None else float(np.clip(at, *joint.span))
 
     def motions(self) -> tuple[ChooseMotion, ...]:
         """Return the ranked free motions of the selected part. Raise CorrectionError for the root, or without a selection."""
