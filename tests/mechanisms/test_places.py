@@ -33,6 +33,7 @@ TRAY = [  # a drawer of boards of 1 cm that stands below the shelf
     box((-0.27, -0.19, 0.04), (-0.26, 0.16, 0.2)),
     box((0.26, -0.19, 0.04), (0.27, 0.16, 0.2)),
 ]
+OPEN = {"open": {"slide": 0.3}}
 
 
 def cupboard(turn: np.ndarray = STRAIGHT, out: float = 0.0) -> Asset:
@@ -46,10 +47,16 @@ def cupboard(turn: np.ndarray = STRAIGHT, out: float = 0.0) -> Asset:
     return Asset("cupboard", source(), replace(mesh, vertices=vertices @ turn.T), parts, (slide,), "test")
 
 
+def test_what_nothing_leads_to_is_no_place():
+    mesh, _ = mesh_of([*CASE, box((-0.28, -0.22, 0.0), (0.28, -0.2, 0.8))])
+    asset = Asset("shut", source(), mesh, Segmentation(np.zeros(len(mesh.faces), int), (Part("base", "base"),)), (), "test")
+    assert [p.inside for p in find_places(asset, {})] == [False]
+
+
 @pytest.mark.parametrize("degrees", [0, 20, 90])
 def test_shelf_drawer_and_top_are_places(degrees):
     turn = Rotation.from_euler("z", degrees, degrees=True).as_matrix()
-    places = find_places(cupboard(turn), {})
+    places = find_places(cupboard(turn), OPEN)
     assert [(p.link, p.inside) for p in places] == [("tray", True), ("case", True), ("case", False)]
     feet = np.array([turn.T @ p.place for p in places])
     assert np.allclose(feet, [[0, -0.015, 0.04], [0, -0.01, 0.42], [0, 0, 0.8]], atol=0.01)
@@ -68,14 +75,17 @@ def test_nothing_is_put_into_a_solid_or_onto_a_bar():
 
 
 def test_a_drawer_is_measured_closed_and_told_at_rest():
-    (closed, *_), (ajar, *_) = find_places(cupboard(), {}), find_places(cupboard(out=0.1), {"slide": -0.1})
+    (closed, *_), (ajar, *_) = (
+        find_places(cupboard(), OPEN),
+        find_places(cupboard(out=0.1), {"closed": {"slide": -0.1}, "open": {"slide": 0.3}}),
+    )
     assert np.allclose(ajar.place, closed.place - 0.1 * STRAIGHT[1], atol=1e-6)
     assert np.allclose(ajar.size, closed.size, atol=1e-6)
 
 
 def test_formats_hold_places_where_they_are(tmp_path):
     asset = cupboard()
-    places = find_places(asset, {})
+    places = find_places(asset, OPEN)
     model = replace(model_of(asset), places=places)
     model = replace(model, how=replace(model.how, target=TargetProject.ROBOCASA))
     write_formats(model, with_meshes(model, tmp_path), (Format.MJCF, Format.USD, Format.SDF), CONFIG)
@@ -101,6 +111,6 @@ def test_formats_hold_places_where_they_are(tmp_path):
 def test_asset_json_has_places_of_its_schema():
     jsonschema = pytest.importorskip("jsonschema")
     asset = cupboard()
-    record = json.loads(json_text(asset_record(replace(model_of(asset), places=find_places(asset, {})))))
+    record = json.loads(json_text(asset_record(replace(model_of(asset), places=find_places(asset, OPEN)))))
     assert [p["link"] for p in record["places"]] == ["tray", "case", "case"]
     jsonschema.validate(record["places"], schema()["properties"]["places"] | {"$defs": schema()["$defs"]})

@@ -186,7 +186,7 @@ def build_model(
     states = resolve(NAMED_STATES)(asset, {b.name: b.shapes for b in bodies}, [(e.a, e.b) for e in excluded])
     finished = asset.source_face is not None  # before, insides are not hollow
     taken = [handle.name for handle in handles]
-    places = resolve(PLACES)(asset, states.get("closed", {}), taken) if finished or how.target is TargetProject.ROBOCASA else ()
+    places = resolve(PLACES)(asset, states, taken) if finished or how.target is TargetProject.ROBOCASA else ()
     return Model(asset, tuple(bodies), resisting, how, tuple(excluded), chosen, handles, states, places)
 
 

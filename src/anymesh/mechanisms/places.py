@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float, Int
 from scipy.ndimage import label
 
 from anymesh.export.notation import number
-from anymesh.geometry.kinematics import link_transforms, posed
+from anymesh.geometry.kinematics import carried_links, link_transforms, posed
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.names import legal_names
 from anymesh.types import Asset, Brief, Mesh
@@ -48,12 +48,13 @@ class PlaceFrame(Brief):
         return {"name": self.name, "link": self.link, "inside": self.inside, **rounded}
 
 
-def find_places(asset: Asset, positions: Mapping[str, float], taken: Sequence[str] = ()) -> tuple[PlaceFrame, ...]:
-    """Return the places of an asset at some positions of joints, from below upwards, in the asset frame at rest.
+def find_places(asset: Asset, states: Mapping[str, Mapping[str, float]], taken: Sequence[str] = ()) -> tuple[PlaceFrame, ...]:
+    """Return the places of an asset when it is closed that a straight way leads to when it is open, from below upwards.
 
     A place is a box along the asset's dominant horizontal directions, above surfaces of one part. Faces must be wound outwards.
     taken: names that a place must not have.
     """
+    positions = states.get("closed", {})
     mesh = posed(asset, positions)
     yaw = _yaw(mesh)
     c, s = np.cos(yaw), np.sin(yaw)
@@ -95,7 +96,31 @@ def find_places(asset: Asset, positions: Mapping[str, float], taken: Sequence[st
         size = np.where(np.isfinite(end), end, start + OPEN) - start
         foot = R @ [middle[0], middle[1], start[2]]
         places.append(PlaceFrame(name, link, (T @ [*foot, 1.0])[:3], T[:3, :3] @ R, size, bool(inside)))
-    return tuple(places)
+    return _reached(asset, places, positions, states.get("open", {}))
+
+
+def _reached(
+    asset: Asset, places: Sequence[PlaceFrame], closed: Mapping[str, float], opened: Mapping[str, float]
+) -> tuple[PlaceFrame, ...]:
+    """Return the places from whose middle a way to a side or up is free; what is behind a drawer is not.
+
+    All is open, or what carries the place alone, since a drawer may be below another one.
+    """
+    carrying = {p.link: {j.name for j in asset.joints if p.link in carried_links(asset, j)} for p in places}
+    free, scenes = set[str](), dict[frozenset[str], tuple[RayScene, Mapping[str, np.ndarray]]]()
+    for p in places:
+        for moved in (frozenset(opened), frozenset(carrying[p.link] & set(opened))):
+            if moved not in scenes:
+                at = {**closed, **{name: opened[name] for name in moved}}
+                mesh = posed(asset, at)
+                scenes[moved] = RayScene(mesh.vertices, mesh.faces), link_transforms(asset, at)
+            scene, transforms = scenes[moved]
+            T, (x, y, z) = transforms[p.link], p.R.T
+            ways = np.array([z, x, -x, y, -y]) @ T[:3, :3].T
+            middle = (T @ [*(p.place + p.size[2] / 2 * z), 1.0])[:3]
+            if (scene.first_hit(np.tile(middle, (len(ways), 1)), ways).face < 0).any():
+                free.add(p.name)
+    return tuple(p for p in places if p.name in free)
 
 
 def _yaw(mesh: Mesh) -> float:
