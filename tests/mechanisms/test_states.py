@@ -16,7 +16,7 @@ from anymesh.export.options import Base, Format
 from anymesh.geometry.kinematics import link_transforms
 from anymesh.mechanisms.states import named_states
 from anymesh.physics.mechanism import Mechanism, MechanismKind
-from anymesh.types import Asset, Box, Part, Segmentation
+from anymesh.types import Asset, Box, JointType, Loop, Part, Segmentation
 
 CASE = box((0.0, 0.0, 0.0), (0.4, 0.3, 0.6))
 DOOR = box((0.0, -0.022, 0.0), (0.4, -0.002, 0.6))
@@ -59,6 +59,14 @@ def test_a_drawer_that_is_modelled_open_is_closed_at_its_lower_limit():
         joint("slide", "prismatic", "case", "drawer", (0, 0, 0), (0, -1, 0), (-0.2, 0.1)),
     )
     assert states(asset_of(("case", CASE), ("drawer", drawn), joints=(inside,)))["closed"] == {"slide": -0.2}
+
+
+def test_what_a_loop_holds_fast_stays_at_rest():
+    slide = joint("slide", "prismatic", "case", "drawer", (0.55, 0.15, 0.25), (0, -1, 0), (0.0, 0.25))
+    asset = asset_of(("case", CASE), ("door", DOOR), ("drawer", BESIDE), joints=(HINGE, slide))
+    assert states(asset)["open"] == {"hinge": 1.9, "slide": 0.25}
+    held = Loop("pin", "door", "case", np.array([0.2, 0.0, 0.3]), np.array([0.0, 0, 1]), JointType.BALL)
+    assert states(replace(asset, loops=(held,)))["open"] == {"slide": 0.25}
 
 
 def test_what_swings_both_ways_is_closed_in_the_middle():

@@ -8,7 +8,7 @@ import numpy as np
 
 from anymesh.geometry.kinematics import carried_links, joint_transform, link_transforms
 from anymesh.mechanisms.closing import closed as loops_closed
-from anymesh.mechanisms.closing import giving_way
+from anymesh.mechanisms.closing import giving_way, loop_gap
 from anymesh.mechanisms.resisting import KINDS, kind_of
 from anymesh.physics.collision import CollisionConfig
 from anymesh.physics.contacts_ import ContactBench
@@ -19,6 +19,7 @@ from anymesh.types.triangles import transformed
 PLAY = 0.05  # of a joint's range: what it moves the other way without being modelled open; an estimate
 ALIKE = 0.01  # of the size: a part as near to what it moves on at both ends swings both ways; an estimate
 OPENING = ("weight", "hinge")  # forms of the kinds of joints that open
+OPEN = 1e-3  # of the diagonal: a loop that opens further is not closed
 SHARES = np.linspace(1.0, 0.0, 11)  # of its way that a joint takes if something is in its way
 Positions = Mapping[str, float]  # of joints by name [rad or m]
 
@@ -30,12 +31,17 @@ def named_states(
 
     Open is the end of a joint's range to which it opens, half is the middle; a joint goes there as far as no larger part is in
     its way. Joints of doors, drawers, lids and the like take part; where an asset has none, all joints with limits do. What
-    follows them, or is moved by them through a loop, is added.
+    follows them, or is moved by them through a loop, is added; what lies on loops stays at rest if these cannot be closed.
 
     shapes: for collision, of each link; excluded: pairs of links that may touch.
     """
     states = _leading(asset, shapes, excluded)
-    return {name: dict(led(asset.joints, loops_closed(asset, at))) for name, at in states.items()}
+    whole: dict[str, Positions] = {name: dict(led(asset.joints, loops_closed(asset, at))) for name, at in states.items()}
+    if not asset.loops or all(loop_gap(asset, link_transforms(asset, at)) < OPEN for at in whole.values()):
+        return whole
+    still = {j.name for j in giving_way(asset)}
+    states = {name: {joint: q for joint, q in at.items() if joint not in still} for name, at in states.items()}
+    return {name: dict(led(asset.joints, at)) for name, at in states.items() if at}
 
 
 def _leading(asset: Asset, shapes: Mapping[str, Sequence[Shape]], excluded: Sequence[tuple[str, str]]) -> dict[str, Positions]:

@@ -79,3 +79,10 @@ def test_a_check_says_what_was_proved(tmp_path, name):
     assert finding.severity == "ok"
     assert "1 joints follow" in finding.text
     assert not [f for f in report.findings if f.subject in ("ball", "lift")]
+
+
+def test_a_loop_that_holds_its_joints_fast_is_said(tmp_path):
+    path = written(tmp_path, "loop", "gears")
+    path.write_text(path.read_text().replace("<connect", "<weld").replace(' anchor=".45 0 0"', ""))
+    (loop,) = (m for m in prove_mechanisms(path) if m.kind == "loop")
+    assert loop.faults == ("it holds its joints fast: none of them can move",)

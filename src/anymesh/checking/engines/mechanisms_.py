@@ -31,8 +31,9 @@ LIFTED = 0.05  # share of the extent that a loose part is lifted
 
 @dataclass(frozen=True, eq=False)
 class _Held(Brief):
-    """Points of two bodies that a loop holds together, in their frames [m]."""
+    """Points of two bodies that a loop holds together, in their frames [m]. number: of the constraint."""
 
+    number: int
     name: str
     bodies: tuple[int, int]
     points: tuple[Float[np.ndarray, " 3"], Float[np.ndarray, " 3"]]
@@ -69,7 +70,8 @@ class _MechanismBench:
         self.follow = {int(model.eq_obj1id[e]): (int(model.eq_obj2id[e]), np.array(model.eq_data[e, :5])) for e in joints}
         mujoco.mj_forward(model, self.data)
         self.held = [self._held(e) for e in own if int(model.eq_type[e]) in (int(kinds.mjEQ_CONNECT), int(kinds.mjEQ_WELD))]
-        self.leading = self._leading() if self.follow or self.held else []
+        self.J = self._jacobian() if self.follow or self.held else np.zeros((0, model.nv))
+        self.leading = self._leading()
 
     def proved(self) -> Iterator[ProvedMechanism]:
         contact = int(self.mujoco.mjtDisableBit.mjDSBL_CONTACT)
@@ -93,17 +95,27 @@ class _MechanismBench:
             place = data.xpos[second] + data.xmat[second].reshape(3, 3) @ model.eq_data[e, :3]
         a, b = (data.xmat[k].reshape(3, 3).T @ (place - data.xpos[k]) for k in (first, second))
         name = model.eq(e).name or f"{model.body(first).name} and {model.body(second).name}"
-        return _Held(name, (first, second), (a, b))
+        return _Held(e, name, (first, second), (a, b))
 
-    def _leading(self) -> list[int]:
-        """Return the hinges and slides that constraints move, but for those without a choice, as `mechanisms.closing` does."""
+    def _jacobian(self) -> Float[np.ndarray, "m n"]:
         model, data = self.model, self.data
         J = np.zeros((data.nefc, model.nv))
         if self.mujoco.mj_isSparse(model):
             self.mujoco.mju_sparse2dense(J, data.efc_J, data.efc_J_rownnz, data.efc_J_rowadr, data.efc_J_colind)
         else:
             J[:] = data.efc_J.reshape(J.shape)
-        J = J[: data.ne]
+        return J[: data.ne]
+
+    def _stuck(self, held: _Held) -> bool:
+        """Return whether a loop acts on joints, of which none can move."""
+        _, values, directions = np.linalg.svd(self.J)
+        free = directions[int((values > FREE_RATIO * max(values[0], 1e-9)).sum()) :]
+        on = np.abs(self.J[self.data.efc_id[: len(self.J)] == held.number]).max(axis=0, initial=0) > FREE_RATIO
+        return bool(on.any() and not (np.abs(free[:, on]) > FREE_RATIO).any())
+
+    def _leading(self) -> list[int]:
+        """Return the hinges and slides that constraints move, but for those without a choice, as `mechanisms.closing` does."""
+        model, J = self.model, self.J
         joints = sorted(self.move, key=lambda k: (k in self.follow, k))
         dofs = [int(model.jnt_dofadr[k]) for k in joints]
         order = dofs + [d for d in range(model.nv) if d not in dofs]
@@ -131,7 +143,11 @@ class _MechanismBench:
             fault = f"it is up to {error:.3g} from where its leader puts it; at most {most:.3g} is valid"
             yield ProvedMechanism("follower", name, error, (UNSTABLE,) if unstable else (fault,) if error > most else ())
         most = OPEN * self.extent
+        stuck = {held.name for held in self.held if self._stuck(held)}
         for held, error in zip(self.held, opened, strict=True):
+            if held.name in stuck:
+                yield ProvedMechanism("loop", held.name, error, ("it holds its joints fast: none of them can move",))
+                continue
             fault = f"it opens by {error:.3g} m; at most {most:.3g} m, .1 % of the extent, is valid"
             yield ProvedMechanism("loop", held.name, error, (UNSTABLE,) if unstable else (fault,) if error > most else ())
 
