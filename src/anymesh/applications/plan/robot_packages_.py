@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
-from importlib import metadata
 from pathlib import Path
 from typing import Any
 
@@ -113,6 +112,8 @@ def _packed(what: tuple[str, str], preset: Preset) -> Path | str:
 
 def _example_robot_data(what: tuple[str, str], preset: Preset) -> Path | str:
     """Look in example-robot-data, which contains the Panda and fifty other robots as URDF (131 MB)."""
+    from importlib import metadata  # takes 15 ms, and `anymesh --help` reads the names in this module
+
     if not preset.urdf:
         return "example-robot-data does not have it"
     try:
