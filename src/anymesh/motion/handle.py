@@ -52,7 +52,7 @@ def find_handle(
 
 
 @dataclass(frozen=True, eq=False)
-class _Part:
+class _Part(Brief):
     """A part, its box, the corners of its faces in the frame of the box [m], and its parent."""
 
     shape: TriangleSet

@@ -47,7 +47,7 @@ from anymesh.types.questions import Answer, Question, VisualAnswerer
 ASSIGNMENT = re.compile(r"([^=\s#][^=#]*?)(?:#(-?\d+))?=([^=\s]*)(?=\s|$)")
 Schema = Mapping[str, Any]
 FOLLOW = 120.0  # [s] to wait for the next question of a run; an estimate
-USUAL = {"instance": 1, "part_is": "right"}  # values of properties that need not be given
+USUAL = {"instance": 1, "part_is": "right", "with": 0}  # values of properties that need not be given
 
 
 def answer_text(text: str, schema: Schema) -> str:

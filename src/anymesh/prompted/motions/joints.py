@@ -35,6 +35,7 @@ from anymesh.prompted.motions.cases import (
     unchanged,
     unlabelled,
 )
+from anymesh.prompted.motions.coupling import coupled
 from anymesh.prompted.motions.lines import (
     MAX_POINTS,
     axis_points,
@@ -122,11 +123,15 @@ class Questions:
 
 @dataclass(frozen=True, eq=False)
 class _ChosenMotions:
-    """Parts that were asked about, with the motion chosen for each by number."""
+    """Parts that were asked about, with the motion chosen for each by number.
+
+    leads: as in `coupling.coupled`.
+    """
 
     cases: list[PartCase]
     chosen: dict[int, Choice]
     segmentation: Segmentation
+    leads: Mapping[int, int] = field(default_factory=dict)
 
     def wrong(self) -> dict[str, PartFit]:
         """Return the parts, by name, that answers call too much or too little."""
@@ -136,7 +141,8 @@ class _ChosenMotions:
     def with_changed(self, later: _ChosenMotions) -> _ChosenMotions:
         """Return these results updated with those of parts that were asked about again, by number."""
         cases = {c.number: c for c in (*self.cases, *later.cases)}
-        return _ChosenMotions([cases[c.number] for c in self.cases], {**self.chosen, **later.chosen}, later.segmentation)
+        some = [cases[c.number] for c in self.cases]
+        return _ChosenMotions(some, {**self.chosen, **later.chosen}, later.segmentation, self.leads)
 
 
 def prompt_joints(
@@ -159,10 +165,11 @@ def prompt_joints(
     verify = questions.config.verify
     made = [_joint(c, chosen_motions.chosen[c.number], verify) for c in chosen_motions.cases]
     joints = tuple(joint for joint, _ in made)
+    follow, led = coupled({c.number: c.shape or (c.number,) for c in chosen_motions.cases}, joints, chosen_motions.leads)
     doubts = faults({c.name: c.context for c in chosen_motions.cases}, joints)
     kept = unchanged(wrong, before, again or before)
-    warnings = (*contradictions(chosen_motions.cases, joints), *kept, *(told for _, some in made for told in some))
-    return PromptedJoints(joints, chosen_motions.segmentation, warnings, doubts)
+    warnings = (*contradictions(chosen_motions.cases, joints), *kept, *(told for _, some in made for told in some), *led)
+    return PromptedJoints(follow, chosen_motions.segmentation, warnings, doubts)
 
 
 def _ask(
@@ -190,7 +197,9 @@ def _ask_motions(
     choices = questions.labels if unlabelled(segmentation, questions.labels) else ()
     labels, config = segmentation.face_part, questions.config
     sides = Sides(questions.recognition.front if questions.recognition else None)
-    asking = MotionQuestioner(questions.visual_prompts, labels, questions.answerer, questions.category, fits, sides, choices)
+    asking = MotionQuestioner(
+        questions.visual_prompts, labels, questions.answerer, questions.category, fits, sides, choices, config.ask == "all"
+    )
     asked = ask_motions(cases, asking, config)
     questions.progress("joints", "motions", 1, 4)
     told = {n: a.offers.case.answer for n, a in asked.answers.items()}
@@ -203,7 +212,8 @@ def _ask_motions(
     lines = [c for c in _with_lines(questions, asked.lost(), whole, segmentation) if c.asked is not None]
     others = {n: a.offers.case for n, a in asked.answers.items() if n not in asked.picks}
     asked = asked.renewed([*lines, *lines_of_copies(lines, others)], config.seed)
-    return _ChosenMotions([asked.answers[c.number].offers.case for c in cases], asked.chosen(), segmentation)
+    leads = {n: pick.leader for n, pick in asked.picks.items() if pick.leader is not None}
+    return _ChosenMotions([asked.answers[c.number].offers.case for c in cases], asked.chosen(), segmentation, leads)
 
 
 def _with_lines(questions: Questions, cases: list[PartCase], whole: ObjectShape, segmentation: Segmentation) -> list[PartCase]:

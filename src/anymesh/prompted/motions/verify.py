@@ -27,6 +27,7 @@ from anymesh.articulation.rank_motions import (
 from anymesh.config import FACING_COSINE, Config
 from anymesh.prompted.models.reliability import ProbeCount, given_answer, in_words, trust
 from anymesh.prompted.motions.cases import PartCase, ask_each
+from anymesh.prompted.motions.coupling import with_leading_parts
 from anymesh.prompted.motions.lines import prismatic
 from anymesh.prompted.motions.offers import (
     FEW,
@@ -182,7 +183,7 @@ class MotionQuestioner(Brief):
     """Settings of the motion question.
 
     labels: (F,) part of each face; category: of the object; sides: of the object, as answered; names: labels to choose from, if
-    parts lack a recognized one.
+    parts lack a recognized one; ask_with: also ask which parts move together.
     """
 
     visual_prompts: VisualPrompts
@@ -192,6 +193,7 @@ class MotionQuestioner(Brief):
     ask_fit: bool = False
     sides: Sides = UNNAMED
     names: tuple[str, ...] = ()
+    ask_with: bool = False
 
     def picks(self, offers: Mapping[int, MotionOffers], shown: Mapping[int, tuple[int, ...]]) -> dict[int, MotionPick]:
         """Ask which motion each part makes; return the picked indices of its offers, by part.
@@ -199,14 +201,16 @@ class MotionQuestioner(Brief):
         shown: indices of the motions in its picture.
         """
         tables = {n: self._table(offers[n], shown[n]) for n in shown}
+        coupled = self.ask_with and len(offers) > 1 and not any(o.case.alone for o in offers.values())
         picked = ask_each(
             self.answerer,
             [offers[n].case for n in shown],
             lambda c, title: self._strip(c, title, tables[c.number]),
             lambda p, some: WhichMotions(
-                p, tuple(tables[c.number] for c in some), self.category, self.ask_fit, ask_kind=True, labels=self.names
+                p, tuple(tables[c.number] for c in some), self.category, self.ask_fit, "motions", True, self.names, coupled
             ),
         )
+        picked = with_leading_parts(picked)
         return {n: replace(a, motion=None if a.motion is None else shown[n][a.motion]) for n, a in picked.items()}
 
     def _table(self, offers: MotionOffers, shown: tuple[int, ...]) -> MotionTable:
@@ -269,7 +273,7 @@ def ask_motions(cases: Sequence[PartCase], asking: MotionQuestioner, config: Con
     shown = {n: offers[n].shown for n in dict.fromkeys(first[n] for n in unsure)}
     picks = asking.picks(offers, shown)
     doubted = {n: shown[n][::-1] for n, p in picks.items() if agreed[n] >= SURE and _against(offers[n], probabilities[n], p)}
-    again = replace(asking, ask_fit=False).picks(offers, doubted)
+    again = replace(asking, ask_fit=False, ask_with=False).picks(offers, doubted)
     answers = {}
     for n, o in offers.items():
         leader = first[n]

@@ -289,12 +289,20 @@ class MotionPick:
     """Picked motion of a part.
 
     motion: a row of the table, None for none of them; part: whether the region shown is right; attached: the kind of joint,
-    None if it was not asked for.
+    None if it was not asked for; leader: what it moves together with, None for nothing: the row of the table of that part, or
+    its own, which stands for the parts of its shape.
     """
 
     motion: int | None
     part: PartFit = PartFit.RIGHT
     attached: KindAnswer | None = None
+    leader: int | None = None
+
+
+TOGETHER = (
+    " with: the number of the part that it cannot move without, such as a gear that meshes or the stage of a telescope; its "
+    "own number where the parts of its shape move only together, such as two leaves on one lever; 0 if it moves by itself."
+)
 
 
 @dataclass(frozen=True, eq=False)
@@ -304,7 +312,8 @@ class WhichMotions:
     One strip of pictures per part: at rest, then moved by each motion.
 
     ask_fit: the answer also says whether the coloured region is the whole part and nothing else; ask_kind: it also says what
-    kind of joint the part has, and which of the labels, if parts are given without a recognized one.
+    kind of joint the part has, and which of the labels, if parts are given without a recognized one; ask_with: it also says
+    which part each one moves together with.
     """
 
     pictures: Pictures
@@ -314,6 +323,7 @@ class WhichMotions:
     kind: str = "motions"
     ask_kind: bool = False
     labels: tuple[str, ...] = ()
+    ask_with: bool = False
 
     def text(self) -> str:
         alike = [f" (one of {t.alike} of its shape that move alike)" if t.alike > 1 else "" for t in self.tables]
@@ -329,23 +339,26 @@ class WhichMotions:
             "real object, 0 if none of them is? Look at where its hinge would be, which side its handle is on, and what it "
             "would hit. Blocked ways run into something; choose one all the same where only the model is in the way. "
             f"{each}.{f' joint: how it is attached. {KINDS_IN_WORDS}' if self.ask_kind else ''}{label}"
-            f"{fit if self.ask_fit else ''}"
+            f"{fit if self.ask_fit else ''}{TOGETHER if self.ask_with else ''}"
         )
 
     def schema(self) -> dict[str, Any]:
         kind = kind_schema(self.labels) if self.ask_kind else {}
         fit = {"part_is": one_of(tuple(PartFit))} if self.ask_fit else {}
-        return an_answer(parts=a_list(an_object(part=INTEGER, motion=INTEGER, **kind, **fit)))
+        coupled = {"with": INTEGER} if self.ask_with else {}
+        return an_answer(parts=a_list(an_object(part=INTEGER, motion=INTEGER, **kind, **fit, **coupled)))
 
     def parse(self, answer: Mapping[str, Any]) -> tuple[MotionPick, ...]:
         """Return a pick for each table, in the order of the tables."""
         rows = picked_rows(answer["parts"], "motion", [len(t.motions) for t in self.tables], 0)
+        leads = picked_rows(answer["parts"], "with", [len(self.tables)] * len(rows), 0) if self.ask_with else (-1,) * len(rows)
         told = {p["part"]: p for p in answer["parts"]}
         return tuple(
             MotionPick(
                 None if row < 0 else row,
                 PartFit(told[k].get("part_is", PartFit.RIGHT)),
                 _kind_of(told[k]) if self.ask_kind else None,
+                None if lead < 0 else lead,
             )
-            for k, row in enumerate(rows, 1)
+            for k, (row, lead) in enumerate(zip(rows, leads, strict=True), 1)
         )

@@ -181,7 +181,8 @@ def _kind(number: int, answer: KindAnswer, labelled: bool) -> dict[str, Any]:
 def _motion(question: WhichMotions, number: int, pick: MotionPick) -> dict[str, Any]:
     kind = _kind(number, pick.attached or KindAnswer(JointAppearance.FIXED), bool(question.labels)) if question.ask_kind else {}
     fit = {"part_is": pick.part.value} if question.ask_fit else {}
-    return {"part": number, "motion": 0 if pick.motion is None else pick.motion + 1, **kind, **fit}
+    coupled = {"with": 0 if pick.leader is None else pick.leader + 1} if question.ask_with else {}
+    return {"part": number, "motion": 0 if pick.motion is None else pick.motion + 1, **kind, **fit, **coupled}
 
 
 def _recognition(question: Recognize, answer: Recognition) -> dict[str, Any]:

@@ -254,7 +254,11 @@ class Fields:
         self._numbers(form, "Motion", names)
         if form.rows:
             self._kinds(form)
-        if form.ask_fit:
+        if form.leads:
+            names = ("nothing", *(f"part {k}" for k in range(1, len(form.leads) + 1)))
+            lead = self._gui.add_dropdown("Moves only with", names, initial_value=names[form.leads[form.step]])
+            self._bound(form, lead, lambda v: form.leads.__setitem__(form.step, names.index(v)))
+        if form.fits:
             words = {v.value: k for k, v in FITS.items()}
             fit = self._gui.add_dropdown("The coloured part", tuple(FITS), initial_value=words[form.fits[form.step]])
             self._bound(form, fit, lambda v: form.fits.__setitem__(form.step, FITS[v].value))

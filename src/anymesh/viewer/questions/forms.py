@@ -371,10 +371,10 @@ class MotionsForm(TableForm):
 
     def __init__(self, question: WhichMotions) -> None:
         super().__init__(question.tables, 1)
-        self.ask_fit = question.ask_fit
         self.labels: tuple[str, ...] = (*question.labels, OTHER) if question.labels else ()
         self.rows = [KindRow() for _ in question.tables] if question.ask_kind else []
-        self.fits = [PartFit.RIGHT.value] * len(question.tables)
+        self.fits = [PartFit.RIGHT.value] * len(question.tables) if question.ask_fit else []
+        self.leads = [0] * len(question.tables) if question.ask_with else []  # parts that they move together with
 
     @property
     def words(self) -> str:
@@ -388,12 +388,13 @@ class MotionsForm(TableForm):
         super().fill(answer)
         if self.rows:
             self.rows = [KindRow.of(p) for p in sorted(answer["parts"], key=lambda p: p["part"])]
+        self.leads = self.leads and [p["with"] for p in sorted(answer["parts"], key=lambda p: p["part"])]
 
     def answer(self) -> dict[str, Any]:
         answer = super().answer()
+        for key, some in (("part_is", self.fits), ("with", self.leads)):
+            for row, value in zip(answer["parts"], some, strict=False):
+                row[key] = value
         for row, kind in zip(answer["parts"], self.rows, strict=False):
             row |= kind.answer(self.labels)
-        if self.ask_fit:
-            for row, fit in zip(answer["parts"], self.fits, strict=True):
-                row["part_is"] = fit
         return answer
