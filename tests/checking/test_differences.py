@@ -172,3 +172,13 @@ def test_what_cannot_be_compared(one, tmp_path) -> None:
     (tmp_path / "empty").mkdir()
     with pytest.raises(InputError, match="holds no asset"):
         differences(tmp_path, tmp_path / "empty")
+
+
+def test_a_loop_that_was_moved_is_told(one):
+    theirs = other(one)
+    for folder, x in ((one, 0.5), (theirs, 0.51)):
+        (folder / "asset.json").write_text(json.dumps({"loops": [{"name": "pin", "origin": [x, 0.0, 0.0]}]}))
+    result = differences(one, theirs)
+    assert [loops[0]["origin"][0] for loops in result["loops"]] == [0.5, 0.51]
+    assert "0.51" in lines(result)[0]
+    assert "loops" not in differences(one, one)

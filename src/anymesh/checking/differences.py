@@ -26,6 +26,7 @@ from anymesh.checking.engines.robot import RobotJoint, read_urdf
 from anymesh.checking.schema_ import check_tree
 from anymesh.errors import AnymeshError, InputError
 from anymesh.geometry.distance_ import distance_to_mesh
+from anymesh.runtime import read_json
 from anymesh.types import Brief
 
 UNCOMPARED = ("timing.json", "certificate.json")  # files of an asset, beside hidden ones and the saved stages
@@ -172,7 +173,9 @@ def compare(a: Path, b: Path, files: Sequence[str] | None = None) -> dict[str, A
         renamed = {ours[i].name: theirs[j].name for i, j in pairs}
         parts += [change for i, j in sorted(pairs) if (change := _change(ours[i], theirs[j], renamed))]
     most = max((p.get("displacement_mm", 0.0) for p in parts), default=0.0)
-    return {"a": str(a), "b": str(b), "same": not (names or parts), "displacement_mm": most, "parts": parts, "files": names}
+    result = {"a": str(a), "b": str(b), "same": not (names or parts), "displacement_mm": most, "parts": parts, "files": names}
+    loops = [(read_json(path / RECORD) or {}).get("loops", []) for path in (a, b)]  # of a file: none
+    return result | ({"loops": loops} if loops[0] != loops[1] else {})
 
 
 def _parts(path: Path) -> list[PlacedPart]:
@@ -219,8 +222,7 @@ def _change(a: PlacedPart, b: PlacedPart, renamed: Mapping[str, str]) -> dict[st
     rest, rigid = _at_rest(a.triangles, b.triangles)
     moved = max(rest, _over_range(a, b, rigid))
     change: dict[str, Any] = {} if moved <= SAME else {"displacement_mm": _mm(moved), "at_rest_mm": _mm(rest)}
-    if moved > SAME and not rigid:
-        change["shape"] = "changed"
+    change |= {"shape": "changed"} if moved > SAME and not rigid else {}
     change |= {} if a.name == b.name else {"renamed": [a.name, b.name]}
     change |= _joint_change(a, b, renamed)
     change |= _inertia_change(a, b)
@@ -346,14 +348,9 @@ def _looks(solids: Sequence[Solid]) -> list[str]:
         for k in np.unique(mesh.face_material):
             material = vars(mesh.materials[k]) if k >= 0 else {}
             pictures = {slot: hashlib.sha256(t.data).hexdigest() for slot, t in material.get("textures", {}).items()}
-            looks.append(
-                repr(({**material, "textures": sorted(pictures.items())}, "" if mesh.corner_uv is None else _uv(mesh)))
-            )
+            uv = b"" if mesh.corner_uv is None else np.ascontiguousarray(mesh.corner_uv).tobytes()
+            looks.append(repr(({**material, "textures": sorted(pictures.items())}, hashlib.sha256(uv).hexdigest())))
     return sorted(looks)
-
-
-def _uv(mesh: Any) -> str:
-    return hashlib.sha256(np.ascontiguousarray(mesh.corner_uv).tobytes()).hexdigest()
 
 
 def _mm(metres: float) -> float:
@@ -363,9 +360,9 @@ def _mm(metres: float) -> float:
 def lines(result: Mapping[str, Any]) -> list[str]:
     """Return the result of `differences` in lines of text; the last one sums up."""
     if "changed" not in result:
-        told = [_words(part) for part in result["parts"]] + [f"files that differ: {', '.join(result['files'])}"] * (
-            not result["same"]
-        )
+        told = [_words(part) for part in result["parts"]]
+        told += [f"loops {' -> '.join(str(loops or None) for loops in result['loops'])}"] if "loops" in result else []
+        told += [] if result["same"] else [f"files that differ: {', '.join(result['files'])}"]
         return [*told, "the same" if result["same"] else f"{len(result['parts'])} parts differ{_most(result)}"]
     told = [f"{name}: added" for name in result["added"]] + [f"{name}: removed" for name in result["removed"]]
     for name, change in result["changed"].items():
