@@ -26,6 +26,7 @@ def test_no_command_shows_the_help(capfd) -> None:
     code, out, err = called(capfd)
     assert (code, err) == (2, "")
     assert "articulate" in out
+    assert out.strip() == called(capfd, "--help")[1].strip()
 
 
 def test_version(capfd) -> None:

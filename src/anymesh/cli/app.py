@@ -89,10 +89,10 @@ class _HandedError(Exception):
         self.error, self.command, self.options = error, command, options
 
 
-def make_app(*names: str) -> typer.Typer:
+def make_app(*names: str, listed: bool = False) -> typer.Typer:
     """Return the command line with some of its commands, all of them by default.
 
-    A command's module is only imported here, so that a run reads what it needs.
+    A command's module is only imported here, so that a run reads what it needs. listed: for the list of them, without options.
     """
     app = typer.Typer(
         help="Any rigid 3D mesh in, a simulation-ready articulated asset out.",
@@ -102,8 +102,8 @@ def make_app(*names: str) -> typer.Typer:
         context_settings={"help_option_names": ["-h", "--help"]},
     )
     app.callback()(_main)
-    for name in names or COMMANDS:
-        app.command(name, cls=_Command, epilog=EXIT_CODES)(resolve(COMMANDS[name]))
+    for name, command in ((name, resolve(COMMANDS[name])) for name in names or COMMANDS):
+        app.command(name, cls=_Command, epilog=EXIT_CODES, help=command.__doc__)((lambda: None) if listed else command)
     return app
 
 
@@ -144,7 +144,7 @@ def run(arguments: list[str]) -> int:
 def _run(arguments: list[str]) -> int:
     command = next((a for a in arguments if not a.startswith("-")), "")
     try:
-        app = make_app(command) if command in COMMANDS else make_app()
+        app = make_app(command) if command in COMMANDS else make_app(listed=arguments in (["-h"], ["--help"]))
         code = app(arguments, standalone_mode=False)
         return code if isinstance(code, int) else 0
     except (typer.Exit, SystemExit) as stop:
