@@ -1,10 +1,10 @@
 """Objects at rest: a mesh with a part index per face, and a record of the joints, as from Infinigen-Sim's generators.
 
 FOLDER/NAME/ holds `rigid.ply` (with the up axis `up`), `labels.npy` (a part index per face, 0 for the base) and `gt.json`:
-category, up ([0, 0, 1] or [0, 1, 0]), and for each joint part, parent_part, type, axis, origin and limits in the mesh's coordinates (null: endless).
-Further, if it is known: `pitch` of a screw [length per turn]; `dof_of_link`, the freedoms that the part has; and `mimic`, the
-joint that it follows, with a `ratio` or just its name. Where no joint has that `name`, it is PARENT_to_ a joint's name, or the
-only one that follows none, or the one whose name has most words in common with it.
+category, up ([0, 0, 1] or [0, 1, 0]), and for each joint part, parent_part, type, axis, origin and limits in the mesh's
+coordinates (null: endless). Further, if it is known: `pitch` of a screw [length per turn]; `dof_of_link`, the freedoms that the
+part has; and `mimic`, the joint that it follows, with a `ratio` or just its name. Where no joint has that `name`, it is
+PARENT_to_ a joint's name, or the only one that follows none, or the one whose name has most words in common with it.
 """
 
 from __future__ import annotations
