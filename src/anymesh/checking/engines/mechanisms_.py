@@ -71,7 +71,7 @@ class _MechanismBench:
         mujoco.mj_forward(model, self.data)
         self.held = [self._held(e) for e in own if int(model.eq_type[e]) in (int(kinds.mjEQ_CONNECT), int(kinds.mjEQ_WELD))]
         self.J = self._jacobian() if self.follow or self.held else np.zeros((0, model.nv))
-        self.leading = self._leading()
+        self.leading = self._leading() if len(self.J) else []
 
     def proved(self) -> Iterator[ProvedMechanism]:
         contact = int(self.mujoco.mjtDisableBit.mjDSBL_CONTACT)
@@ -109,7 +109,7 @@ class _MechanismBench:
     def _stuck(self, held: _Held) -> bool:
         """Return whether a loop acts on joints, of which none can move."""
         _, values, directions = np.linalg.svd(self.J)
-        free = directions[int((values > FREE_RATIO * max(values[0], 1e-9)).sum()) :]
+        free = directions[int((values > FREE_RATIO * values.max(initial=1e-9)).sum()) :]
         on = np.abs(self.J[self.data.efc_id[: len(self.J)] == held.number]).max(axis=0, initial=0) > FREE_RATIO
         return bool(on.any() and not (np.abs(free[:, on]) > FREE_RATIO).any())
 
@@ -122,7 +122,7 @@ class _MechanismBench:
         leading, rank = [], 0
         for k in reversed(range(len(order))):
             values = np.linalg.svd(J[:, order[k:]], compute_uv=False)
-            now = int((values > FREE_RATIO * max(values[0], 1e-9)).sum())
+            now = int((values > FREE_RATIO * values.max(initial=1e-9)).sum())
             if now == rank and k < len(joints) and J[:, order[k]].any():
                 leading.insert(0, joints[k])
             rank = now
