@@ -286,7 +286,7 @@ def _followers(sample: EvalSample, joints: tuple[Joint, ...], counterparts: Mapp
 
 
 def _group(name: str, joints: Mapping[str, TrueJoint]) -> str:
-    """Return the part that leads a part in the end, itself if none is told."""
+    """Return the part at the end of the chain of leaders of a part, itself if it follows none."""
     while (follows := joints[name].follows) is not None and follows.leader:
         name = follows.leader
     return name
