@@ -151,7 +151,7 @@ def segmented(
         return np.array(found), lambda chosen: ["learned"] * len(chosen)
 
     monkeypatch.setattr(segment, "score_parts", score_parts)
-    found = segment.segment_parts(mesh, [object_shape(mesh)], lambda s: [moves] * (len(s.parts) - 1), at_least)
+    found = segment.segment_parts(mesh, object_shape(mesh), lambda s: [moves] * (len(s.parts) - 1), at_least)
     return {int(piece[found.face_part == k][0]): p for k, p in enumerate(found.parts) if k > 0}
 
 
@@ -229,7 +229,7 @@ def test_parts_that_may_be_of_the_kind_that_the_object_is_named_after_are_tested
     monkeypatch.setattr(
         segment, "score_parts", lambda tree, *_: (2.0 - 9 * (tree.overlap.area > 5), lambda chosen: ["why"] * len(chosen))
     )
-    parts = segment.segment_parts(mesh, [object_shape(mesh)], label_parts).parts
+    parts = segment.segment_parts(mesh, object_shape(mesh), label_parts).parts
     assert asked == [["drawer", "part"]]
     assert [part.label for part in parts[1:]] == ["part", "part"]  # if they do not move so
 
@@ -289,7 +289,7 @@ def test_where_nothing_is_a_part_the_likeliest_candidates_are_named(monkeypatch:
     told = {}
     for scores in ((-3.0, -2.0), (2.0, 1.0)):
         segmented(monkeypatch, list(scores))  # which gives the candidates these scores
-        told[scores] = segment.segment_parts(mesh, [object_shape(mesh)], lambda s: ["it"] * (len(s.parts) - 1)).nearly
+        told[scores] = segment.segment_parts(mesh, object_shape(mesh), lambda s: ["it"] * (len(s.parts) - 1)).nearly
     first, second = told[-3.0, -2.0].split("), ")
     assert first.startswith("the piece at the back, 50 x 50 x 50 cm (probability 0.")
     assert second.startswith("the piece at the right, 60 x 60 x 60 cm (probability 0.0")

@@ -222,7 +222,7 @@ def test_a_candidate_that_is_held_makes_room_for_the_next(monkeypatch: pytest.Mo
 
     monkeypatch.setattr(segment, "score_parts", parts_below(0.3))
     mesh, _ = mesh_of([BODY, nail, top])
-    found = segment.segment_parts(mesh, [object_shape(mesh)], labels, 1)
+    found = segment.segment_parts(mesh, object_shape(mesh), labels, 1)
     assert asked == [2, 2]
     assert found.faces(1).tolist() == list(range(24, 36))
     assert "stands out most" in found.parts[1].reason
@@ -244,7 +244,7 @@ def test_candidates_that_never_move_leave_the_base_alone(monkeypatch: pytest.Mon
     monkeypatch.setattr(segment, "score_parts", parts_below(0.5))
     monkeypatch.setattr(segment, "assign_parts", one)
     mesh, _ = mesh_of([BODY, *tops])
-    found = segment.segment_parts(mesh, [object_shape(mesh)], none)
+    found = segment.segment_parts(mesh, object_shape(mesh), none)
     assert asked == [2] * segment.MAX_ASSIGNMENTS
     assert len(found.parts) == 1
     assert not found.face_part.any()

@@ -347,7 +347,7 @@ class DividedSurface(Brief):
     """The faces of a mesh, oriented and divided into patches, before dense meshes are simplified.
 
     shape: all F faces; copy: (F,) face that each one copies, itself for most (`without_copies`); patch, shared, diagonal: as
-    in `ObjectShape`; drawn: the faces with what is sunk into other components drawn out of them, None if nothing is.
+    in `ObjectShape`.
     """
 
     shape: TriangleSet
@@ -355,13 +355,7 @@ class DividedSurface(Brief):
     patch: Int[np.ndarray, " F"]
     shared: Int[np.ndarray, "k 2"]
     diagonal: float
-    drawn: TriangleSet | None = None
     pivot: Float[np.ndarray, "F 3"] | None = None  # as `Mesh.face_pivot`
-
-    @property
-    def drawn_out(self) -> DividedSurface | None:
-        """Return the same surface with what is sunk drawn out, None if nothing is."""
-        return None if self.drawn is None else replace(self, shape=self.drawn, drawn=None)
 
     def simplified(self, labels: Int[np.ndarray, " F"] | None = None) -> ObjectShape:
         """Leave out copies of faces and simplify each patch.

@@ -60,11 +60,6 @@ class GeometryStages:
     def _divided(self) -> DividedSurface:
         return divide_surface(self.mesh, self.config.seed, seams=self._seams)
 
-    @staticmethod
-    def _shapes(divided: DividedSurface, whole: ObjectShape) -> list[ObjectShape]:
-        """Return the shapes in which parts are looked for: as modelled, and with what is sunk into others drawn out."""
-        return [whole] if divided.drawn_out is None else [whole, divided.drawn_out.simplified()]
-
     @cached_property
     def _ground(self) -> Bool[np.ndarray, " F"]:
         return ground_faces(self.mesh)
@@ -101,7 +96,7 @@ class GeometryStages:
         if self._by_itself is None:
             above = self._parts_above_ground(progress) if self._ground.any() else None
             if above is None or len(above.parts) <= max(1, self.config.at_least):
-                above = self._segment(self.mesh, self._shapes(self._divided, self.whole), self._labels, progress)
+                above = self._segment(self.mesh, self.whole, self._labels, progress)
             self._by_itself = above
         return self._by_itself
 
@@ -117,10 +112,10 @@ class GeometryStages:
         def labels(segmentation: Segmentation) -> list[str]:
             return self._labels(with_ground(segmentation))
 
-        return with_ground(self._segment(object_, self._shapes(divided, divided.simplified()), labels, progress))
+        return with_ground(self._segment(object_, divided.simplified(), labels, progress))
 
-    def _segment(self, mesh: Mesh, shapes: list[ObjectShape], labels: LabelParts, progress: Progress) -> Segmentation:
-        return segment_parts(mesh, shapes, labels, self.config.at_least, progress, self.deadline, self._usual)
+    def _segment(self, mesh: Mesh, whole: ObjectShape, labels: LabelParts, progress: Progress) -> Segmentation:
+        return segment_parts(mesh, whole, labels, self.config.at_least, progress, self.deadline, self._usual)
 
     def _labels(self, segmentation: Segmentation) -> list[str]:
         """Return a label of each part but the base from its motion by geometry; "" for one without a name that cannot move.

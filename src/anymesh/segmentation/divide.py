@@ -48,9 +48,8 @@ def divide_surface(mesh: Mesh, seed: int, *, seams: bool = False, soft: bool = T
     patch = split_patches(surface if drawn is None else replace(surface, shape=drawn), seams=seams, soft=soft)
     pairs = np.sort(patch[surface.components.edges.faces], 1)
     shared = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
-    apart = None if drawn is None else drawn.take(surface.row)
     shape, patch = surface.shape.take(surface.row), patch[surface.row]
-    return DividedSurface(shape, surface.copy, patch, shared, surface.diagonal, apart, mesh.face_pivot)
+    return DividedSurface(shape, surface.copy, patch, shared, surface.diagonal, mesh.face_pivot)
 
 
 def split_patches(surface: MeshSurface, *, seams: bool, soft: bool) -> Int[np.ndarray, " F"]:

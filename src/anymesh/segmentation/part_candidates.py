@@ -188,10 +188,10 @@ def part_candidates(mesh: Mesh, whole: ObjectShape, contacts: Contacts) -> PartC
     attached = (below for base in bases for below in dominated_by(contacts, group, int(group[base])).values())
     single = ([u] for u in range(int(group.max()) + 1))
     masks = (np.isin(group, chosen) for chosen in itertools.chain(single, attached, merged_groups(contacts, group)))
-    return PartCandidates(whole, contacts, _largest(whole, contacts, distinct(masks)), names)
+    return PartCandidates(whole, contacts, _largest(whole, contacts, _distinct(masks)), names)
 
 
-def distinct(masks: Iterable[Bool[np.ndarray, " P"]]) -> list[Bool[np.ndarray, " P"]]:
+def _distinct(masks: Iterable[Bool[np.ndarray, " P"]]) -> list[Bool[np.ndarray, " P"]]:
     """Return the masks without duplicates and without that of the whole object."""
     return list({np.packbits(mask).tobytes(): mask for mask in masks if not mask.all()}.values())
 

@@ -27,13 +27,12 @@ from anymesh.segmentation.part_candidates import (
     MIN_NESTED_SHARE,
     Overlap,
     PartCandidates,
-    distinct,
     name_class,
     part_candidates,
     shared_name,
     usual_label,
 )  # fmt: skip
-from anymesh.segmentation.part_classifier import Reasons, score_parts, shipped_classifier
+from anymesh.segmentation.part_classifier import score_parts, shipped_classifier
 from anymesh.segmentation.part_features import FeatureInputs, candidate_context, part_features
 from anymesh.types import Mesh, Segmentation
 from anymesh.vocabulary import recognize
@@ -194,27 +193,25 @@ MAX_ASSIGNMENTS = 3  # maximum number of assignments, each without the candidate
 
 
 def segment_parts(
-    mesh: Mesh, shapes: Sequence[ObjectShape], label_parts: LabelParts, at_least: int = 0, progress: Progress = silent,
+    mesh: Mesh, whole: ObjectShape, label_parts: LabelParts, at_least: int = 0, progress: Progress = silent,
     deadline: Deadline | None = None, kind: KindPrior | None = None,
 ) -> Segmentation:  # fmt: skip
     """Return the movable parts of a mesh and its base, which is the rest.
 
-    shapes: the object as modelled, and perhaps as it looks otherwise, with the same patches; label_parts: stage B's test of how
-    parts move, with "" for a part that cannot; at_least: minimum number of parts, even with weak evidence, for objects that are
-    known to move; kind: parts of the object's kind.
+    whole: the object's shape; label_parts: stage B's test of how parts move, with "" for a part that cannot; at_least: minimum
+    number of parts, even with weak evidence, for objects that are known to move; kind: parts of the object's kind.
 
     After the deadline no further contact is measured and no further candidate examined.
     """
     progress("segment", "contacts", 0, 2)
     deadline = deadline or Deadline()
-    groups = [part_candidates(mesh, whole, find_contacts(whole, deadline)) for whole in shapes]
-    members = np.array(distinct(mask for c in groups for mask in c.members), bool).reshape(-1, groups[0].members.shape[1])
+    candidates = part_candidates(mesh, whole, find_contacts(whole, deadline))
     progress("segment", "candidates", 1, 2)
-    looks = [examine_candidates(mesh, replace(c, members=members), progress, deadline) for c in groups]
-    examined, score, reasons = _scored_together(looks)
+    examined, place, features = examine_candidates(mesh, candidates, progress, deadline)
+    score, reasons = score_parts(examined, place, features)
     words, classifier = [shared_name(examined, k) for k in range(len(score))], shipped_classifier()
     score = score + np.array([by_hand.NAME_SCORE.get(name_class(word), 0.0) for word in words])
-    score = kind.part_scores(score, looks[0][1], conflicts(examined.overlap)) if kind and len(score) else score
+    score = kind.part_scores(score, place, conflicts(examined.overlap)) if kind and len(score) else score
     known = [word.label if (word := recognize(w)) else "" for w in words]
     sizes, plural = np.linalg.norm(np.ptp(examined.bounds, axis=1), axis=1) / examined.whole.diagonal, usual_label(mesh)
     usual = ["part" if size < MIN_USUAL_RATIO else plural for size in sizes]
@@ -289,19 +286,6 @@ def examine_candidates(
                 features.append(measured[1])
     examined = replace(candidates, members=candidates.members[kept])
     return examined, np.array(places).reshape(-1, 12), features
-
-
-def _scored_together(
-    looks: Sequence[tuple[PartCandidates, Float[np.ndarray, "n 12"], list[dict[str, float]]]],
-) -> tuple[PartCandidates, Float[np.ndarray, " n"], Reasons]:
-    """Return the candidates as modelled, the mean of their scores in all shapes, and the reasons as modelled.
-
-    looks: as from `examine_candidates`, first the object as modelled; after the deadline, shapes may lack candidates, and only
-    this one counts.
-    """
-    scored = [score_parts(*look) for look in looks]
-    (score, reasons), examined = scored[0], looks[0][0]
-    return examined, np.mean([s for s, _ in scored if len(s) == len(score)], axis=0), reasons
 
 
 def _reason(learned: str, name: str, likely: bool) -> str:

@@ -1,8 +1,8 @@
 """Components that are sunk into others: the surface with what is hidden of them drawn out, as if they were set on.
 
 Artists sink the box of a drawer, a slab or a knob a little into a body that has no room for it, and leave out faces that this
-hides. Both stages see such components with their hidden ends on the surface that they are sunk into, a hair before it. The mesh
-itself is not changed.
+hides. A surface is divided with their hidden ends on the surface that they are sunk into, a hair before it. The mesh itself is
+not changed.
 """
 
 from __future__ import annotations
