@@ -6,6 +6,9 @@ import numpy as np
 import pytest
 
 from anymesh.applications.grasps import GraspKind, rank_grasps, read_grasps
+from anymesh.applications.grasps.candidates import PER_REGION, candidates
+from anymesh.applications.plan.plans import GripperContact
+from anymesh.applications.policy.objects_ import object_at_rest
 from anymesh.applications.policy.robots_ import Gripper
 from anymesh.cli import run
 from anymesh.errors import InputError, OptionError
@@ -109,6 +112,13 @@ def test_a_flush_front_has_none_a_button_is_pushed_and_a_pane_hooked(tmp_path):
     assert not button.grasps[0].prehensile
     (pane,) = rank_grasps(case(tmp_path, PANE), gripper=Gripper(stroke=0.015))  # its ledge is too thick to be held
     assert pane.grasps[0].kind is GraspKind.HOOK
+
+
+def test_candidates_that_do_not_fit_do_not_count(tmp_path):
+    object_ = object_at_rest(case(tmp_path, TRAY.format(y=0)), "tray_joint")
+    refused = iter(range(2 * PER_REGION))
+    found = list(candidates(object_, Gripper(), None, GripperContact.GRASP, seed=0, fits=lambda _: next(refused, None) is None))
+    assert len(found) > PER_REGION / 2
 
 
 def test_what_hides_a_part_is_opened_first(tmp_path):

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -31,7 +32,11 @@ from anymesh.mechanisms.handles import find_protrusion
 from anymesh.types.triangles import face_cross, unshared
 
 CLEAR = 0.002  # [m] that fingertips keep from what is behind a handle
-SAMPLED, PER_REGION, REGIONS = 100, 12, 3  # candidates of a region, those that are tried, and most pieces that are regions
+SAMPLED, PER_REGION, REGIONS = (
+    100,
+    12,
+    3,
+)  # candidates of a region, those that are tried, and most regions
 SMALL = 0.5  # share of the part's surface; a connected piece below it is a region of its own
 AROUND = 0.02  # a grasp whose width is that of the part, but for this share, is around all of it
 PLACES, HOOK_ANGLES = 300, 12  # places of hooks, and directions from which fingers reach behind each
@@ -58,26 +63,37 @@ def stated_handle(handle: Any) -> Target | None:
 
 
 def candidates(
-    object_: TaskObject, gripper: Gripper, handle: Any, contact: GripperContact, *, seed: int
+    object_: TaskObject,
+    gripper: Gripper,
+    handle: Any,
+    contact: GripperContact,
+    *,
+    seed: int,
+    fits: Callable[[Target], bool],
 ) -> Iterator[Candidate]:
-    """Yield grasps or pushes of the part of the object's joint, the most promising first, computed as they are asked for.
+    """Yield grasps or pushes of the part of the object's joint that fit, the most promising first, computed as asked for.
 
-    handle: of asset.json, if it states one.
+    handle: of asset.json, if it states one; fits: whether the gripper is free on its way to a target.
     """
+
+    def tried(targets: Iterable[Target]) -> Iterator[Target]:
+        return islice(filter(fits, targets), PER_REGION)
+
     surfaces, way = _surfaces(object_, gripper), opening_way(object_)
     if contact is GripperContact.PUSH:
         pushes = _sampled(object_, surfaces, gripper, seed, contact)
-        yield from ((GraspKind.PUSH, t) for t in pushes[:PER_REGION])
-        yield from _without_hold(object_, surfaces, gripper, seed)
+        yield from ((GraspKind.PUSH, t) for t in tried(pushes))
+        for kind, targets in _without_hold(object_, surfaces, gripper, seed):
+            yield from ((kind, t) for t in tried(targets))
         return
     stated = stated_handle(handle)
-    if stated is not None and stated.width < gripper.stroke - ROOM:
+    if stated is not None and stated.width < gripper.stroke - ROOM and fits(stated):
         yield GraspKind.HANDLE, stated
     for kind, faces in _regions(object_, surfaces):
         rest = np.concatenate([surfaces.others, surfaces.part[~faces]])
         own = replace(surfaces, part=surfaces.part[faces], others=rest)
-        targets = _by_approach(_sampled(object_, own, gripper, seed, contact), way)[:PER_REGION]
-        yield from ((kind or _kind(surfaces.part, t), t) for t in targets)
+        targets = _by_approach(_sampled(object_, own, gripper, seed, contact), way)
+        yield from ((kind or _kind(surfaces.part, t), t) for t in tried(targets))
 
 
 def _surfaces(object_: TaskObject, gripper: Gripper) -> PartSurfaces:
@@ -124,7 +140,9 @@ def _by_approach(targets: Sequence[Target], way: Float[np.ndarray, " 3"]) -> lis
     return [groups[z][k] for k in range(max(map(len, groups.values()), default=0)) for z in order if k < len(groups[z])]
 
 
-def _without_hold(object_: TaskObject, surfaces: PartSurfaces, gripper: Gripper, seed: int) -> Iterator[Candidate]:
+def _without_hold(
+    object_: TaskObject, surfaces: PartSurfaces, gripper: Gripper, seed: int
+) -> Iterator[tuple[GraspKind, list[Target]]]:
     """Yield places where the side of the closed fingers presses in the direction of the motion, then where tips rub."""
     points, normals = sample_surface(surfaces.part, np.random.default_rng(seed))
     speed = velocity(object_.thing.motion, points) * np.sign(object_.goal.goal)
@@ -148,10 +166,10 @@ def _without_hold(object_: TaskObject, surfaces: PartSurfaces, gripper: Gripper,
             y, z = np.cos(lean) * way[ok] + np.sin(lean) * up, np.cos(lean) * up - np.sin(lean) * way[ok]
             hooks += some(frames(y, z, points[ok] - (gripper.finger[2] + BESIDE) * y + DIP * z), ok)
     opening = opening_way(object_)
-    yield from ((GraspKind.HOOK, t) for t in _by_approach(unlike(hooks, SAMPLED), opening)[:PER_REGION])
+    yield GraspKind.HOOK, _by_approach(unlike(hooks, SAMPLED), opening)
     ok = _thinned(far & (np.abs(along) < ACROSS))
     rubs = unlike(some(frames(across(normals[ok]), -normals[ok], points[ok]), ok), SAMPLED)
-    yield from ((GraspKind.RUB, t) for t in _by_approach(rubs, opening)[:PER_REGION])
+    yield GraspKind.RUB, _by_approach(rubs, opening)
 
 
 def _thinned(ok: Bool[np.ndarray, " n"]) -> Int[np.ndarray, " k"]:

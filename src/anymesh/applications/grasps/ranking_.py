@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -102,6 +103,7 @@ def _of_object(path: Path, object_: TaskObject, gripper: Gripper, seed: int) -> 
     Grasps come first, pushes only if no grasp does it; for short slides the other way round.
     """
     thing, simulation = object_.thing, gripper_simulation(object_, gripper)
+    free = partial(fits, object_, simulation)
     handle = _stated(path).get(thing.joint, {}).get("handle")
     contacts = [GripperContact.GRASP, GripperContact.PUSH]
     if not thing.turns and abs(object_.goal.goal) < SHORT:
@@ -109,9 +111,7 @@ def _of_object(path: Path, object_: TaskObject, gripper: Gripper, seed: int) -> 
     grasps: list[tuple[bool, Grasp]] = []  # whether it moves the joint to its goal
     why = InteractionFailure.NO_PLACE
     for contact in contacts:
-        for kind, target in candidates(object_, gripper, handle, contact, seed=seed):
-            if not fits(object_, simulation, target):
-                continue
+        for kind, target in candidates(object_, gripper, handle, contact, seed=seed, fits=free):
             grasp, failure = _tried(object_, simulation, kind, target, seed)
             why = failure or why
             if failure is None or (grasp.score > MIN_SCORE and grasp.score > max((g.score for _, g in grasps), default=0.0)):
