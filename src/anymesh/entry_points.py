@@ -68,7 +68,7 @@ DESCRIBED = "kinds.pieces:described"
 # Resistance, springs, catches, detents, closed loops, handles and states of joints.
 CHOOSE_MECHANISMS = "mechanisms.choosing:choose_mechanisms"
 RESISTANCES = "mechanisms.resisting:resistances"
-CLOSED = "mechanisms.closing:closed"
+CLOSED = "mechanisms.closing:closed_over"
 LED_TRACKS = "mechanisms.closing:led_tracks"
 HANDLE_FRAMES = "mechanisms.handles:handle_frames"
 TOGETHER = "mechanisms.following:together"

@@ -7,7 +7,7 @@ import pytest
 from mechanical import ACROSS, UP, asset_of, doors, linkage
 
 from anymesh.geometry.kinematics import link_transforms
-from anymesh.mechanisms.closing import closed, loop_gap
+from anymesh.mechanisms.closing import closed, closed_over, loop_gap
 from anymesh.types import JointType, Loop
 
 
@@ -19,6 +19,12 @@ def test_a_parallelogram_stays_one(angle, kind):
     assert at == pytest.approx({"crank_joint": angle, "rocker_joint": angle, "coupler_joint": -angle}, abs=1e-9)
     assert loop_gap(asset, link_transforms(asset, at)) < 1e-12
     assert loop_gap(asset, link_transforms(asset, {"crank_joint": angle})) > 0.1
+
+
+def test_positions_on_a_way_are_those_from_rest():
+    asset, amounts = linkage(), [-0.5, 0.0, 0.3, 0.6]
+    for amount, at in zip(amounts, closed_over(asset, "crank_joint", amounts), strict=True):
+        assert at == pytest.approx(closed(asset, {"crank_joint": amount}), abs=1e-9)
 
 
 def test_a_slider_crank_follows_its_formula():

@@ -234,7 +234,7 @@ def _alone(
     if not ways and not asset.loops:
         carried, moved = carried_links(asset, joint), (joint_transform(joint, amount) for amount in amounts)
         return [rest | {name: T @ rest[name] for name in carried} for T in moved]
-    led = (link_transforms(asset, resolve(CLOSED)(asset, {name: amount})) for amount in amounts)
+    led = (link_transforms(asset, at) for at in resolve(CLOSED)(asset, name, amounts))
     return [{link: at if (T[link] == np.eye(4)).all() else T[link] @ at for link, at in rest.items()} for T in led]
 
 
