@@ -180,5 +180,5 @@ def test_a_loop_that_was_moved_is_told(one):
         (folder / "asset.json").write_text(json.dumps({"loops": [{"name": "pin", "origin": [x, 0.0, 0.0]}]}))
     result = differences(one, theirs)
     assert [loops[0]["origin"][0] for loops in result["loops"]] == [0.5, 0.51]
-    assert "0.51" in lines(result)[0]
+    assert lines(result)[0] == "loops name pin, origin [0.5, 0.0, 0.0] -> name pin, origin [0.51, 0.0, 0.0]"
     assert "loops" not in differences(one, one)

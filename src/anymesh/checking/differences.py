@@ -9,7 +9,7 @@ import hashlib
 import math
 import os
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -317,15 +317,15 @@ def _joint_change(a: PlacedPart, b: PlacedPart, renamed: Mapping[str, str]) -> d
         if degrees > math.degrees(SAME) or off > SAME or cosine < 0:
             change["axis"] = {"degrees": round(degrees, 4), "mm": _mm(off), "reversed": cosine < 0}
     values = {name: [getattr(p, name), getattr(q, name)] for name in DYNAMICS}
+    values["mimic"] = [m and asdict(m) for m in values["mimic"]]
     if unequal := {name: pair for name, pair in values.items() if not _near(*pair)}:
         change["dynamics"] = unequal
     return change
 
 
 def _near(a: Any, b: Any) -> bool:
-    if isinstance(a, float | int) and isinstance(b, float | int):
-        return math.isclose(a, b, rel_tol=SAME, abs_tol=1e-12)
-    return a == b
+    numbers = isinstance(a, float | int) and isinstance(b, float | int)
+    return math.isclose(a, b, rel_tol=SAME, abs_tol=1e-12) if numbers else a == b
 
 
 def _inertia_change(a: PlacedPart, b: PlacedPart) -> dict[str, Any]:
@@ -360,8 +360,8 @@ def _mm(metres: float) -> float:
 def lines(result: Mapping[str, Any]) -> list[str]:
     """Return the result of `differences` in lines of text; the last one sums up."""
     if "changed" not in result:
-        told = [_words(part) for part in result["parts"]]
-        told += [f"loops {' -> '.join(str(loops or None) for loops in result['loops'])}"] if "loops" in result else []
+        loops = " -> ".join("; ".join(map(_shown, some)) or "none" for some in result.get("loops", ()))
+        told = [*map(_words, result["parts"]), *([f"loops {loops}"] if loops else [])]
         told += [] if result["same"] else [f"files that differ: {', '.join(result['files'])}"]
         return [*told, "the same" if result["same"] else f"{len(result['parts'])} parts differ{_most(result)}"]
     told = [f"{name}: added" for name in result["added"]] + [f"{name}: removed" for name in result["removed"]]
@@ -388,10 +388,13 @@ def _words(part: Mapping[str, Any]) -> str:
     told += [f"limits {part['limits'][0]} -> {part['limits'][1]} (rad or m)"] if "limits" in part else []
     if axis := part.get("axis"):
         told.append(f"axis {axis['degrees']:.4g} deg and {axis['mm']:.4g} mm off{', reversed' if axis['reversed'] else ''}")
-    told += [f"{name} {pair[0]} -> {pair[1]}" for name, pair in part.get("dynamics", {}).items()]
+    told += [f"{name} {_shown(pair[0])} -> {_shown(pair[1])}" for name, pair in part.get("dynamics", {}).items()]
     if inertia := part.get("inertia"):
         told.append(f"mass {inertia['mass'][0]} -> {inertia['mass'][1]} kg, center {inertia.get('center_mm', 0):.4g} mm off")
     if collision := part.get("collision"):
         told.append(f"collision {collision['shapes'][0]} -> {collision['shapes'][1]} shapes, {collision['mm']:.4g} mm off")
-    told += [name for name in ("shape", "textures") if name in part]
-    return f"{part['name']}: {'; '.join(told)}"
+    return f"{part['name']}: {'; '.join([*told, *(name for name in ('shape', 'textures') if name in part)])}"
+
+
+def _shown(value: Any) -> str:
+    return ", ".join(f"{k} {v}" for k, v in value.items()) if isinstance(value, dict) else str(value).lower()

@@ -17,6 +17,7 @@ from anymesh.checking.engines.locate import PACKAGES
 from anymesh.checking.engines.robot import Robot
 from anymesh.checking.report import Finding, failure, warning
 from anymesh.names import legal_name
+from anymesh.types import Mimic
 
 SCHEMA = "schema"
 NAME = "asset.json"
@@ -135,6 +136,34 @@ def _agreement(record: dict[str, Any], robot: Robot) -> Iterator[Finding]:
         other = limits.get(joint["name"])
         if joint["limits"] and other and max(abs(a - b) for a, b in zip(joint["limits"], other, strict=True)) > SAME:
             yield failure(SCHEMA, NAME, f"the limits of {joint['name']!r} are {joint['limits']}, in {robot.path.name} {other}")
+    yield from _couplings({j["name"]: j for j in joints}, robot)
+
+
+def _couplings(joints: dict[str, dict[str, Any]], robot: Robot) -> Iterator[Finding]:
+    """Check what follows what, and the pitch of screws, of which a slide follows the turn; descriptions have no chains."""
+    described = {j.name: j.mimic for j in robot.joints}
+    slides = [m for name, m in described.items() if m is not None and name not in joints]
+    for name, joint in joints.items():
+        lead, ratio, offset = name, 1.0, 0.0
+        for _ in joints:
+            if (m := joints.get(lead, {}).get("mimic")) is not None:
+                lead, ratio, offset = m["joint"], ratio * m["ratio"], offset + ratio * m["offset"]
+        stated, other = None if lead == name else Mimic(lead, ratio, offset), described.get(name)
+        if name in described and not _same(stated, other):
+            yield failure(SCHEMA, NAME, f"what {name!r} follows is {_words(stated)}, in {robot.path.name} {_words(other)}")
+        rate = joint.get("pitch", 0.0) / (2 * math.pi)
+        if joint["type"] == "screw" and not any(_same(Mimic(lead, rate * ratio, rate * offset), m) for m in slides):
+            yield failure(SCHEMA, NAME, f"the pitch of {name!r} is {joint.get('pitch')}, in {robot.path.name} another")
+
+
+def _same(a: Mimic | None, b: Mimic | None) -> bool:
+    if a is None or b is None:
+        return a is b
+    return a.joint == b.joint and max(abs(a.ratio - b.ratio), abs(a.offset - b.offset)) < SAME
+
+
+def _words(m: Mimic | None) -> str:
+    return "none" if m is None else f"{m.joint!r} by {m.ratio:.6g} from {m.offset:.6g}"
 
 
 def beyond_urdf(record: dict[str, Any], robot: Robot) -> set[str]:
