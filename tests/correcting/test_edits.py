@@ -285,5 +285,7 @@ def test_loops_are_set_renamed_and_removed():
     assert corrected(asset, "door", rename="hatch").loops[0].second == "hatch"
     assert corrected(asset, "drawer", loop="none").loops == ()
     assert corrected(asset, None, merge="drawer,door").loops == ()
+    with pytest.raises(CorrectionError, match="on no loop"):
+        corrected(cabinet(), "drawer", loop="none")
     with pytest.raises(CorrectionError, match="is no loop"):
         corrected(cabinet(), "drawer", loop="door,0.1,0")

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from assets import cabinet
 
-from anymesh.correcting import ChooseMotion, CorrectionError, apply, ranked_motions
-from anymesh.correcting.motions import made_ready, motion_words, told_apart
+from anymesh.correcting import ChooseMotion, CorrectionError, SetMimic, apply, ranked_motions
+from anymesh.correcting.motions import made_ready, motion_faults, motion_words, told_apart
 from anymesh.types import JointType
 
 
@@ -100,3 +100,11 @@ def test_motions_with_the_same_words_are_told_apart_by_what_differs():
     assert told_apart(asset, (a, c)) == ("hinge right, vertical, 0..86°", "hinge right, vertical, 0..40°")
     assert told_apart(asset, (a, d)) == ("hinge right, vertical", "hinge right, vertical, 2.0 cm further to the back")
     assert len(set(told_apart(asset, (a, a, b, c, d)))) == 5
+
+
+def test_a_follower_that_runs_into_what_carries_it_is_told():
+    asset = cabinet()
+    assert motion_faults(asset, {"door", "drawer"}) == {}
+    lead = next(j for j in asset.joints if j.child == "drawer")
+    follows = apply(asset, SetMimic("door", "drawer", -1.9 / lead.limits[1]))
+    assert "the other way is free" in motion_faults(follows, {"door"})["door"]

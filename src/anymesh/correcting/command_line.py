@@ -69,14 +69,17 @@ def _correct(
 
 
 def _apply(asset: EditableAsset, part: str | None, operations: dict[str, Any], json_: bool, quiet: bool) -> None:
-    """Correct and save an asset, and print the joints that changed."""
+    """Correct and save an asset, and print the joints that changed, with what stops them."""
+    from anymesh.correcting.motions import motion_faults
+
     if operations.pop("undo", False):
         asset.undo()
     asset.correct(part, **operations)
     rows, out = asset.changes(), asset.folder
+    doubts = motion_faults(asset.asset, {row["part"] for row in rows} & {*asset.parts})
     asset.save()
     files = [*json.loads((out / "asset.json").read_bytes())["files"].values(), "preview.png", "asset.json", "corrections.json"]
-    warnings = list(asset.warnings)
+    warnings = [*asset.warnings, *(f"joint {asset.joint(part).name}: {fault}" for part, fault in doubts.items())]
     record = {
         "out": str(out),
         "changed": rows,

@@ -153,7 +153,10 @@ def set_mimic(asset: Asset, c: SetMimic) -> Asset:
 def set_loop(asset: Asset, c: SetLoop) -> Asset:
     joint = joint_of_part(asset, c.part)
     if c.other is None:
-        return replace(asset, loops=tuple(loop for loop in asset.loops if c.part not in (loop.first, loop.second)))
+        kept = tuple(loop for loop in asset.loops if c.part not in (loop.first, loop.second))
+        if len(kept) == len(asset.loops):
+            raise CorrectionError(f"{c.part!r} is on no loop")
+        return replace(asset, loops=kept)
     part_number(asset, c.other)
     taken = {j.name for j in asset.joints} | {loop.name for loop in asset.loops}
     plain = f"{c.part}_{c.other}_loop"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -11,12 +11,14 @@ from jaxtyping import Float, Int
 from anymesh.articulation.estimate import all_motions, joint_of
 from anymesh.articulation.part_contexts import part_context
 from anymesh.articulation.rank_motions import joint_type, motion_scores, reason
+from anymesh.articulation.vetting import faults
 from anymesh.correcting.corrections import ChooseMotion, vector
 from anymesh.correcting.edits import choose_motion
 from anymesh.correcting.tree import joint_of_part, part_number
 from anymesh.geometry.boxes import straight_mesh, turned_back
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.surface import ObjectShape
+from anymesh.motion.part_context import PartContext
 from anymesh.prompted.pictures.sides import Sides
 from anymesh.prompted.pictures.sides import told_apart as words_told_apart
 from anymesh.segmentation.divide import object_shape
@@ -79,12 +81,8 @@ def ranked_motions(asset: Asset, part: str, *, ready: Ready | None = None, most:
     """
     joint_of_part(asset, part)
     ready = ready or made_ready(asset)
-    names = [p.name for p in asset.segmentation.parts]
-    hangs = {j.child: names.index(j.parent) for j in asset.joints}
-    whole, label = ready.whole, ready.part
-    shapes = [whole.of(np.flatnonzero(label == k)) for k in range(len(names))]
-    number = part_number(asset, part)
-    context = part_context(whole, label, shapes, [hangs.get(n, -1) for n in names], number)
+    number, parent = part_number(asset, part), joint_of_part(asset, part).parent
+    context = _context(asset, ready, number)
     scored = all_motions(context, asset.segmentation.parts[number].label)
     scores = motion_scores(scored)
     free = [k for k in np.argsort(-scores, kind="stable") if scored.candidates[k].is_free]
@@ -92,13 +90,30 @@ def ranked_motions(asset: Asset, part: str, *, ready: Ready | None = None, most:
     motions: list[ChooseMotion] = []
     for k in free:
         c = scored.candidates[k]
-        joint = joint_of(context, part, names[hangs[part]], c, joint_type(c), 1.0, reason(c))
+        joint = joint_of(context, part, parent, c, joint_type(c), 1.0, reason(c))
         motion = _choice(turned_back(joint, ready.T_straight), float(np.exp(scores[k] - scores.max()) / total))
         if not any(_alike(other, motion, asset.mesh.diagonal) for other in motions):
             motions.append(motion)
         if len(motions) == most:
             break
     return tuple(motions)
+
+
+def _context(asset: Asset, ready: Ready, number: int) -> PartContext:
+    names = [p.name for p in asset.segmentation.parts]
+    hangs = {j.child: names.index(j.parent) for j in asset.joints}
+    shapes = [ready.whole.of(np.flatnonzero(ready.part == k)) for k in range(len(names))]
+    return part_context(ready.whole, ready.part, shapes, [hangs.get(n, -1) for n in names], number)
+
+
+def motion_faults(asset: Asset, parts: Collection[str]) -> dict[str, str]:
+    """Return what is wrong with the joints of some parts within their limits, in short phrases, as a run tests them."""
+    joints = [j for j in asset.joints if j.child in parts and j.limits is not None]
+    if not joints:
+        return {}
+    ready = made_ready(asset)
+    contexts = {j.child: _context(asset, ready, part_number(asset, j.child)) for j in joints}
+    return faults(contexts, [turned_back(j, np.linalg.inv(ready.T_straight)) for j in joints])
 
 
 def _choice(joint: Joint, share: float) -> ChooseMotion:
