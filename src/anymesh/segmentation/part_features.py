@@ -124,6 +124,10 @@ def fit_of_rim(context: PartContext) -> tuple[int, float]:
     samples = context.part.samples
     local = core.local(samples.points) / np.maximum(core.half, 1e-12)
     facing = samples.normals @ core.axes.T
+    sides_of = [(sign * local[:, k], sign * facing[:, k]) for k in context.face_axes for sign in (1, -1)]
+    rims = np.array([(beyond > RIM) & (along > ALONG_COSINE) for beyond, along in sides_of])
+    on_rims = np.flatnonzero(rims.any(0))
+    samples, rims = samples.take(on_rims), rims[:, on_rims]
     touch, reach = TOUCH_RATIO * context.diagonal, NEAR_RATIO * context.diagonal
     # start slightly inside, since a ray that starts on a surface would miss it
     start = samples.points - samples.normals * 2 * touch
@@ -134,15 +138,13 @@ def fit_of_rim(context: PartContext) -> tuple[int, float]:
     gap[(hits.face >= 0) & context.without_part.solid[face] & (along > 0)] = 0  # the rim lies inside the surface opposite
     gap[(np.abs(along) < FACING_COSINE) & (gap > touch)] = np.inf  # ignore slopes and fillets beside the rim
     sides, touched, count = 0, 0, 0
-    for axis in context.face_axes:
-        for sign in (1, -1):
-            rim = (sign * local[:, axis] > RIM) & (sign * facing[:, axis] > ALONG_COSINE)
-            if rim.sum() < 3:
-                continue
-            clear = (gap[rim] > touch) & np.isfinite(gap[rim])
-            sides += int(clear.mean() > 0.5)
-            touched += int((gap[rim] <= touch).sum())
-            count += int(rim.sum())
+    for rim in rims:
+        if rim.sum() < 3:
+            continue
+        clear = (gap[rim] > touch) & np.isfinite(gap[rim])
+        sides += int(clear.mean() > 0.5)
+        touched += int((gap[rim] <= touch).sum())
+        count += int(rim.sum())
     return sides, touched / max(count, 1)
 
 
