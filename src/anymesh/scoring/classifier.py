@@ -19,6 +19,7 @@ from jaxtyping import Float, Float32, Int16, Int32
 from anymesh.types import Brief
 
 HEADS = 4  # of the attention in each layer
+PAIRS = 8000  # candidates' pairs that a network sees at once, which fit in a processor's cache
 DIGITS = 3  # of a score; fewer than the digits in which the linear algebra of processors differs
 PLACE_SCALES = (2.0, 3.0, 1.0, 1.0)  # of center, half extents, opening direction and thin axis as inputs
 EPSILON = np.float32(1e-5)  # added to variances
@@ -125,10 +126,13 @@ class SetNetwork(Brief):
         if len(own) == 0:
             return np.zeros(0)
         tokens = np.concatenate([scaled(own, self.knots), place_tokens(place)], 1, dtype=np.float32)
-        state = self._linear("second", np.maximum(self._linear("first", tokens), 0))
-        bias = self._linear("pair_second", np.maximum(self._linear("pair_first", pairs), 0))
+        state = self._two("first", "second", tokens)
+        step = max(1, PAIRS // len(own))
+        blocks = (pairs[k : k + step].reshape(-1, pairs.shape[2]) for k in range(0, len(own), step))
+        bias = np.concatenate([self._two("pair_first", "pair_second", some).T for some in blocks], 1)
+        bias = bias.reshape(-1, len(own), len(own))  # for each head of each layer
         for k, layer in enumerate(self._layers):
-            state = self._attend(layer, state, bias[..., k * HEADS : (k + 1) * HEADS])
+            state = self._attend(layer, state, bias[k * HEADS : (k + 1) * HEADS])
         return np.round(self._linear("score", self._norm("norm", state))[:, 0].astype(float), DIGITS)
 
     def arrays(self, name: str) -> dict[str, np.ndarray]:
@@ -148,20 +152,31 @@ class SetNetwork(Brief):
         return sorted({name.split(".")[0] for name in self.weights if name.startswith("layer")})
 
     def _attend(
-        self, layer: str, state: Float32[np.ndarray, "n d"], bias: Float32[np.ndarray, "n n h"]
+        self, layer: str, state: Float32[np.ndarray, "n d"], bias: Float32[np.ndarray, "h n n"]
     ) -> Float32[np.ndarray, "n d"]:
         count, width = state.shape
         mixed = self._linear(f"{layer}.mix", self._norm(f"{layer}.norm", state))
         query, key, value = mixed.reshape(count, 3, HEADS, width // HEADS).transpose(1, 2, 0, 3)
-        logits = query @ key.transpose(0, 2, 1) / np.float32(np.sqrt(width // HEADS)) + bias.transpose(2, 0, 1)
-        likely = np.exp(logits - logits.max(2, keepdims=True))
-        taken = (likely / likely.sum(2, keepdims=True)) @ value
+        taken = np.empty((HEADS, count, width // HEADS), np.float32)
+        for h in range(HEADS):
+            likely = query[h] @ key[h].T
+            likely /= np.float32(np.sqrt(width // HEADS))
+            likely += bias[h]
+            likely -= likely.max(1, keepdims=True)
+            np.exp(likely, out=likely)
+            likely /= likely.sum(1, keepdims=True)
+            taken[h] = likely @ value[h]
         state = state + self._linear(f"{layer}.out", taken.transpose(1, 0, 2).reshape(count, width))
-        inner = np.maximum(self._linear(f"{layer}.up", self._norm(f"{layer}.norm_up", state)), 0)
-        return state + self._linear(f"{layer}.down", inner)
+        return state + self._two(f"{layer}.up", f"{layer}.down", self._norm(f"{layer}.norm_up", state))
 
-    def _linear(self, name: str, x: Float32[np.ndarray, "... i"]) -> Float32[np.ndarray, "... o"]:
-        return x @ self.weights[f"{name}.weight"].T + self.weights[f"{name}.bias"]
+    def _two(self, first: str, second: str, x: Float32[np.ndarray, "n i"]) -> Float32[np.ndarray, "n o"]:
+        inner = self._linear(first, x)
+        return self._linear(second, np.maximum(inner, 0, out=inner))
+
+    def _linear(self, name: str, x: Float32[np.ndarray, "n i"]) -> Float32[np.ndarray, "n o"]:
+        out = x @ self.weights[f"{name}.weight"].T
+        out += self.weights[f"{name}.bias"]
+        return out
 
     def _norm(self, name: str, x: Float32[np.ndarray, "n d"]) -> Float32[np.ndarray, "n d"]:
         off = x - x.mean(1, keepdims=True)
