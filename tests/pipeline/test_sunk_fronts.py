@@ -50,6 +50,15 @@ def test_parts_are_found_and_move_out(name: str) -> None:
         assert thing.is_right(part.name, joints[parts.parts[own].name])
 
 
+@pytest.mark.parametrize("bare", [False, True], ids=["closed", "without hidden faces"])
+def test_the_knobs_of_drawers_are_handles(bare: bool) -> None:
+    mesh, truth = chest(grid=(2, 1)).mesh(bare=bare)
+    parts = Solver(mesh).parts().segmentation
+    assert len(parts.parts) == len(truth.parts) == 3
+    for k in (1, 2):  # with its knob
+        assert len(np.unique(parts.face_part[truth.face_part == k])) == 1
+
+
 @pytest.mark.slow
 def test_nearly_all_sunk_parts_are_found_and_right() -> None:
     """Of 174 parts of the objects, closed and without hidden faces, 153 are right, and 115 were before they were drawn out."""

@@ -11,7 +11,7 @@ import numpy as np
 from jaxtyping import Bool
 
 from anymesh.articulation.estimate import PartMotions, choose_motion, is_named, part_motions, with_labels_of
-from anymesh.articulation.rank_motions import MIN_LABEL_CONFIDENCE, label_of
+from anymesh.articulation.rank_motions import DRAWER, MIN_LABEL_CONFIDENCE, label_of
 from anymesh.articulation.vetting import vetted_joints
 from anymesh.config import Config
 from anymesh.entry_points import PROMPTED_STAGES, STATED_JOINTS, STATED_PARTS, USUAL_PARTS, WITH_GEARS, WITH_OTHERS, resolve
@@ -30,6 +30,9 @@ from anymesh.types.questions import AnswererFactory
 from anymesh.vocabulary import typical_motion
 
 GROUND_WARNING = "the file contains a ground, which is part of the base"
+# what would move on such a part is its handle: on 130 drawers and trays of Articraft there are three buttons and no knob that
+# turns; on sliding gates there are rollers
+HANDLES = {DRAWER: ("button", "knob"), "slider": ("button",)}
 __all__ = ["Solver", "StageAnswerer", "solve"]
 
 
@@ -120,15 +123,18 @@ class GeometryStages:
     def _labels(self, segmentation: Segmentation) -> list[str]:
         """Return a label of each part but the base from its motion by geometry; "" for one without a name that cannot move.
 
-        It is "part" where the motion is not sure enough to tell.
+        It is "part" where the motion is not sure enough to tell. What stands on a drawer is its handle (`HANDLES`).
         """
+        swept = self.motions(segmentation)
+        choices = {i: choose_motion(context, motions) for i, _, context, motions in swept}
+        shown = {i: label_of(context, choices[i][1]) for i, _, context, _ in swept}
         labels = {}
-        for i, _, context, motions in self.motions(segmentation):
-            choice, best = choose_motion(context, motions)
-            own = segmentation.parts[i]
-            still = choice.type is JointType.FIXED and (typical_motion(own.label) is None or not is_named(own))
-            label = "" if still else label_of(context, best)
-            labels[i] = label if label == own.label or choice.confidence >= MIN_LABEL_CONFIDENCE.get(label, 0.0) else "part"
+        for i, parent, _, _ in swept:
+            choice, own, label = choices[i][0], segmentation.parts[i], shown[i]
+            handle = label in HANDLES.get(shown.get(parent, ""), ())
+            still = (choice.type is JointType.FIXED or handle) and (typical_motion(own.label) is None or not is_named(own))
+            sure = label == own.label or choice.confidence >= MIN_LABEL_CONFIDENCE.get(label, 0.0)
+            labels[i] = "" if still else label if sure else "part"
         return [labels[i] for i in sorted(labels)]
 
     def motions(self, segmentation: Segmentation, progress: Progress = silent) -> list[PartMotions]:
