@@ -38,6 +38,14 @@ def test_motions_are_named_from_the_front(motion, amount, words):
     assert AHEAD.words(motion, amount, DOOR) == words
 
 
+@pytest.mark.parametrize(
+    ("origin", "words"), [((0, 0.1, 0), "at its back, up and to the back"), ((0, 0, 0), "through its middle, in place")]
+)
+def test_a_long_lid_goes_up_about_its_back_edge(origin, words):
+    lid = np.array([[-0.65, -0.1, -0.01], [0.65, 0.1, 0.01]])
+    assert AHEAD.words(turn(-X, origin), 1.2, lid) == f"turns about a left-right axis {words}"
+
+
 def test_motions_in_the_same_words_are_told_apart():
     near, same, far = (turn(-Z, (x, 0, 0)) for x in (-0.5, -0.5, -0.4))
     first = "turns about an upright axis at its left, to the front and left"

@@ -21,7 +21,7 @@ EDGE, THIN = 0.5, 0.1  # shares of half the part's extent there, and of its larg
 BEYOND = 1.3  # share of half the part's extent: an axis farther off lies beyond it
 FARTHER = 1.1  # ratio of amounts from which the words differ
 LEAST_TOLD = 0.5  # offset [% of the part's size] or angle [degrees] between axes from which the words differ
-IN_PLACE = 0.1  # share of the part's size: a part whose middle moves less turns in place
+IN_PLACE = 0.1  # share of the part's size across the axis: a part whose middle moves less turns in place
 WAYS = {"top": "up", "bottom": "down"}
 COMPASS, LETTERS, ARM = 104, 14, 30  # [px] in a panel of 400: size of a compass, font size, length of an arrow
 WORDS = 66  # [px] height of the words of a panel of that size, three lines
@@ -73,7 +73,7 @@ class Sides:
             return f"slides {self.direction(motion.axis * np.sign(amount))}"
         T = motion.transform(amount)
         way = T[:3, :3] @ middle + T[:3, 3] - middle
-        size = float(np.linalg.norm(np.ptp(points, axis=0)))
+        size = float(np.linalg.norm(np.ptp(points - np.outer(points @ motion.axis, motion.axis), axis=0)))
         goes = self.direction(way) if np.linalg.norm(way) > IN_PLACE * size else "in place"
         return f"turns {self._place(motion, middle, points)}, {goes}"
 
