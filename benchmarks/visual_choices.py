@@ -8,11 +8,9 @@ from __future__ import annotations
 
 import itertools
 import json
-import re
 import tempfile
-from collections import defaultdict
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -24,7 +22,7 @@ from anymesh.evaluation.evaluate_sample import EvalConfig, evaluate_sample
 from anymesh.evaluation.record import Record
 from anymesh.evaluation.score import ObjectScore
 from anymesh.pipeline.solving import solve
-from anymesh.prompted.answerers.question_files import CHECK, QuestionFolder, find_questions, is_left_to_geometry
+from anymesh.prompted.answerers.question_files import CHECK, QuestionFolder, find_questions
 from anymesh.prompted.answerers.recordings import Replay
 from anymesh.prompted.answerers.vlm_answerer import VlmAnswerer
 from anymesh.prompted.questions.prompting import (
@@ -50,8 +48,7 @@ NEAR, LEAST = 0.15, 0.02  # share of the way, and of the part's diagonal: motion
 KINDS = {"turn": JointType.REVOLUTE, "slide": JointType.PRISMATIC}  # words of the file
 NAMES = {kind: name for name, kind in KINDS.items()}
 DIGITS = 5  # of the numbers in the file
-PART = re.compile(r"part (\d+): an? ([^,.]+)")  # in a question about kinds of joint
-EMPTY: Mapping[str, Sequence[KindAnswer]] = {}
+FIXED = KindAnswer(JointAppearance.FIXED)
 
 
 @dataclass(frozen=True)
@@ -59,12 +56,16 @@ class Choice:
     """The motion that was chosen for one part.
 
     bounds: of the part's points [m]; motion: kind, axis, origin [m] and amount [rad or m] as shown, None for none of those
-    shown; fit: whether the part was called right.
+    shown; fit: whether the part was called right; attached: how, from the answer beside the file.
     """
 
     bounds: list[list[float]]
     motion: tuple[str, list[float], list[float], float] | None
     fit: str
+    attached: KindAnswer = FIXED
+
+
+NOT_ASKED = Choice([], None, PartFit.RIGHT)
 
 
 def choices_of(questions: Sequence[QuestionFolder]) -> list[Choice]:
@@ -87,55 +88,36 @@ def choices_of(questions: Sequence[QuestionFolder]) -> list[Choice]:
 
 def write_choices(path: Path, choices: Sequence[Choice]) -> None:
     """Write them as JSON."""
-    path.write_text(json.dumps([asdict(choice) for choice in choices]) + "\n", encoding="utf-8")
+    rows = [{"bounds": c.bounds, "motion": c.motion, "fit": c.fit} for c in choices]
+    path.write_text(json.dumps(rows) + "\n", encoding="utf-8")
 
 
 def read_choices(path: Path) -> list[Choice]:
-    """Read what `write_choices` wrote; none where there is no file."""
+    """Read what `write_choices` wrote, and how parts are attached from the answers beside it; none where there is no file."""
     if not path.exists():
         return []
-    return [Choice(**{**row, "motion": row["motion"] and tuple(row["motion"])}) for row in json.loads(path.read_text())]
+    texts = [q.answer() for q in find_questions(path.parent) if q.kind == KIND]
+    parts = [part for text in texts if text for part in sorted(json.loads(text)["parts"], key=lambda p: p["part"])]
+    rows = zip(json.loads(path.read_text()), parts, strict=True)
+    return [Choice(row["bounds"], row["motion"] and tuple(row["motion"]), row["fit"], _kind(part)) for row, part in rows]
 
 
-def recorded_kinds(folder: Path) -> dict[str, list[KindAnswer]]:
-    """Return the kinds of joint that were answered in questions of their own, by the label of their parts."""
-    kinds = defaultdict[str, list[KindAnswer]](list)
-    for question in find_questions(folder):
-        text = question.answer()
-        if question.kind == "kinds" and text is not None and not is_left_to_geometry(text):
-            labels = dict(PART.findall(str(question.record["text"])))
-            for part in json.loads(text)["parts"]:
-                label = part.get("label", OTHER)
-                named = labels[str(part["part"])] if label == OTHER else label
-                answer = KindAnswer(JointAppearance(part["joint"]), part["endless"], None if label == OTHER else label)
-                kinds[named].append(answer)
-    return kinds
+def _kind(part: Mapping[str, Any]) -> KindAnswer:
+    label = part.get("label", OTHER)
+    return KindAnswer(JointAppearance(part["joint"]), part["endless"], None if label == OTHER else label)
 
 
-def _attached(table: MotionTable, row: int | None, kinds: Mapping[str, Sequence[KindAnswer]]) -> KindAnswer:
-    """Return the kind of joint that was answered for parts of this label, one that the picked motion has if there is one."""
-    told = kinds.get(table.part.label, ())
-    if row is None:
-        return told[0] if told else KindAnswer(JointAppearance.FIXED)
-    slides = table.motions[row].kind is JointType.PRISMATIC
-    usual = KindAnswer(JointAppearance.SLIDE_OUT if slides else JointAppearance.HINGE_ALONG)
-    return next((k for k in told if k.kind is not JointAppearance.FIXED and k.kind.is_rotation != slides), usual)
-
-
-def pick_again(
-    question: WhichMotions, choices: Sequence[Choice], kinds: Mapping[str, Sequence[KindAnswer]] = EMPTY
-) -> tuple[MotionPick, ...] | None:
+def pick_again(question: WhichMotions, choices: Sequence[Choice]) -> tuple[MotionPick, ...] | None:
     """Answer a question as recorded: "none of these" for a part whose motion is not shown, or that was not asked about then.
 
-    kinds: as `recorded_kinds`, for a question that asks for them too. Returns None where nothing was recorded.
+    Returns None where nothing was recorded.
     """
     picks = []
     for table in question.tables:
         mine = [c for c in choices if _is_part(table, c)]
         rows = [row for c in mine if c.motion is not None and (row := same_motion(c, table)) is not None]
-        row = rows[0] if rows else None
-        attached = _attached(table, row, kinds) if question.ask_kind else None
-        picks.append(MotionPick(row, PartFit(mine[0].fit) if mine else PartFit.RIGHT, attached))
+        told = mine[0] if mine else NOT_ASKED
+        picks.append(MotionPick(rows[0] if rows else None, PartFit(told.fit), told.attached if question.ask_kind else None))
     return tuple(picks) if choices else None
 
 
@@ -185,13 +167,13 @@ def _rounded(values: np.ndarray) -> list[float]:
 class WithChoices:
     """An answerer from a recording, for questions that were asked otherwise then.
 
-    What the object is, is answered as recorded; motions by the choices, with the kinds of joint that were answered; points and
-    arrows that were not asked for then, by the fallback. Each counts as a question.
+    What the object is, is answered as recorded; motions by the choices; points and arrows that were not asked for then, by the
+    fallback. Each counts as a question.
     """
 
     def __init__(self, recorded: VisualAnswerer, folder: Path, fallback: VisualAnswerer) -> None:
         self.inner, self._folder, self._fallback = recorded, folder, fallback
-        self._choices, self._kinds = read_choices(folder / FILE), recorded_kinds(folder)
+        self._choices = read_choices(folder / FILE)
         self.again = 0  # questions that were not asked in the same words and pictures then
 
     @property
@@ -218,7 +200,7 @@ class WithChoices:
                     told = [q.answer() for q in find_questions(self._folder) if q.kind == question.kind]
                     answer = question.parse(json.loads(told[0])) if told and told[0] else None
                 case WhichMotions():
-                    answer = pick_again(question, self._choices, self._kinds)
+                    answer = pick_again(question, self._choices)
                 case WhichPoints() | WhichArrows():
                     answer = self._fallback.ask(question)
             if answer is None:

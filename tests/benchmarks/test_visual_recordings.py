@@ -35,7 +35,7 @@ from anymesh.prompted.questions.recognition import Recognize
 from anymesh.rendering.render import encode
 from anymesh.types import JointType, Motion
 from benchmarks import visual
-from benchmarks.visual_choices import Choice, pick_again
+from benchmarks.visual_choices import FILE, Choice, pick_again, read_choices, write_choices
 
 X, Y, Z = np.eye(3)
 
@@ -111,12 +111,17 @@ def test_a_choice_is_found_again_in_another_order_or_the_other_way() -> None:
     assert pick_again(motions_shown(0.8, X, Z), []) is None
 
 
-def test_kinds_that_were_answered_by_themselves_are_given_with_motions() -> None:
-    asked = replace(motions_shown(0.8, X, Z), ask_kind=True)
+def test_how_a_part_is_attached_is_read_from_the_answer_beside_its_choice(tmp_path: Path) -> None:
     about_z = Choice([[0.0, 0.0, 0.0], [0.4, 0.02, 0.6]], ("turn", [0.0, 0.0, 1.0], [0.0, 0.0, 0.1], 1.0), "right")
-    slide, endless = KindAnswer(JointAppearance.SLIDE_OUT), KindAnswer(JointAppearance.HINGE_INTO, True)
-    assert pick_again(asked, [about_z], {"door": [slide, endless]}) == (MotionPick(1, attached=endless),)
-    assert pick_again(asked, [about_z]) == (MotionPick(1, attached=KindAnswer(JointAppearance.HINGE_ALONG)),)
+    asked = replace(motions_shown(0.8, X, Z), ask_kind=True)
+    part = {"part": 1, "motion": 1, "joint": "hinge_into_surface", "endless": True}
+    with pytest.raises(ModelError):
+        FileAnswerer(QuestionStore(tmp_path, "1"), ReferenceAnswerer("unused", lambda: pytest.fail("asked"))).ask(asked)
+    (open_,) = find_questions(tmp_path)
+    open_.write_answer(json.dumps({"reason": "", "parts": [part]}))
+    write_choices(tmp_path / FILE, [about_z])
+    endless = KindAnswer(JointAppearance.HINGE_INTO, True)
+    assert pick_again(asked, read_choices(tmp_path / FILE)) == (MotionPick(1, attached=endless),)
 
 
 @pytest.mark.parametrize("shown", [0.0, 0.1])
