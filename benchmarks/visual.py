@@ -53,7 +53,7 @@ by numbers. Kinds and motions are one question, and joints that geometry is sure
 The answerers knew which data sets are used and recognized a few objects. Those of the first 97 recordings had read an earlier
 page, with names, results and numbers of joints, and scores of other objects; those of the others, of which 001, 024 and 027 are
 the ones end to end, its words, but no table. These words told what had been answered wrongly about these three (a lever that
-swivels, a hinge at the bottom, a door that slides); the answers follow the pictures, but cannot be called independent of it.
+swivels, a hinge at the bottom, a door that slides); the answers follow the pictures, but cannot be called independent of them.
 020 and 042 with parts given are not in the tables: nothing is asked about them. Nor are 019 and 056, which have no parts.
 
 Recall: true movable parts found with an IoU of .5 or more. mIoU: over the true parts, 0 for a part that was not found. For
