@@ -143,7 +143,7 @@ def _slider(number: int, joint: Joint, color: str, asset: Asset, *, led: bool) -
     outcome = verdict(asset.segmentation, joint, asset.warnings)
     why = f'<p class="why">{html_text(outcome.why)}</p>' if outcome.why else ""
     mark = sure(joint.confidence, outcome.word)
-    head = f'<i class="chip {color}"></i><b>{name}</b> <small>{kind} {travel}</small>{mark}{why}'
+    head = f'{mark}<i class="chip {color}"></i><b>{name}</b> <small>{kind} {travel}</small>{why}'
     if joint.type is JointType.FIXED or led:
         follows = f'<p class="why">{html_text(_follows(asset, joint))}</p>' if led else ""
         return f'<li data-joint="{number}">{head}{follows}</li>'

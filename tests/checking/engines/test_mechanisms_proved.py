@@ -55,6 +55,20 @@ def test_all_that_is_right_is_proved(tmp_path):
     assert lift > 1
 
 
+def test_a_light_lever_leads_heavy_doors(tmp_path):
+    path = tmp_path / "lever.xml"
+    joint = '<joint name="{0}" axis="0 0 1" frictionloss="2"/>'
+    door = '<body name="{0}">' + joint + '<geom type="box" size=".25 .01 .2" pos=".25 0 0" mass="2"/></body>'
+    lead = '<joint joint1="{0}" joint2="lever" polycoef="0 2 0 0 0"/>'
+    path.write_text(
+        '<mujoco><compiler angle="radian" autolimits="true"/><worldbody><geom name="base" size=".01" pos="0 0 -3"/>'
+        f'<body name="lever"><joint name="lever" axis="0 1 0" range="0 .75"/><geom size=".03" pos=".05 0 0" mass=".2"/></body>'
+        f"{door.format('left')}{door.format('right')}</worldbody>"
+        f"<equality>{lead.format('left')}{lead.format('right')}</equality></mujoco>"
+    )
+    assert [(m.kind, m.faults) for m in prove_mechanisms(path)] == [("follower", ())] * 2
+
+
 def test_a_follower_that_its_limits_hold_back_is_a_fault(tmp_path):
     lead, led = prove_mechanisms(written(tmp_path, "gears", reach=1.0))[-2:]
     assert "not to its limit" in lead.faults[0]

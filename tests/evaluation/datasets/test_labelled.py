@@ -75,17 +75,17 @@ JOINT = {"part": 1, "parent_part": 0, "type": "revolute", "axis": [0, 0, 1], "or
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"axis": [0, 0, 0]}, "valid are finite numbers, not all 0"),
-        ({"axis": [0, float("nan"), 1]}, "valid are finite numbers"),
-        ({"origin": [0, float("inf"), 1]}, "valid are finite numbers"),
-        ({"limits": [1, -1]}, "two finite numbers in order"),
-        ({"limits": [0, float("inf")]}, "two finite numbers in order"),
-        ({"limits": [1]}, "not enough values"),
-        ({"parent_part": 9}, "part_1 > part_9; valid is a tree"),
+        ({"axis": [0, 0, 0]}, "joint 1: found an axis without a direction"),
+        ({"axis": [0, float("nan"), 1]}, "joint 1: found axis .*; valid is three finite numbers"),
+        ({"origin": [0, float("inf"), 1]}, "valid is three finite numbers"),
+        ({"limits": [1, -1]}, "valid are two in order"),
+        ({"limits": [0, float("inf")]}, "valid is two numbers, or null"),
+        ({"limits": [1]}, "valid is two numbers, or null"),
+        ({"parent_part": 9}, r"found parent_part 9; valid is one of \[0, 1, 2\]"),
         ({"parent_part": 1}, "part_1 > part_1; valid is a tree"),
-        ({"part": float("inf")}, "OverflowError"),
+        ({"part": float("inf")}, "found part inf; valid is one of"),
         ({"part": 2}, "at most one of each"),
-        ({"type": "wobbly"}, "wobbly"),
+        ({"type": "wobbly"}, "found type wobbly; valid is revolute, "),
     ],
 )
 def test_a_truth_that_makes_no_sense_is_told(tmp_path: Path, change: dict, words: str) -> None:

@@ -1,7 +1,7 @@
 """Mechanisms in MuJoCo, as they are written: what follows, closed loops, balls, and parts that only lift off.
 
-Only joints that lead are moved, each by a constraint on it alone, slowly and without gravity and contacts. Which lead follows
-from the Jacobian of the file's constraints at rest.
+Only joints that lead are moved, each by a constraint on it alone, slowly and without gravity, friction and contacts. Which lead
+follows from the Jacobian of the file's constraints at rest.
 """
 
 from __future__ import annotations
@@ -77,7 +77,10 @@ class _MechanismBench:
         contact = int(self.mujoco.mjtDisableBit.mjDSBL_CONTACT)
         self.model.opt.disableflags |= contact
         if self.follow or self.held:
+            friction = self.model.dof_frictionloss.copy()
+            self.model.dof_frictionloss[:] = 0  # of what is far heavier than what leads
             yield from self._coupled()
+            self.model.dof_frictionloss[:] = friction
         ball, free = (int(kind) for kind in (self.mujoco.mjtJoint.mjJNT_BALL, self.mujoco.mjtJoint.mjJNT_FREE))
         yield from map(self._ball, np.flatnonzero(self.model.jnt_type == ball).tolist())
         self.model.opt.disableflags &= ~contact

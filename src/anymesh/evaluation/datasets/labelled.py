@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -49,9 +50,8 @@ class LabelledFolder(FolderDataset):
             mesh = read_visual(place / MESH, place)
             bodies = _bodies(record, mesh, labels)
         except (OSError, ValueError, LookupError, TypeError, ArithmeticError, AttributeError, RecursionError) as error:
-            raise InputError(
-                f"{place}: {RECORD}, {LABELS} or {MESH} cannot be used ({type(error).__name__}: {error})"
-            ) from None
+            why = str(error) if isinstance(error, ValueError) else f"{type(error).__name__}: {error}"
+            raise InputError(f"{place}: {RECORD}, {LABELS} or {MESH} cannot be used ({why})") from None
         return assemble(name, bodies, folder / f"{name}.glb", str(record.get("category", "object")))
 
 
@@ -60,22 +60,44 @@ def _bodies(record: dict[str, Any], mesh: Mesh, labels: np.ndarray) -> list[Data
     if labels.shape != (len(mesh.faces),) or labels.dtype.kind not in "iu" or labels.min() != 0:
         given = f"{labels.shape} labels of {labels.dtype} such as {labels.ravel()[:3].tolist()}"
         raise ValueError(f"found {given} for {len(mesh.faces)} faces; valid is one integer per face, 0 for the base")
-    T = UPRIGHT[tuple(record["up"])]
+    T = _field(record, "up", lambda v: UPRIGHT[tuple(v)], "[0, 0, 1] or [0, 1, 0]")
     parts = np.unique(labels).tolist()
-    joints = {int(j["part"]): j for j in record["joints"]}
-    if len(joints) < len(record["joints"]):
-        raise ValueError(f"found {len(record['joints'])} joints of {len(joints)} parts; valid is at most one of each")
-    parent = {part: int(joints[part]["parent_part"]) if part in joints else 0 for part in parts if part != 0}
+    known = _field(record, "joints", lambda v: [dict(j) for j in v], "a list of objects")
+    joints = {_field(j, "part", lambda v: {k: k for k in parts}[v], f"one of {parts}, as in {LABELS}"): j for j in known}
+    if len(joints) < len(known):
+        raise ValueError(f"found {len(known)} joints of {len(joints)} parts; valid is at most one of each")
+    over = f"one of {parts}"
+    parent = {k: 0 for k in parts if k} | {
+        k: _field(j, "parent_part", lambda v: {p: p for p in parts}[v], over) for k, j in joints.items()
+    }
     links = []
     for part in parts:
         motion = None if part not in joints else _motion(joints[part])
         over = None if part == 0 else f"part_{parent[part]}"
         link = DatasetLink(f"part_{part}", over, motion, (mesh.subset(labels == part),))
         if part in joints:
-            freedoms = int(joints[part].get("dof_of_link") or 1)
+            freedoms = _field({"dof_of_link": 1, **joints[part]}, "dof_of_link", lambda v: int(v or 1), "a whole number")
             link = replace(link, follows=_follows(joints[part], joints), freedoms=freedoms)
         links.append(moved(link, T))
     return links
+
+
+def _field(record: Any, key: str, read: Callable[[Any], Any], valid: str) -> Any:
+    """Return what is read of a field. Raise ValueError, which names the joint and says what was found and would be valid."""
+    try:
+        return read(record[key])
+    except (LookupError, TypeError, ValueError, ArithmeticError):
+        known = isinstance(record, dict)
+        where = f"joint {record['part']}: " if known and "part" in record and key != "part" else ""
+        told = f"{key} {str(record[key])[:60]}" if known and key in record else f"no {key}"
+        raise ValueError(f"{where}found {told}; valid is {valid}") from None
+
+
+def _finite(values: Any, count: int) -> np.ndarray:
+    array = np.array(values, float)
+    if array.shape != (count,) or not np.isfinite(array).all():
+        raise ValueError
+    return array
 
 
 def _follows(joint: dict[str, Any], joints: dict[int, dict[str, Any]]) -> Following | None:
@@ -83,9 +105,9 @@ def _follows(joint: dict[str, Any], joints: dict[int, dict[str, Any]]) -> Follow
     told = joint.get("mimic")
     if not told:
         return None
-    name, ratio = (told, None) if isinstance(told, str) else (str(told["joint"]), float(told["ratio"]))
-    if ratio is not None and not (np.isfinite(ratio) and ratio):
-        raise ValueError(f"found the ratio {ratio:g}; valid are finite numbers but 0")
+    name, ratio = (
+        (told, None) if isinstance(told, str) else _field(joint, "mimic", _leader, "a name, or its joint and ratio, not 0")
+    )
     leading = {part: str(j.get("name", "")) for part, j in joints.items() if not j.get("mimic")}
     named = [part for part, j in joints.items() if j.get("name") == name]
     ends = [part for part, own in leading.items() if own and name.endswith(f"_to_{own}")]
@@ -95,25 +117,34 @@ def _follows(joint: dict[str, Any], joints: dict[int, dict[str, Any]]) -> Follow
     return Following(f"part_{leaders[0]}" if len(leaders) == 1 else "", ratio)
 
 
+def _leader(told: dict[str, Any]) -> tuple[str, float]:
+    ratio = float(_finite([told["ratio"]], 1)[0])
+    if not ratio or not isinstance(told["joint"], str):
+        raise ValueError
+    return told["joint"], ratio
+
+
 def _words(name: str) -> set[str]:
     return set(re.findall(r"[a-z]+|\d+", name.lower()))
 
 
 def _motion(joint: dict[str, Any]) -> KnownJoint:
-    kind = JointType(joint["type"])
-    limits = joint["limits"] if kind is not JointType.CONTINUOUS else None
-    origin, axis = np.array(joint["origin"], float), np.array(joint["axis"], float)
-    if not (np.isfinite([origin, axis]).all() and np.linalg.norm(axis) > 0):
-        raise ValueError(f"found the axis {axis.tolist()} through {origin.tolist()}; valid are finite numbers, not all 0")
+    kind = _field(joint, "type", JointType, ", ".join(JointType))
+    origin = _field(joint, "origin", lambda v: _finite(v, 3), "three finite numbers")
+    axis = _field(joint, "axis", lambda v: _finite(v, 3), "three finite numbers")
+    if not axis.any():
+        raise ValueError(f"joint {joint['part']}: found an axis without a direction; valid are three numbers, not all 0")
     pitch = float(joint.get("pitch") or 0)
     if not np.isfinite(pitch) or (pitch != 0) != (kind is JointType.SCREW):
         raise ValueError(f"found the pitch {pitch:g} of a joint of type {kind}; valid is one of a screw, and of no other")
-    if limits is None:
+    limits = _field(
+        joint, "limits", lambda v: v if v is None else tuple(_finite(v, 2).tolist()), "two numbers, or null: endless"
+    )
+    if limits is None or kind is JointType.CONTINUOUS:
         return KnownJoint(kind, origin, axis, None, pitch=pitch)
-    lower, upper = (float(v) for v in limits)
-    if not (np.isfinite([lower, upper]).all() and lower <= upper):
-        raise ValueError(f"found the limits {lower:g} to {upper:g}; valid are two finite numbers in order")
-    return KnownJoint(kind, origin, axis, (lower, upper), pitch=pitch)
+    if limits[0] > limits[1]:
+        raise ValueError(f"joint {joint['part']}: found the limits {limits[0]:g} to {limits[1]:g}; valid are two in order")
+    return KnownJoint(kind, origin, axis, limits, pitch=pitch)
 
 
 @dataclass(frozen=True)
