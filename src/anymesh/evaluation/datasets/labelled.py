@@ -89,8 +89,8 @@ def _field(record: Any, key: str, read: Callable[[Any], Any], valid: str) -> Any
     except (LookupError, TypeError, ValueError, ArithmeticError):
         known = isinstance(record, dict)
         where = f"joint {record['part']}: " if known and "part" in record and key != "part" else ""
-        told = f"{key} {str(record[key])[:60]}" if known and key in record else f"no {key}"
-        raise ValueError(f"{where}found {told}; valid is {valid}") from None
+        given = f"{key} {str(record[key])[:60]}" if known and key in record else f"no {key}"
+        raise ValueError(f"{where}found {given}; valid is {valid}") from None
 
 
 def _finite(values: Any, count: int) -> np.ndarray:
@@ -117,11 +117,11 @@ def _follows(joint: dict[str, Any], joints: dict[int, dict[str, Any]]) -> Follow
     return Following(f"part_{leaders[0]}" if len(leaders) == 1 else "", ratio)
 
 
-def _leader(told: dict[str, Any]) -> tuple[str, float]:
-    ratio = float(_finite([told["ratio"]], 1)[0])
-    if not ratio or not isinstance(told["joint"], str):
+def _leader(stated: dict[str, Any]) -> tuple[str, float]:
+    ratio = float(_finite([stated["ratio"]], 1)[0])
+    if not ratio or not isinstance(stated["joint"], str):
         raise ValueError
-    return told["joint"], ratio
+    return stated["joint"], ratio
 
 
 def _words(name: str) -> set[str]:
