@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import Any
 
 import jsonschema
+import numpy as np
 import pytest
 from asked import ASKED, DOOR, FACES, KNOB, PICTURE, REGIONS, TRAY, marks, parts, picks, satisfying, table
 from hypothesis import HealthCheck, given, settings
@@ -28,7 +29,7 @@ from anymesh.prompted.questions.asking import (
     one_each,
     one_of,
 )
-from anymesh.prompted.questions.grounding import MarkedPart, MarksAnswer, WhichMarks, WhichViews
+from anymesh.prompted.questions.grounding import EqualMarks, MarkedPart, MarksAnswer, WhichMarks, WhichViews
 from anymesh.prompted.questions.prompting import JointAppearance, WhichPoints
 from anymesh.prompted.questions.recognition import RecognizeRegions, ask_recognition, parse_labels
 from anymesh.types import JointType
@@ -331,6 +332,16 @@ def test_equal_marks_and_counts_are_told_and_pairs_are_named_one_by_one() -> Non
     assert "Marks of equal size and shape: 1, 2, 3; 4, 5, 6, 7." in question.text()
     assert question.equal.among({1, 2, 4, 5}) is None
     assert question.equal.among({1, 4, 5, 6}).marks.tolist() == [4, 5, 6]
+
+
+def test_a_part_is_copied_as_often_as_most_kinds_of_its_marks_where_some_are_hidden() -> None:
+    """Four cabins of a body (1 to 4) and a roof (5 to 8) hang on two rods each, of which one cabin hides both (9 to 14)."""
+    x = np.arange(4) * 10.0
+    rods = np.stack([np.repeat(x[:3], 2), np.tile([2.0, 2.0], 3), np.tile([-1.0, 1.0], 3)], 1)
+    cabins = np.stack([np.tile(x, 2), np.repeat([0.0, 1.0], 4), np.zeros(8)], 1)
+    equal = EqualMarks(np.arange(1, 15), np.repeat([0, 1, 2], [4, 4, 6]), np.concatenate([cabins, rods]))
+    assert equal.copies({1, 5, 9, 10}, {1, 5, 9, 10}) == [{2, 6, 11, 12}, {3, 7, 13, 14}, {4, 8}]
+    assert equal.copies({9, 10}, {9, 10}) == [{11, 12}, {13, 14}]  # pairs of rods, not six rods
 
 
 @pytest.mark.parametrize("name", ["recognize", "marks of which one stands for its equals"])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from itertools import zip_longest
@@ -120,18 +121,24 @@ class EqualMarks(Brief):
     def copies(self, part: Collection[int], taken: Collection[int]) -> list[set[int]]:
         """Return the marks of each copy of a part, without marks that are taken.
 
-        The mark of the part with the fewest equals stands for it; each copy takes the equals of the other marks that lie as far
-        from its own. Marks without equals, such as a badge, do not count.
+        A mark stands for the part if its equals make as many copies as those of most kinds of its marks make, or as few as
+        any where these differ: some equals may be hidden or lie on something else. Each copy takes the equals of the other
+        marks that lie as far from its own. Marks without equals, such as a badge, do not count.
         """
         own = [k for k, mark in enumerate(self.marks.tolist()) if mark in part]
         left = [k for k, mark in enumerate(self.marks.tolist()) if mark not in taken and k not in own]
         equals = {k: [j for j in left if self.group[j] == self.group[k]] for k in own}
-        first = min((k for k in own if equals[k]), key=lambda k: len(equals[k]), default=None)
+        like = {k: sum(self.group[k] == self.group[i] for i in own) for k in own}
+        made = {k: n for k in own if (n := len(equals[k]) // like[k])}
+        often = Counter({self.group[k]: n for k, n in made.items()}.values())
+        first = min(made, key=lambda k: (-often[made[k]], made[k], like[k]), default=None)
         if first is None:
             return []
         near = SAME_PLACE * float(np.linalg.norm(np.ptp(self.middle, axis=0)))
-        copies, used = [], set(equals[first])
+        copies, used = [], set[int]()
         for j in equals[first]:
+            if j in used:
+                continue
             copy = {j}
             for k in (k for k in own if k != first):
                 off = {i: self._off(i, j) - self._off(k, first) for i in equals[k] if i not in used | copy}
