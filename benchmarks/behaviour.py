@@ -3,7 +3,7 @@
 python -m benchmarks.behaviour WORK [--engine NAME=PYTHON ...] [--resistance LEVEL] [--kind NAME ...]
                                                         writes reports/behaviour.md and WORK/answers.json
 
-Objects of 40 kinds are written from their true parts and joints, so that the question is resistance, not recognition. Each
+Objects of 36 kinds are written from their true parts and joints, so that the question is resistance, not recognition. Each
 engine runs in the interpreter that is named for it (it needs numpy, scipy, jaxtyping and pillow); without any, MuJoCo alone.
 WORK: a folder for assets and answers. How an engine gets what it does not take from the file: `behaviour_engines.py`.
 """
