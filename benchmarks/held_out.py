@@ -173,7 +173,7 @@ def sealed_table(found: Mapping[str, Figures]) -> list[str]:
     """Return text and table of the sealed kinds."""
     return [
         "`python -m benchmarks.held_out WORK --sealed ARTICRAFT`: the first two objects of each kind of Articraft-10K that",
-        "`splits.use_of` seals by the hash of its name (one in ten). nothing is trained on them, and they are not looked at:",
+        "`splits.use_of` seals by the hash of its name (one in ten). Nothing is trained on them, and they are not looked at:",
         "only sums are printed, and `.ci/run` compares them where ANYMESH_ARTICRAFT names the folder.", "",
         *table_head(("all joints", *FIGURES)),
         *(table_row((what, *(f"{row[name]:.2f}" if name in row else "-" for name in FIGURES))) for what, row in found.items()),
