@@ -19,6 +19,7 @@ from anymesh.config import ALONG_COSINE
 from anymesh.geometry.sweep import free_amount
 from anymesh.motion.part_context import PartContext
 from anymesh.types import JointType, Motion
+from anymesh.types.triangles import transformed
 
 FINE_STEPS = 30  # for the limits: three times as many over the range of a hinge, twice as many of a slide
 MAX_DOOR_DEG = 110.0  # [deg] upper limit of an unobstructed hinge with an upright axis (common cup hinges)
@@ -49,8 +50,13 @@ def is_closed(context: PartContext, gap: Float[np.ndarray, " n"]) -> bool:
     gap: distance of each sample of the part to the parent, in the pose in question [m].
     """
     near = gap < MAX_CLOSED_GAP_RATIO * context.tolerance_length
+    return sum(ends_near(along, near) for along in _across_face(context)) >= MIN_CLOSED_ENDS
+
+
+def _across_face(context: PartContext) -> Float[np.ndarray, "2 n"]:
+    """Return the position of each sample of the part along the two axes of its face, -1 to 1 from end to end."""
     local = context.body_obb.local(context.part.samples.points) / np.maximum(context.body_obb.half, 1e-9)
-    return sum(ends_near(local[:, axis], near) for axis in context.face_axes) >= MIN_CLOSED_ENDS
+    return local[:, context.face_axes].T
 
 
 def ends_near(along: Float[np.ndarray, " n"], near: Bool[np.ndarray, " n"]) -> int:
@@ -84,9 +90,11 @@ def _closes(context: PartContext, c: Candidate) -> bool:
     """Return whether a part that is open is closed at the stop behind it."""
     if c.opening_sweep.clear_backward or c.closing < MIN_CLOSING_ANGLE_RAD:
         return False
-    T = c.motion.transform(-c.opening_sign * c.closing)
-    moved = context.part.samples.points @ T[:3, :3].T + T[:3, 3]
-    return is_closed(context, context.parent.tree.distance(moved))
+    moved = transformed(context.part.samples.points, c.motion.transform(-c.opening_sign * c.closing))
+    ends = (np.abs(_across_face(context)) > END_FRACTION).any(0)  # others do not count
+    gap = np.full(len(moved), np.inf)
+    gap[ends] = context.parent.tree.distance(moved[ends])
+    return is_closed(context, gap)
 
 
 def closing_travel(context: PartContext, c: Candidate) -> float:

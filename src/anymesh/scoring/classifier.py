@@ -186,12 +186,12 @@ class SetNetwork(Brief):
 
 def scaled(own: Float[np.ndarray, "n k"], knots: Float[np.ndarray, "q k"]) -> Float32[np.ndarray, "n k"]:
     """Return features mapped to -LIMIT..LIMIT by their quantiles; a value that has several quantiles to their mean."""
-    levels = np.linspace(-LIMIT, LIMIT, len(knots))
+    levels, rises = np.linspace(-LIMIT, LIMIT, len(knots)), np.diff(knots, axis=0, prepend=-np.inf) > 0
     columns = []
-    for values, known in zip(own.T, knots.T, strict=True):
-        steps, of = np.unique(known, return_inverse=True)
+    for values, known, first in zip(own.T, knots.T, rises.T, strict=True):
+        of = np.cumsum(first) - 1
         mean = np.bincount(of, levels) / np.bincount(of)
-        columns.append(np.interp(values, steps, mean) if len(steps) > 1 else np.zeros(len(values)))
+        columns.append(np.interp(values, known[first], mean) if len(mean) > 1 else np.zeros(len(values)))
     return np.stack(columns, 1).astype(np.float32)
 
 
