@@ -285,6 +285,9 @@ def test_loops_are_set_renamed_and_removed():
     assert corrected(asset, "door", rename="hatch").loops[0].second == "hatch"
     assert corrected(asset, "drawer", loop="none").loops == ()
     assert corrected(asset, None, merge="drawer,door").loops == ()
+    for part, operations in (("drawer", {"loop": "door,1e30,0,0"}), ("door", {"screw": "1e9"})):
+        with pytest.raises(CorrectionError, match=r"1e\+06 m"):
+            corrected(cabinet(), part, **operations)
     with pytest.raises(CorrectionError, match="on no loop"):
         corrected(cabinet(), "drawer", loop="none")
     with pytest.raises(CorrectionError, match="is no loop"):

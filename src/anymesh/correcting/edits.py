@@ -133,6 +133,8 @@ def set_limits(asset: Asset, c: SetLimits) -> Asset:
 
 def set_screw(asset: Asset, c: SetScrew) -> Asset:
     joint = joint_of_part(asset, c.part)
+    if abs(c.pitch) > MAX_LIMIT:
+        raise CorrectionError(f"a screw moves by at most {MAX_LIMIT:g} m a turn, found {c.pitch:g}")
     turning = joint.type in (JointType.REVOLUTE, JointType.CONTINUOUS, JointType.SCREW)
     values: dict[str, Any] = {"limits": joint.limits if turning else None, "mimic": None, "pitch": float(c.pitch)}
     return with_joint(asset, replace(joint, type=JointType.SCREW, **values, **_reason(f"screw of {c.pitch:g} m a turn")))
@@ -158,6 +160,7 @@ def set_loop(asset: Asset, c: SetLoop) -> Asset:
             raise CorrectionError(f"{c.part!r} is on no loop")
         return replace(asset, loops=kept)
     part_number(asset, c.other)
+    _check_point(np.array(c.origin, float))
     taken = {j.name for j in asset.joints} | {loop.name for loop in asset.loops}
     plain = f"{c.part}_{c.other}_loop"
     name = next(n for n in (plain, *(f"{plain}_{k}" for k in range(2, len(taken) + 3))) if n not in taken)
@@ -191,10 +194,14 @@ def _unit(axis: Vector) -> Float[np.ndarray, " 3"]:
 
 def _origin_on_part(asset: Asset, part: str, axis: np.ndarray, point: np.ndarray, type_: JointType) -> Float[np.ndarray, " 3"]:
     """Return the point of the axis level with the part's centre; for a slide the centre itself (docs/conventions.md)."""
-    if not (np.abs(point) <= MAX_LIMIT).all():
-        raise CorrectionError(f"a point on the axis must be finite, up to {MAX_LIMIT:g} m, found {point.tolist()}")
+    _check_point(point)
     middle = box_middle(asset, part)
     return middle if type_ is JointType.PRISMATIC else point + ((middle - point) @ axis) * axis
+
+
+def _check_point(point: np.ndarray) -> None:
+    if not (np.abs(point) <= MAX_LIMIT).all():
+        raise CorrectionError(f"a point on the axis must be finite, up to {MAX_LIMIT:g} m, found {point.tolist()}")
 
 
 def merge_parts(asset: Asset, c: MergeParts) -> Asset:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import astuple, dataclass, field, replace
 from enum import StrEnum
 from typing import Any
 
@@ -207,7 +207,9 @@ class Joint:
             if self.type not in (*MOVING, JointType.SCREW) or self.name == self.mimic.joint:
                 raise ValueError(f"joint {self.name!r}: of type {self.type}, it cannot follow {self.mimic.joint!r}")
             if not np.isfinite((self.mimic.ratio, self.mimic.offset)).all() or not self.mimic.ratio:
-                raise ValueError(f"joint {self.name!r}: ratio and offset are finite and the ratio is not 0, found {self.mimic}")
+                raise ValueError(
+                    f"joint {self.name!r}: ratio and offset are finite, the ratio is not 0, found {astuple(self.mimic)[1:]}"
+                )
         limited = self.type in (JointType.REVOLUTE, JointType.PRISMATIC)
         if limited != (self.limits is not None) and self.type not in (JointType.SCREW, JointType.BALL):
             raise ValueError(f"joint {self.name!r}: limits {self.limits} do not match type {self.type}")
