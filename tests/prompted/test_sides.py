@@ -51,7 +51,19 @@ def test_motions_in_the_same_words_are_told_apart():
     first = "turns about an upright axis at its left, to the front and left"
     size = np.linalg.norm(np.ptp(DOOR, axis=0))
     told = AHEAD.all_words((near, same, far), (0.9, 0.9, 0.9), DOOR)
-    assert told == (first, f"{first} (2)", f"{first}, its axis {10 / size:.0f} % of its size further to the right")
+    assert told == (first, "the same as 1", f"{first}, its axis {10 / size:.0f} % of its size further to the right")
+
+
+def test_motions_the_other_way_are_called_so():
+    ways, size = (slide(Y), slide(-Y), slide(X), slide(-X)), np.linalg.norm(np.ptp(DOOR, axis=0))
+    told = UNNAMED.all_words(ways, (0.3, 0.1, 0.3, 0.3), DOOR)
+    tilted = "slides sideways, tilted by 90 degrees"
+    assert told == ("slides sideways", "slides sideways, the opposite way", tilted, "as 3, but the opposite way")
+    middle = np.array([0, -0.03, 0.5])
+    spins = (turn(Z, middle), turn(-Z, middle), turn(-Z, middle + 0.02 * X))
+    first, other, near = UNNAMED.all_words(spins, (1.0, 1.0, 1.0), DOOR)
+    assert other == f"{first}, the opposite way"
+    assert near == f"{first}, its axis {2 / size:.0f} % of its size further sideways and the opposite way"
 
 
 def test_the_names_turn_with_the_front_and_do_without_one():

@@ -6,7 +6,8 @@ from assets import box, mesh_of
 
 from anymesh.config import Config
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.prompted.pictures.sides import CLEAR, SeenFrom, Sides
+from anymesh.prompted.pictures import strips
+from anymesh.prompted.pictures.sides import CLEAR, SeenFrom, Sides, emptiest_corner
 from anymesh.prompted.pictures.strips import (
     PANEL,
     Posed,
@@ -116,6 +117,17 @@ def test_the_arrow_points_the_way_that_the_part_goes():
     )
     np.testing.assert_array_equal(there, back)
     assert (there != other).any()
+
+
+def test_a_compass_leaves_the_place_where_it_would_cover_an_arrow(monkeypatch: pytest.MonkeyPatch):
+    mesh, moving, *motions = door()
+    places: list[tuple[bool, bool]] = []
+    monkeypatch.setattr(strips, "emptiest_corner", lambda used: emptiest_corner(used) if used.max() > 1 else (True, False))
+    monkeypatch.setattr(strips, "with_compass", lambda panel, _, corner: places.append(corner) or panel)
+    camera = strip_camera(mesh, moving, motions)
+    motion_strip(mesh, moving, [*motions, (slide(-0.6 * X - 0.8 * Z), 0.3)], camera=camera)
+    assert places[:3] == [(True, False)] * 3
+    assert places[3] != (True, False)  # the arrow goes to the lower left
 
 
 def test_strips_are_the_same_every_time():

@@ -225,7 +225,7 @@ def _whole_degrees(angle: float) -> float:
 def _prismatic(context: PartContext, c: Candidate) -> tuple[float, float]:
     motion = c.opening_motion
     if c.slide_direction is SlideDirection.INWARDS and not c.opening_sweep.clear_forward:
-        return (0.0, _stroke(context, c))
+        return (0.0, stroke(context, c))
     outward, least = c.slide_direction is not SlideDirection.ALONG_SURFACE, MIN_FREE_TRAVEL_RATIO * context.tolerance_length
     closing = closing_travel(context, c) if outward else 0.0
     depth = context.depth_in_parent(motion.axis) + closing
@@ -250,7 +250,7 @@ def _prismatic(context: PartContext, c: Candidate) -> tuple[float, float]:
     return (0.0 - lower, upper)
 
 
-def _stroke(context: PartContext, c: Candidate) -> float:
+def stroke(context: PartContext, c: Candidate) -> float:
     """Return the stroke of a part into its parent [m]: up to its own height, half of it if its mesh fills the hole.
 
     A sheet has no height; it gets the least travel of a slide.

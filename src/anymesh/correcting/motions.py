@@ -141,9 +141,13 @@ def told_apart(asset: Asset, motions: Sequence[ChooseMotion]) -> tuple[str, ...]
     for level in (1, 2):
         differ = [len({f[level] for f, other in zip(facets, words, strict=True) if other == w}) > 1 for w in words]
         words = [f"{w}, {f[level]}" if d and f[level] else w for w, f, d in zip(words, facets, differ, strict=True)]
-    offsets = [joint.origin - joints[words.index(word)].origin for joint, word in zip(joints, words, strict=True)]
     way = _sides(asset).direction
-    return words_told_apart(words, [f"{100 * np.linalg.norm(off):.1f} cm further {way(off)}" for off in offsets])
+
+    def further(k: int, first: int) -> str:
+        off = joints[k].origin - joints[first].origin
+        return f"{100 * np.linalg.norm(off):.1f} cm further {way(off)}"
+
+    return words_told_apart(words, further)
 
 
 def _sides(asset: Asset) -> Sides:

@@ -224,3 +224,13 @@ def test_one_motion_of_the_recognized_kind_is_shown_however_unlikely(monkeypatch
         offered(monkeypatch, motions, [5.0, 4, 3, 2, 1, -9], None, moves, 3).shown for moves in (None, JointType.PRISMATIC)
     ]
     assert [5 in (rows[k] for k in some) for rows, some in zip(few, shown, strict=True)] == [False, True]
+
+
+def test_the_push_of_a_button_that_fills_its_hole_is_shown_beside_the_pull() -> None:
+    body, button = [box((-0.3, 0, 0), (0.3, 0.4, 0.5))], [box((-0.03, -0.02, 0.2), (0.03, 0.04, 0.26))]
+    found = make_offers(replace(the_case({"base": body, "part": button}), answer=None), 14, 0)
+    table = found.table(found.shown)
+    ways = {float(m.axis[1]): a for m, a in zip(table.motions, table.amounts, strict=True) if m.kind is JointType.PRISMATIC}
+    assert ways[1.0] == pytest.approx(0.03)  # half of its height
+    assert ways[-1.0] > 0.03
+    assert not table.blocked[[m.axis[1] for m in table.motions].index(1.0)]

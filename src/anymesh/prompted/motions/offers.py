@@ -13,6 +13,7 @@ from jaxtyping import Float
 
 from anymesh.articulation.candidate_motions import (
     BOX_RIM_ROLES,
+    MIN_FREE_TRAVEL_RATIO,
     Candidate,
     CandidateMotions,
     PartFacts,
@@ -22,7 +23,7 @@ from anymesh.articulation.candidate_motions import (
     propose,
 )
 from anymesh.articulation.evidence import sweep_candidates
-from anymesh.articulation.limits import STROKE_RATIO, pressed
+from anymesh.articulation.limits import STROKE_RATIO, pressed, stroke
 from anymesh.articulation.rank_motions import PartMotionScores, motion_scores
 from anymesh.config import FACING_COSINE
 from anymesh.motion.part_context import PartContext
@@ -42,6 +43,8 @@ DUPLICATE_PART_RATIO = 0.01  # of the part's diagonal: near-duplicates; about tw
 DUPLICATE_OBJECT_RATIO = 0.02  # of the tolerance length: near-duplicates, too
 DUPLICATE_MOTION_RATIO = 0.15  # of the travel: upper limit of the object-based distance, for small parts
 SIMILAR_RATIO = 0.2  # of the travel: similar
+# of the object's diagonal: larger parts are not pushed into a body; of 120 objects, buttons reach .35, and drawers begin there
+MAX_PUSHED_RATIO = 0.35
 # What is in the picture:
 FEW = 7  # number of motions up to which others are shown beside those below
 MAX_SIMILAR, MAX_SIMILAR_LOSS = 2, 1.0  # number of similar motions; their loss to the best of them [log-odds]
@@ -170,7 +173,15 @@ def shown_amount(c: Candidate, case: PartCase) -> float:
     size = MAX_SHOWN_TRAVEL_RATIO * context.part.box.diagonal
     if pressed(c, answered_range(case.recognized, JointType.PRISMATIC)):
         return -STROKE_RATIO * min(float(np.ptp(context.part.corners @ c.motion.axis)), size)
+    if _pushed(c, context):
+        return min(stroke(context, c), size)
     return float(min(c.opening * context.tolerance_length, size) if c.is_free else BLOCKED_SHOWN_RATIO * size)
+
+
+def _pushed(c: Candidate, context: PartContext) -> bool:
+    """Return whether a motion is the push of a part into a body that leaves no space for it, as buttons are modelled."""
+    stuck = c.slide_direction is SlideDirection.INWARDS and c.opening < MIN_FREE_TRAVEL_RATIO
+    return stuck and context.part.box.diagonal <= MAX_PUSHED_RATIO * context.diagonal
 
 
 def _agrees(c: Candidate, case: PartCase) -> float:
@@ -245,7 +256,7 @@ def _off_part(case: PartCase, c: Candidate) -> bool:
 def _picture(case: PartCase, motions: list[Candidate], likely: list[bool], answered: int | None, max_motions: int) -> list[int]:
     """Return the indices of the motions that are shown: the answered one, own axes, likely ones, and others up to FEW.
 
-    One at least is of the answered kind, if there is any.
+    One at least is of the answered kind, if there is any. Where a slide outwards is likely, the push of a small part is, too.
     """
     fitting = [fits(c, case.kind) and (case.moves is None or moves_as(c, case.moves)) for c in motions]
     own = [k for k, c in enumerate(motions) if c.role in CENTRAL and fitting[k]][:SHAPE_AXES]
@@ -253,6 +264,9 @@ def _picture(case: PartCase, motions: list[Candidate], likely: list[bool], answe
     must = ([] if answered is None else [answered]) + [k for k in own if k != answered]
     must += [k for k, c in enumerate(motions) if likely[k] and not c.is_free and k not in must][:MAX_SIMILAR]
     must += [k for k, good in enumerate(fitting) if good and not any(fitting[n] for n in must)][:1]
+    out = any(good and c.slide_direction is SlideDirection.OUTWARDS for good, c in zip(likely, motions, strict=True))
+    if out and answered_range(case.recognized, JointType.PRISMATIC) is None:  # else it is drawn as it was answered
+        must += [k for k, c in enumerate(motions) if fitting[k] and _pushed(c, case.context) and k not in must][:1]
     shown = must[:max_motions]
     shown += [k for k, good in enumerate(likely) if good and k not in shown][: max_motions - len(shown)]
     rest = [k for k in range(len(motions)) if k not in shown]

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from jaxtyping import Bool, Float, UInt8
+from jaxtyping import Float, Shaped, UInt8
 from PIL import Image, ImageDraw
 
 from anymesh.rendering.marks import draw_arrow, font
@@ -23,6 +23,7 @@ FARTHER = 1.1  # ratio of amounts from which the words differ
 LEAST_TOLD = 0.5  # offset [% of the part's size] or angle [degrees] between axes from which the words differ
 IN_PLACE = 0.1  # share of the part's size across the axis: a part whose middle moves less turns in place
 WAYS = {"top": "up", "bottom": "down"}
+OPPOSITE = "the opposite way"
 COMPASS, LETTERS, ARM = 104, 14, 30  # [px] in a panel of 400: size of a compass, font size, length of an arrow
 WORDS = 66  # [px] height of the words of a panel of that size, three lines
 REFERENCE = 400  # [px] size of a panel that these refer to
@@ -69,12 +70,9 @@ class Sides:
         amount: [rad or m]; points: on the part [m].
         """
         middle = (points.min(0) + points.max(0)) / 2
+        goes = "in place" if (way := _way(motion, amount, points)) is None else self.direction(way)
         if motion.kind is JointType.PRISMATIC:
-            return f"slides {self.direction(motion.axis * np.sign(amount))}"
-        T = motion.transform(amount)
-        way = T[:3, :3] @ middle + T[:3, 3] - middle
-        size = float(np.linalg.norm(np.ptp(points - np.outer(points @ motion.axis, motion.axis), axis=0)))
-        goes = self.direction(way) if np.linalg.norm(way) > IN_PLACE * size else "in place"
+            return f"slides {goes}"
         return f"turns {self._place(motion, middle, points)}, {goes}"
 
     def all_words(
@@ -83,11 +81,17 @@ class Sides:
         """Describe motions of one part in words that differ, as in `words`."""
         words = [self.words(motion, amount, points) for motion, amount in zip(motions, amounts, strict=True)]
         size = max(float(np.linalg.norm(np.ptp(points, axis=0))), 1e-12)
-        further = []
-        for motion, amount, first in zip(motions, amounts, map(words.index, words), strict=True):
-            ratio = abs(amount) / max(abs(amounts[first]), 1e-12)
-            far = "farther" if ratio > FARTHER else "less far" if ratio < 1 / FARTHER else ""
-            further.append(self._further(motion, motions[first], size) or far)
+        ways = [_way(motion, amount, points) for motion, amount in zip(motions, amounts, strict=True)]
+
+        def further(k: int, first: int) -> str:
+            axis, there, here = self._further(motions[k], motions[first], size), ways[k], ways[first]
+            if there is None or here is None:
+                there, here = (motions[n].axis * np.sign(amounts[n]) for n in (k, first))
+            if float(there @ here) < -NAMED * float(np.linalg.norm(there) * np.linalg.norm(here)):
+                return f"{axis} and {OPPOSITE}" if axis else OPPOSITE
+            ratio = abs(amounts[k]) / max(abs(amounts[first]), 1e-12)
+            return axis or ("farther" if ratio > FARTHER else "less far" if ratio < 1 / FARTHER else "")
+
         return told_apart(words, further)
 
     def _further(self, motion: Motion, first: Motion, size: float) -> str:
@@ -145,12 +149,28 @@ class Sides:
         return np.asarray(drawn)
 
 
-def told_apart(words: Sequence[str], further: Sequence[str]) -> tuple[str, ...]:
-    """Return words about motions that differ. further: how each differs from the first one in the same words, "" if unknown."""
+def _way(motion: Motion, amount: float, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " 3"] | None:
+    """Return where the middle of a part goes, None if it turns in place."""
+    if motion.kind is JointType.PRISMATIC:
+        return motion.axis * (np.sign(amount) or 1.0)  # also of one that is blocked at once
+    middle, T = (points.min(0) + points.max(0)) / 2, motion.transform(amount)
+    size = float(np.linalg.norm(np.ptp(points - np.outer(points @ motion.axis, motion.axis), axis=0)))
+    way = T[:3, :3] @ middle + T[:3, 3] - middle
+    return way if np.linalg.norm(way) > IN_PLACE * size else None
+
+
+def told_apart(words: Sequence[str], further: Callable[[int, int], str]) -> tuple[str, ...]:
+    """Return words about motions that differ. further: how a motion differs from an earlier one, by indices, "" if unknown."""
     told: list[str] = []
-    for k, (word, more) in enumerate(zip(words, further, strict=True)):
-        text = f"{word}, {more}" if more and word in words[:k] else word
-        told.append(text if text not in told else f"{text} ({len(told) + 1})")
+    last: dict[str, int] = {}  # the last motion that these words alone describe
+    for k, word in enumerate(words):
+        more = further(k, words.index(word)) if word in words[:k] else ""
+        text = f"{word}, {more}" if more else word
+        told.append(text)
+        if (like := last.get(text)) is not None:
+            more = further(k, like)
+            told[k] = f"as {like + 1}, but {more}" if more else f"the same as {like + 1}"
+        last[text] = k
     return tuple(told)
 
 
@@ -164,11 +184,18 @@ def with_compass(
     return drawn
 
 
-def emptiest_corner(used: Bool[np.ndarray, "H W"]) -> tuple[bool, bool]:
-    """Return the corner of a panel, except for the upper left one, in which a compass covers the fewest used pixels."""
+def in_corner(used: Shaped[np.ndarray, "H W"], corner: tuple[bool, bool]) -> int:
+    """Add up the used pixels of a panel, or their weights, that a compass in a corner covers."""
     size, top = (round(n * used.shape[0] / REFERENCE) for n in (COMPASS, WORDS))
-    rows, columns = (slice(top, top + size), slice(-size, None)), (slice(0, size), slice(-size, None))
-    return min(((True, False), (True, True), (False, True)), key=lambda c: int(used[rows[c[0]], columns[c[1]]].sum()))
+    rows, columns = (
+        (slice(-size, None) if far else slice(near, near + size)) for far, near in zip(corner, (top, 0), strict=True)
+    )
+    return int(used[rows, columns].sum())
+
+
+def emptiest_corner(used: Shaped[np.ndarray, "H W"]) -> tuple[bool, bool]:
+    """Return the corner of a panel, except for the upper left one, in which a compass covers the fewest used pixels."""
+    return min(((True, False), (True, True), (False, True)), key=lambda corner: in_corner(used, corner))
 
 
 UNNAMED = Sides()

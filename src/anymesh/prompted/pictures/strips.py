@@ -16,7 +16,7 @@ from PIL import Image, ImageDraw
 
 from anymesh.geometry.raycast_ import Hits, RayScene
 from anymesh.prompted.pictures.plates import PAD, Plate, broken, draw_plate, plate_size
-from anymesh.prompted.pictures.sides import ANYWHERE, SeenFrom, emptiest_corner, with_compass
+from anymesh.prompted.pictures.sides import ANYWHERE, SeenFrom, emptiest_corner, in_corner, with_compass
 from anymesh.prompted.pictures.views import box_of, is_beside
 from anymesh.rendering.marks import HIGHLIGHT, WHITE, axis_line, blend, draw_arrow, draw_ring, lighten, rim, ring
 from anymesh.rendering.render import lit, shade, turned
@@ -45,6 +45,7 @@ GHOST = 0.3  # opacity of the part where it is hidden
 TITLE, WORD, SMALL_WORD = 24, 15, 12  # [px] font size of a panel's number, of its motion's words, and of these in a small one
 BLOCKED = (250, 200, 120)  # background of the label of a blocked motion
 STILL_LINE, PART_LINE, LINE = (120, 120, 120), (8, 30, 90), 0.55  # colours of lines along creases, and their opacity
+ARROW = 1000  # weight of a pixel of an arrow against one of the part, for the place of the compass
 CREASE = 0.82  # cosine (of 35 degrees) between normals below which a line is drawn
 
 
@@ -83,18 +84,20 @@ def motion_strip(
     panels = [_half(_painted(still, lines, rest))]
     covered = np.zeros(shape, bool)
     covered.reshape(-1)[rest.pixel] = True
-    outline = rim(covered, 2)
+    outline, arrows = rim(covered, 2), [np.zeros(shape, bool)]
     for k, (motion, amount) in enumerate(motions):
         part = posed.part_pixels(poses[k + 1], fine)
         covered.reshape(-1)[part.pixel] = True
         picture = _painted(still, lines, part)
         picture = blend(picture, outline, (90, 90, 90), 0.7)
         drawn = _with_axis(picture, *motion_axis(posed.corners, motion, amount, fine), fine)
+        arrows.append((drawn != picture).any(-1))
         panels.append(_half(drawn))
     titles = words or ["slides" if m.kind is JointType.PRISMATIC else "turns" for m, _ in motions]
-    compass, corner = seen_from.sides.compass(camera), emptiest_corner(covered[::2, ::2])
-    named = zip(panels, [("rest", ""), *((str(k), word) for k, word in enumerate(titles, 1))], strict=True)
-    return grid([_titled(with_compass(panel, compass, corner), *title) for panel, title in named])
+    compass, usual = seen_from.sides.compass(camera), emptiest_corner(covered[::2, ::2])
+    corners = [emptiest_corner(covered + ARROW * arrow) if in_corner(arrow, usual) else usual for arrow in arrows]
+    named = zip(panels, corners, [("rest", ""), *((str(k), word) for k, word in enumerate(titles, 1))], strict=True)
+    return grid([_titled(with_compass(panel, compass, corner), *title) for panel, corner, title in named])
 
 
 def _painted(still: Still, lines: Bool[np.ndarray, "H W"], part: PartPixels) -> UInt8[np.ndarray, "H W 3"]:
