@@ -37,6 +37,22 @@ def doors() -> Asset:
     return asset_of("doors", pieces, joints)
 
 
+def lever() -> Asset:
+    """Twin doors on one lever, which turn twice as far as it does."""
+    pieces = {
+        "base": ((0, 0, 0), (1, 0.4, 0.02)),
+        "lever": ((0.45, -0.1, 0.6), (0.55, -0.05, 0.7)),
+        "left": ((0, -0.05, 0.1), (0.49, -0.02, 0.5)),
+        "right": ((0.51, -0.05, 0.1), (1, -0.02, 0.5)),
+    }
+    joints = (
+        joint("lever_joint", "revolute", "base", "lever", (0.5, -0.07, 0.65), ACROSS, (0.0, 0.75)),
+        joint("left_joint", "revolute", "base", "left", (0, -0.02, 0.3), -UP, (0.0, 1.5), mimic=Mimic("lever_joint", 2.0)),
+        joint("right_joint", "revolute", "base", "right", (1, -0.02, 0.3), -UP, (-1.5, 0.0), mimic=Mimic("lever_joint", -2.0)),
+    )
+    return asset_of("lever", pieces, joints)
+
+
 def gears() -> Asset:
     """A wheel that drives another one endlessly, twice as fast and the other way round."""
     pieces = {

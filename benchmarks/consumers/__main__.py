@@ -5,8 +5,8 @@ python -m benchmarks.consumers WORK [--only CONSUMER ...] [--example NAME ...] [
 WORK keeps the written assets and what each consumer said of them, so that a stopped run goes on; --anew begins again.
 Consumers do not get on in one environment, so each may have an interpreter of its own, which needs numpy (for --drive also
 scipy and jaxtyping); for `node` it is the folder whose node_modules has three, urdf-loader, jsdom and gltf-validator. --drive
-also moves every joint to both limits in the engines of `anymesh check`. The report is rewritten, and with --page the tables
-between the page's two marks.
+also moves every joint to both limits in the engines of `anymesh check`. The reports of what was run (consumers.md, targets.md)
+are rewritten, and with --page the tables between the page's marks.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from benchmarks.consumers.report import page_part, report
 
 READERS = Path(__file__).parent / "readers"
 FORMATS = "urdf,mjcf,usd,sdf,glb"
-BEGIN, END = "<!-- matrix: begin -->\n", "<!-- matrix: end -->\n"
+MARKS = ("<!-- {}: begin -->\n", "<!-- {}: end -->\n")
 PATIENCE = 900.0  # [s] for one asset, some of which compile at first
 FEW = ("microwave", "cabinet", "toy_car")  # examples for consumers that need minutes for each
 
@@ -149,12 +149,15 @@ def main() -> None:
         print(f"{consumer.title}: {time.perf_counter() - begin:.0f} s", flush=True)
     if options.drive:
         drive(folders, [f for f in folders if f.name in FEW[:1]], options.work, homes)
-    text = report(CONSUMERS, options.work)
-    (REPORTS / "consumers.md").write_text(text, encoding="utf-8")
-    if options.page:
-        before, rest = options.page.read_text(encoding="utf-8").split(BEGIN)
-        after = rest.split(END)[1]
-        options.page.write_text(before + BEGIN + page_part(CONSUMERS, options.work) + END + after, encoding="utf-8")
+    loaders = [c for c in CONSUMERS if c.variant in TARGETS]
+    for name, consumers in (("consumers", [c for c in CONSUMERS if c not in loaders]), ("targets", loaders)):
+        if any((options.work / c.key).is_dir() for c in consumers):
+            (REPORTS / f"{name}.md").write_text(report(consumers, options.work), encoding="utf-8")
+            if options.page:
+                begin, end = (mark.format(name) for mark in MARKS)
+                before, rest = options.page.read_text(encoding="utf-8").split(begin)
+                text = before + begin + page_part(consumers, options.work) + end + rest.split(end)[1]
+                options.page.write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -114,7 +114,8 @@ def page_part(consumers: Sequence[Named], work: Path) -> str:
             cells.append(shown)
         lines.append(table_row([c.title, *cells]))
     lines += ["", *(f"{k}. {reason}" for reason, k in marks.items()), ""]
-    return "\n".join([*lines, *driven_table(work)]).rstrip() + "\n"
+    driven = driven_table(work) if any(c.title == "MuJoCo, MJCF" for c in columns) else []
+    return "\n".join([*lines, *driven]).rstrip() + "\n"
 
 
 def report(consumers: Sequence[Named], work: Path) -> str:

@@ -57,15 +57,17 @@ def read(asset: Asset, variant: str) -> dict:
         mujoco.mju_quat2Mat(turn, np.array([w, x, y, z]))
         name = model.body(b).name.removeprefix(PREFIX)
         links[name] = placed(rest[name], model.body_mass[b], model.body_ipos[b], model.body_inertia[b], turn.reshape(3, 3))
-    joints = {}
+    joints, of_child = {}, {said["child"]: name for name, said in asset.joints.items()}  # RoboCasa wants names of its own
     for j in range(model.njnt):
         joint, slides = model.joint(j), model.jnt_type[j] == mujoco.mjtJoint.mjJNT_SLIDE
         if model.jnt_type[j] == mujoco.mjtJoint.mjJNT_FREE:
             continue
         body, dof = int(model.jnt_bodyid[j]), int(model.jnt_dofadr[j])
-        at_rest, name = model.qpos0[model.jnt_qposadr[j]], joint.name.removeprefix(PREFIX)
+        at_rest = model.qpos0[model.jnt_qposadr[j]]
         limits = finite(*(model.jnt_range[j] - at_rest)) if model.jnt_limited[j] else None
-        child, amount = model.body(body).name.removeprefix(PREFIX), asset.amount(name)
+        child = model.body(body).name.removeprefix(PREFIX)
+        name = of_child.get(child, joint.name.removeprefix(PREFIX))
+        amount = asset.amount(name)
         data.qpos[model.jnt_qposadr[j]] += amount
         moved = poses()[child]
         data.qpos[model.jnt_qposadr[j]] -= amount
