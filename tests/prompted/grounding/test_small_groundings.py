@@ -8,12 +8,13 @@ from functools import cache
 
 import numpy as np
 import pytest
+import trimesh
 from assets import box, mesh_of
 from made import smaller
 
 from anymesh.config import Config
 from anymesh.prompted.grounding import alike
-from anymesh.prompted.grounding.alike import equal_marks, small_regions
+from anymesh.prompted.grounding.alike import equal_marks, small_regions, wires
 from anymesh.prompted.grounding.ground import ground_exactly, ground_parts
 from anymesh.prompted.grounding.mark_questions import MarkQuestioner
 from anymesh.prompted.grounding.regrounding import ground_again
@@ -176,6 +177,14 @@ def test_a_machine_is_shown_region_by_region_in_close_up() -> None:
     assert all(camera.fov < prompts.views[v].camera.fov for _, v, camera in near)
     seen = np.unique(np.concatenate([prompts.view(camera).face.ravel() for _, _, camera in near]))
     assert set(piece[seen[seen >= 0]].tolist()) == {0, 1, 2, 3, 4, 5, 6}
+
+
+def test_wires_are_long_for_their_surface_and_small_wheels_are_none() -> None:
+    rod, plate = box((0, 0, 0), (1, 0.05, 0.05)), box((0, 0, 0), (0.1, 0.1, 0.01))
+    wheel = trimesh.creation.torus(0.05, 0.015)
+    frame = trimesh.creation.torus(0.5, 0.01)
+    mesh, piece = mesh_of([rod, plate, *((m.vertices, m.faces) for m in (wheel, frame))])
+    assert wires(piece, mesh).tolist() == [True, False, False, True]
 
 
 def test_without_labels_nothing_is_asked_and_all_is_the_base() -> None:

@@ -12,6 +12,7 @@ from anymesh.prompted.questions.grounding import EqualMarks
 from anymesh.types import Mesh
 from anymesh.types.triangles import bounds_of
 
+WIRE = 10  # length over thickness from which a rod is a wire; an estimate
 SMALL_RATIO = 0.03  # of the object's diagonal: regions with a smaller one are small, 5 cm on a cabinet; an estimate
 # flat: spread across, relative to that along; cosine from which flat marks are parallel; gap between marks that touch, as a
 # share of the extent of all; estimates
@@ -60,10 +61,25 @@ def _touching(boxes: Float[np.ndarray, "n 2 3"]) -> Bool[np.ndarray, "n n"]:
 
 def small_regions(region: Int[np.ndarray, " F"], mesh: Mesh, diagonal: float) -> set[int]:
     """Return the regions or marks (-1 for none) whose box has a diagonal below SMALL_RATIO of the object's."""
+    return set(np.flatnonzero(region_sizes(region, mesh) < SMALL_RATIO * diagonal).tolist())
+
+
+def wires(region: Int[np.ndarray, " F"], mesh: Mesh) -> Bool[np.ndarray, " R"]:
+    """Return which regions (-1 for none) have as little surface as rods of their length that are WIRE times as long as thick.
+
+    So a bent rod and a grid of rods are wires, and a small wheel, of which no view shows much either, is none.
+    """
+    on = region >= 0
+    size = region_sizes(region, mesh)
+    return np.bincount(region[on], mesh.face_areas[on], len(size)) < np.pi / WIRE * size**2
+
+
+def region_sizes(region: Int[np.ndarray, " F"], mesh: Mesh) -> Float[np.ndarray, " R"]:
+    """Return the diagonal of the box of each region or mark (-1 for none) [m]; -inf for one without faces."""
     on = region >= 0
     count = int(region.max(initial=-1)) + 1
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     for corner in range(3):
         np.minimum.at(low, region[on], mesh.triangles[on, corner])
         np.maximum.at(high, region[on], mesh.triangles[on, corner])
-    return set(np.flatnonzero(np.linalg.norm(high - low, axis=1) < SMALL_RATIO * diagonal).tolist())
+    return np.where(low[:, 0] <= high[:, 0], np.linalg.norm(high - low, axis=1), -np.inf)

@@ -11,7 +11,7 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.config import REFERENCE_PX, Config
 from anymesh.geometry.surface import ObjectShape
-from anymesh.prompted.grounding.alike import small_regions
+from anymesh.prompted.grounding.alike import small_regions, wires
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud, seen_points
 from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE
 from anymesh.prompted.grounding.mark_questions import MarkQuestioner
@@ -218,7 +218,7 @@ def shown_views(sampled: SampledObject, questioner: MarkQuestioner, front: float
         regions = np.where(np.isin(regions, list(small)), -1, regions)
     size, across, _ = _shown(regions, prompts.views)
     narrow = across < MIN_WIDTH_PX * prompts.views[0].camera.height / REFERENCE_PX
-    thin = np.logical_and((size > 0).any(0), narrow.all(0))
+    thin = np.logical_and((size > 0).any(0), narrow.all(0)) & wires(regions, sampled.mesh)
     region, racks = join_wires(regions, thin, prompts.views, sampled.whole.diagonal)
     most = MAX_MACHINE_CLOSE_UPS if questioner.machine else MAX_CLOSE_UPS
     near = close_ups(np.where(np.isin(region, racks), -1, region), cloud, prompts.views, most) if questioner.labels else ()
