@@ -114,7 +114,7 @@ class PromptedStages:
 
     def _regions(self, recognition: Recognition) -> RecognizeRegions:
         """Return the question about kinds of part by regions."""
-        prompts, near = self.visual_prompts, region_cameras(self._sampled.cloud, self.visual_prompts.views)
+        prompts, near = self.visual_prompts, region_cameras(self._sampled, self.visual_prompts.views)
         names = prompts.names(len(prompts.views), recognition.front)
 
         def draw() -> tuple[Picture, ...]:

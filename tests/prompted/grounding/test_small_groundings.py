@@ -171,12 +171,25 @@ def test_equal_marks_are_those_of_one_shape_turned_or_mirrored() -> None:
 
 def test_a_machine_is_shown_region_by_region_in_close_up() -> None:
     sampled, piece, prompts = scene(inside=False)
-    near = region_cameras(sampled.cloud, prompts.views)
+    near = region_cameras(sampled, prompts.views)
     assert sorted({number for number, _, _ in near}) == [1, 2, 3, 4]
     assert len(near) <= 8
     assert all(camera.fov < prompts.views[v].camera.fov for _, v, camera in near)
     seen = np.unique(np.concatenate([prompts.view(camera).face.ravel() for _, _, camera in near]))
     assert set(piece[seen[seen >= 0]].tolist()) == {0, 1, 2, 3, 4, 5, 6}
+
+
+def test_regions_of_a_machine_are_where_its_surfaces_are_and_not_on_its_plain_hull() -> None:
+    hull = box((0, 0, 0), (10, 1, 1))
+    pods = [box((x, 0.4, z), (x + 0.1, 0.6, z + 0.1)) for x in (1, 1.2, 1.4, 8, 8.2, 8.4) for z in (-0.1, 1)]
+    mesh, piece = mesh_of([hull, *pods])
+    sampled, prompts = sample_object(mesh, object_shape(mesh), QUICK), VisualPrompts(mesh, QUICK)
+    near = region_cameras(sampled, prompts.views)
+    assert len({number for number, _, _ in near}) == 4
+    assert all(camera.fov < prompts.views[v].camera.fov / 3 for _, v, camera in near)
+    for names in (range(1, 7), range(7, 13)):  # two pods stand on the hull and under it at each place
+        numbers = {number for number, _, camera in near if np.isin(piece[prompts.view(camera).face], names).any()}
+        assert len(numbers) >= 2
 
 
 def test_wires_are_long_for_their_surface_and_small_wheels_are_none() -> None:

@@ -11,13 +11,13 @@ from jaxtyping import Bool, Float, Int
 
 from anymesh.config import REFERENCE_PX, Config
 from anymesh.geometry.surface import ObjectShape
-from anymesh.prompted.grounding.alike import small_regions, wires
+from anymesh.prompted.grounding.alike import region_sizes, small_regions, wires
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud, seen_points
 from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE
 from anymesh.prompted.grounding.mark_questions import MarkQuestioner
 from anymesh.prompted.grounding.regions import face_regions, join_doubled, join_wires
 from anymesh.rendering.render import View
-from anymesh.rendering.viewpoints import zoom
+from anymesh.rendering.viewpoints import framed
 from anymesh.segmentation.handles import patch_sizes
 from anymesh.types import Brief, Mesh
 from anymesh.types.camera import Camera
@@ -27,7 +27,8 @@ MIN_INNER_PATCH_RATIO = 0.05  # of the object's diagonal: hidden patches with a 
 # of the object's diagonal: minimum size of a hidden patch for the inside to be shown when the object is recognized
 MIN_RECOGNITION_PATCH_RATIO = 0.1
 MAX_CLOSE_UPS, MAX_MACHINE_CLOSE_UPS = 8, 16  # close-ups per object, and per machine; each adds a picture to a question
-REGION_CUTS = 2  # times that a machine is halved into regions, whose close-ups are asked about on their own
+REGIONS = 4  # of a machine, whose close-ups are asked about on their own
+MAX_DETAIL_RATIO = 0.25  # of the object's diagonal: larger surfaces are in no region; an estimate
 MIN_AREA_PX, MIN_WIDTH_PX = 250.0, 4.0  # [px, px across] in a 640 px view: regions below either are too small to judge
 LEGIBLE_AREA_PX, LEGIBLE_WIDTH_PX = 1500.0, 12.0  # [px, px across] size that a close-up should give such regions
 MIN_ZOOM, MAX_ZOOM = 2.0, 6.4  # magnification of a close-up
@@ -161,33 +162,50 @@ class ShownViews(Brief):
     small: int = 0
 
 
-def region_cameras(cloud: Cloud, views: Sequence[View]) -> list[tuple[int, int, Camera]]:
-    """Return close-ups of the regions of an object: the region, from 1, the index of the view that shows it, and the camera.
+def region_cameras(sampled: SampledObject, views: Sequence[View]) -> list[tuple[int, int, Camera]]:
+    """Return close-ups of the regions of a machine: the region, from 1, the index of the view that shows it, and the camera.
 
-    Regions are halves of halves of its box, across the longest side. Each is shown in the view whose close-up shows its surface
-    largest, and in the one that shows the rest of it largest.
+    Each is shown in the view whose close-up shows most of its surfaces legibly, and in the one that shows most of the rest.
     """
-    seen = np.array([seen_points(cloud, [view]) for view in views])
-    cells = [np.flatnonzero(seen.any(0))]
-    for _ in range(REGION_CUTS):
-        cells = [half for cell in cells for half in _halved(cloud.points, cell)]
+    cloud, own = sampled.cloud, sampled.regions[sampled.cloud.faces]
+    seen, (size, _, _) = np.array([seen_points(cloud, [view]) for view in views]), _shown(sampled.regions, views)
     cameras = []
-    for number, cell in enumerate((c for c in cells if len(c)), start=1):
-        shown = seen[:, cell]
-        boxes = np.array([_box(view, cloud.points[cell]) for view in views])
-        magnified = 1 / np.maximum((boxes[:, 2:] - boxes[:, :2]).max(1), 1.0) ** 2
-        first = int((magnified * shown.sum(1)).argmax())
-        second = int((magnified * (shown & ~shown[first]).sum(1)).argmax())
-        for v in dict.fromkeys((first, second)):
-            camera = views[v].camera
-            cameras.append((number, v, zoom(camera, boxes[v], REGION_AIR, camera.height)))
+    for number, cell in enumerate(_cells(sampled, np.flatnonzero(seen.any(0))), start=1):
+        near = [framed(view.camera, cloud.points[cell], REGION_AIR, view.camera.height) for view in views]
+        gain = [(np.tan(v.camera.fov / 2) / np.tan(c.fov / 2)) ** 2 for v, c in zip(views, near, strict=True)]
+        surfaces, of, count = np.unique(own[cell], return_inverse=True, return_counts=True)
+        legible = LEGIBLE_AREA_PX * (views[0].camera.height / REFERENCE_PX) ** 2
+        clear = np.minimum(size[:, surfaces] * np.array(gain)[:, None] / legible, 1.0) / count
+        value = seen[:, cell] * clear[:, of]
+        first = int(value.sum(1).argmax())
+        second = int((value * ~seen[first, cell]).sum(1).argmax())
+        cameras += [(number, v, near[v]) for v in dict.fromkeys((first, second))]
     return cameras
 
 
-def _box(view: View, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " 4"]:
-    """Return the box of points in a view: x0, y0, x1, y1 [px]."""
-    pixels = view.camera.project(points)[0]
-    return np.concatenate([pixels.min(0), pixels.max(0)])
+def _cells(sampled: SampledObject, seen: Int[np.ndarray, " n"]) -> list[Int[np.ndarray, " c"]]:
+    """Return the points of each region of an object: clusters of surfaces whose middles are near each other (Ward).
+
+    Each surface has one weight, so there are as many regions in a gondola or a tail as it has surfaces, and none on a plain
+    hull: surfaces of more than a quarter of the object are left out. Where few are left, as of a fused object, regions are
+    halves of halves of the box, across its longest side.
+
+    seen: indices of the points that a view shows.
+    """
+    from scipy.cluster.hierarchy import fcluster, linkage  # import on use, as in `lines.cluster_points`
+
+    own, points = sampled.regions[sampled.cloud.faces[seen]], sampled.cloud.points[seen]
+    small = np.flatnonzero(region_sizes(sampled.regions, sampled.mesh) < MAX_DETAIL_RATIO * sampled.whole.diagonal)
+    surfaces, of, count = np.unique(np.where(np.isin(own, small), own, -1), return_inverse=True, return_counts=True)
+    if (surfaces >= 0).sum() > REGIONS:
+        middle = np.stack([np.bincount(of, x) for x in points.T], 1) / count[:, None]
+        cluster = np.zeros(len(surfaces), int)
+        cluster[surfaces >= 0] = fcluster(linkage(middle[surfaces >= 0], "ward"), REGIONS, "maxclust")
+        return [seen[cluster[of] == number] for number in np.unique(cluster[surfaces >= 0])]
+    cells = [seen]
+    for _ in range(2):
+        cells = [half for cell in cells for half in _halved(sampled.cloud.points, cell)]
+    return [cell for cell in cells if len(cell)]
 
 
 def _halved(points: Float[np.ndarray, "n 3"], cell: Int[np.ndarray, " c"]) -> list[Int[np.ndarray, " h"]]:
