@@ -234,3 +234,5 @@ def test_the_push_of_a_button_that_fills_its_hole_is_shown_beside_the_pull() -> 
     assert ways[1.0] == pytest.approx(0.03)  # half of its height
     assert ways[-1.0] > 0.03
     assert not table.blocked[[m.axis[1] for m in table.motions].index(1.0)]
+    push, pull = (next(k for k, c in enumerate(found.motions) if c.opening_motion.axis[1] == way) for way in (1.0, -1.0))
+    assert found.shares[push] >= 0.99 * found.shares[pull] * np.exp(-2)

@@ -45,6 +45,7 @@ DUPLICATE_MOTION_RATIO = 0.15  # of the travel: upper limit of the object-based 
 SIMILAR_RATIO = 0.2  # of the travel: similar
 # of the object's diagonal: larger parts are not pushed into a body; of 120 objects, buttons reach .35, and drawers begin there
 MAX_PUSHED_RATIO = 0.35
+PUSH_LOSS = 2.0  # [log-odds] of such a push to the pull along its line, if neither was recognized; an estimate
 # What is in the picture:
 FEW = 7  # number of motions up to which others are shown beside those below
 MAX_SIMILAR, MAX_SIMILAR_LOSS = 2, 1.0  # number of similar motions; their loss to the best of them [log-odds]
@@ -102,6 +103,8 @@ def make_offers(case: PartCase, max_motions: int, seed: int) -> MotionOffers:
     """
     scored = scored_motions(case)
     facts, candidates, plain = scored.part, list(scored.candidates), motion_scores(scored).tolist()
+    for k in range(len(candidates)):
+        plain[k] = max(plain[k], _as_push(case, candidates, plain, k))
     values = [v + _agrees(c, case) - PICKED_POINT_PENALTY * (c.role == "asked") for v, c in zip(plain, candidates, strict=True)]
     order = sorted(range(len(candidates)), key=lambda k: (not candidates[k].is_free, -values[k], k))
     free = max((v for v, c in zip(plain, candidates, strict=True) if c.is_free), default=np.inf)
@@ -182,6 +185,15 @@ def _pushed(c: Candidate, context: PartContext) -> bool:
     """Return whether a motion is the push of a part into a body that leaves no space for it, as buttons are modelled."""
     stuck = c.slide_direction is SlideDirection.INWARDS and c.opening < MIN_FREE_TRAVEL_RATIO
     return stuck and context.part.box.diagonal <= MAX_PUSHED_RATIO * context.diagonal
+
+
+def _as_push(case: PartCase, candidates: Sequence[Candidate], scores: Sequence[float], k: int) -> float:
+    """Return the score of a push by that of the pull along its line, since a filled hole tells little; -inf for others."""
+    c = candidates[k]
+    if not _pushed(c, case.context) or answered_range(case.recognized, JointType.PRISMATIC) is not None:
+        return -np.inf
+    pulls = [s for other, s in zip(candidates, scores, strict=True) if other is not c and other.motion is c.motion]
+    return max(pulls, default=-np.inf) - PUSH_LOSS
 
 
 def _agrees(c: Candidate, case: PartCase) -> float:
