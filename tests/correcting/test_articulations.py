@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from assets import box, cabinet, mesh_of
 from correctable import write_output
+from mechanical import linkage
 
 import anymesh
 from anymesh.cli import run
@@ -101,6 +102,16 @@ def test_parts_alike_take_the_same_one() -> None:
     rows = replace(asset, joints=alike, segmentation=replace(asset.segmentation, parts=parts))
     for k in range(20):
         assert len(set(drawn(rows, np.random.default_rng(k)).values())) == 1
+
+
+def test_joints_on_a_loop_keep_what_closes_it() -> None:
+    asset = linkage()
+    first = asset.joints[0]
+    other = replace(first, axis=np.array([1.0, 0, 0]), confidence=0.5)
+    asset = replace(asset, joints=(replace(first, confidence=0.5, others=(other,)), *asset.joints[1:]))
+    for loops, numbers in ((asset.loops, {0}), ((), {0, 1})):
+        some = replace(asset, loops=loops)
+        assert {drawn(some, np.random.default_rng(k))[first.name] for k in range(9)} == numbers
 
 
 def test_variants_are_whole_assets_and_the_same_for_a_seed(tmp_path) -> None:

@@ -13,6 +13,7 @@ from anymesh.correcting.articulations import articulations, weights_of
 from anymesh.errors import OptionError
 from anymesh.export import write_asset
 from anymesh.export.options import ExportOptions
+from anymesh.mechanisms.closing import giving_way
 from anymesh.runtime import Progress, cache_folder, silent, write_json
 from anymesh.types import Asset
 from anymesh.types.motion import leaders
@@ -61,13 +62,14 @@ def drawn(asset: Asset, rng: np.random.Generator) -> Mapping[str, int]:
     """Return the number of the articulation of each joint, by its name.
 
     Parts with the same label and parent whose articulations are of the same types in the same order, such as the drawers of a
-    chest, all take the same one.
+    chest, all take the same one. Joints on closed loops keep the one that closes them.
     """
     at: dict[Any, float] = {}
-    choices = {}
+    choices, looped = {}, {joint.name for joint in giving_way(asset)}
     for joint in asset.joints:
         label = next(part.label for part in asset.segmentation.parts if part.name == joint.child)
         alike = label, joint.parent, tuple(way.type for way in articulations(joint))
         u = at.setdefault(alike, float(rng.random()))
-        choices[joint.name] = int(np.searchsorted(np.cumsum(weights_of(joint))[:-1], u, side="right"))
+        free = joint.name not in looped
+        choices[joint.name] = free * int(np.searchsorted(np.cumsum(weights_of(joint))[:-1], u, side="right"))
     return choices
