@@ -32,6 +32,8 @@ from anymesh.prompted.motions.offers import MAX_SHOWN_ANGLE_RAD, MAX_SHOWN_TRAVE
 from anymesh.prompted.pictures.plates import mark_color
 from anymesh.prompted.pictures.sheet import question_sheet
 from anymesh.prompted.pictures.visual_prompts import VisualPrompts
+from anymesh.prompted.questions.recognition import Recognize
+from anymesh.prompted.stages import FEW_PARTS
 from anymesh.rendering.render import encode, render
 from anymesh.segmentation.contacts import find_contacts
 from anymesh.segmentation.part_candidates import PartCandidates, part_candidates
@@ -53,6 +55,8 @@ PREVIEWS = {
 FRONT = 0.0  # azimuth from which the front of every example is seen [deg], which the truth does not state
 MOST = 9  # candidates that are drawn
 MOTIONS = 7  # motions that are drawn
+MOST_PICTURES = pictures_per_call(USUAL)
+REGIONS, REGION_PX = 4, 400  # close-ups of regions that are drawn, and the longer side of one
 
 
 def patches(studio: VisualPrompts, mesh: Mesh, tree: PartCandidates) -> Picture:
@@ -137,6 +141,28 @@ def draw_questions(folder: Path, name: str, every: bool) -> None:
     (folder / "questions.txt").write_text("\n".join(questions), encoding="utf-8")
 
 
+class _SeesAMachine(SimulatedVlm):
+    """A reference answerer that calls the object a machine of many parts, which is then asked about region by region."""
+
+    def ask(self, question):
+        answer = super().ask(question)
+        if not isinstance(question, Recognize):
+            return answer
+        many = tuple(replace(label, count=FEW_PARTS) for label in answer.labels)
+        return replace(answer, machine=True, front=FRONT, labels=many)
+
+
+def draw_regions(name: str) -> Picture:
+    """Return the first close-ups of the regions of an example with many moving parts, on one sheet."""
+    truth = next(t for t in example_truths(EXAMPLES) if t.name == name)
+    known = oracle(prepared(truth))
+    solver = Solver(
+        place_mesh(load_mesh(truth.mesh)).mesh, USUAL, lambda fallback: _SeesAMachine(known, fallback, most=MOST_PICTURES)
+    )
+    regions = solver.answers.recognize().exchanges[-1]
+    return question_sheet(regions.pictures[:REGIONS], largest=REGION_PX)
+
+
 def draw_vlm(folder: Path) -> None:
     """Draw the pictures of vlm.md."""
     first: dict[str, Exchange] = {}
@@ -156,6 +182,7 @@ def draw_vlm(folder: Path) -> None:
         ("motions", "motions", 0),
     ):
         (folder / f"{page}.png").write_bytes(first[kind].pictures[k].png)
+    (folder / "regions.png").write_bytes(draw_regions("toy_car").png)
     with Image.open(folder / "sheet.png") as sheet:
         sheet.thumbnail((900, 1000))
         sheet.convert("P", palette=Image.Palette.ADAPTIVE).save(folder / "sheet.png")
