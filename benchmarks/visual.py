@@ -59,8 +59,8 @@ swivels, a hinge at the bottom, a door that slides); the answers follow the pict
 Recall: true movable parts found with an IoU of .5 or more. mIoU: over the true parts, 0 for a part that was not found. For
 joints that were found: type (turns or slides, as the true joint does), exact type (revolute and continuous distinguished),
 angle, position at the part (the diagonal is 2), whether positive opens. Calls: questions answered, mean over objects.
-A question that shows other motions than the recorded one, since another classifier ranks them now, is answered by the recorded
-choice if that motion is shown, else by "none of these" (`visual_choices.py`).
+A question that shows other motions than the recorded one, or in other words, since another classifier ranks them and pushes
+are shown now, is answered by the recorded choice if that motion is shown, else by "none of these" (`visual_choices.py`).
 """
 COLUMNS = ("objects", "joints", "recall", "mIoU", "type", "exact type", "angle [deg]", "at the part", "opens", "calls")
 
