@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -19,8 +20,9 @@ from anymesh.prompted.questions.prompting import (
     WhichMotions,
     WhichPoints,
 )
-from anymesh.prompted.questions.recognition import Recognize
+from anymesh.prompted.questions.recognition import Recognize, RecognizeRegions
 from anymesh.types import JointType, Motion, Picture
+from anymesh.types.motion import RecognizedLabel
 
 ASSET = cabinet()
 MESH = ASSET.mesh
@@ -56,9 +58,25 @@ def motions(scale: float = 1.0) -> WhichMotions:
     return WhichMotions((PICTURE,) * 2, (door, MotionTable(part(2, scale), (out,), (0.2 * scale,), (False,), both)))
 
 
+def coupled() -> WhichMotions:
+    """Motions with all that can be asked besides; the second part is one of two of its shape."""
+    door, drawer = motions().tables
+    tables = (door, replace(drawer, alike=2))
+    return replace(motions(), tables=tables, ask_fit=True, ask_kind=True, labels=("door", "drawer"), ask_with=True)
+
+
+def regions() -> RecognizeRegions:
+    """A foot on a leg, and a closer look at two regions."""
+    over = (("leg", "base"), ("foot", "leg"))
+    return RecognizeRegions(
+        (PICTURE,) * 2, (1, 2), tuple(RecognizedLabel(n, JointType.REVOLUTE, o, (0.0, 1.0), 2) for n, o in over)
+    )
+
+
 def questions() -> dict[str, tuple[Any, dict[str, Any]]]:
     """Kind of question -> the question, and an answer that it takes."""
     door = {"label": "door", "moves": "revolute", "parent": "base", "lower": 0.0, "upper": 90.0, "count": 2}
+    hinge, slide = {"joint": "hinge_along_edge", "endless": False}, {"joint": "slide_in_or_out", "endless": False}
     knob = {"label": "knob", "moves": "continuous", "parent": "door", "lower": 0.0, "upper": 0.0, "count": 0}
     return {
         "recognize": (
@@ -88,4 +106,21 @@ def questions() -> dict[str, tuple[Any, dict[str, Any]]]:
             {"parts": [{"part": 1, "arrow": 2}]},
         ),
         "motions": (motions(), {"parts": [{"part": 1, "motion": 2}, {"part": 2, "motion": 0}]}),
+        "coupled": (
+            coupled(),
+            {
+                "parts": [
+                    {"part": 1, "motion": 2, "part_is": "too_much", "with": 2, "label": "door", **hinge},
+                    {"part": 2, "motion": 1, "part_is": "right", "with": 2, "label": "other", **slide},
+                ]
+            },
+        ),
+        "regions": (
+            regions(),
+            {
+                "regions": [{"region": 1, "labels": []}, {"region": 2, "labels": []}],
+                "parts": [{**knob, "label": "foot", "parent": "base"}, {**door, "label": "hatch"}],
+                "withdrawn": ["leg"],
+            },
+        ),
     }

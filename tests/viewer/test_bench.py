@@ -39,6 +39,13 @@ def said(page) -> str:
     return page.bench._words.content
 
 
+def test_a_person_may_be_asked_about_each_joint(page):
+    page.bench._who = bench_.EACH
+    upload(page)
+    options = FakeWork.made[-1].options
+    assert (options["ask"], options["wait"], options["suggest"]) == ("all", True, True)
+
+
 def test_a_mesh_is_worked_on_shown_corrected_and_downloaded(page):
     assert page.session is None
     assert not page._download.visible

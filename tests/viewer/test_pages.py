@@ -152,7 +152,7 @@ def test_every_kind_of_question_is_in_order_and_back_returns_to_it(page, tab):
     tab.page.get_by_role("button", name="Back to the last question").click()
     until(lambda: desk.busy and desk._asked.folder.path == last)
     tab.page.get_by_text("as you answered before").wait_for()
-    look(tab, "5_question_6_back")
+    look(tab, "5_question_8_back")
 
 
 @pytest.mark.slow

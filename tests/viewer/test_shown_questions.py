@@ -4,19 +4,17 @@ import json
 
 import numpy as np
 import pytest
-from asked_cabinet import FACE_PART, MESH, marks, motions, part, points, questions
+from asked_cabinet import FACE_PART, MESH, coupled, marks, motions, part, points, questions, regions
 
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.answerers.question_files import QuestionStore
 from anymesh.prompted.models.vision import Request
 from anymesh.prompted.questions.asking import BadAnswerError
-from anymesh.prompted.questions.recognition import RecognizeRegions
 from anymesh.prompted.questions.saved_question import answer_object, pack_question
-from anymesh.types import JointType
-from anymesh.types.motion import RecognizedLabel
 from anymesh.viewer.questions.desk_ import SUGGESTED, WAITING, OpenQuestion, find_open_question, form_of
 from anymesh.viewer.questions.fields_ import marks_table
-from anymesh.viewer.questions.forms import SPLIT, LabelRow, MarksForm, RegionsForm
+from anymesh.viewer.questions.forms import SPLIT, MarksForm
+from anymesh.viewer.questions.label_forms import LabelRow, RegionsForm
 from anymesh.viewer.questions.scene_ import (
     asked_faces,
     closer_view,
@@ -49,18 +47,41 @@ def test_a_form_takes_a_suggestion_and_gives_it_back(kind: str) -> None:
 
 
 def test_kinds_of_regions_start_with_those_found_and_what_is_removed_is_withdrawn() -> None:
-    known = tuple(
-        RecognizedLabel(name, JointType.REVOLUTE, over, (0.0, 1.0), 2) for name, over in (("leg", "base"), ("foot", "leg"))
-    )
-    question = RecognizeRegions((), (1, 2), known, "robot")
+    question = regions()
     form = form_of(question)
     assert isinstance(form, RegionsForm)
     assert [r.label for r in form.rows] == ["leg", "foot"]
     form.rows = [form.rows[0], LabelRow("hatch")]
     found = question.parse(form.answer())
     assert [(r.label, r.count) for r in found] == [("leg", 2), ("hatch", None)]
-    form.fill(answer_object(question, (known[1],)))
-    assert [r.label for r in form.rows] == ["foot"]
+    form.fill(answer_object(question, question.known[1:]))
+    assert [(r.label, r.parent) for r in question.parse(form.answer())] == [("foot", "base")]
+
+
+def test_what_is_mounted_on_a_kind_follows_its_name_and_its_removal() -> None:
+    form = form_of(regions())
+    leg, foot = form.rows
+    for typed in ("str", "strut"):
+        form.rename(leg, typed)
+    assert foot.parent == "strut"
+    form.rename(leg, "foot")  # while it is typed, it may be another one's
+    assert foot.parent == "strut"
+    form.rename(leg, "strut")
+    form.rows.append(twin := LabelRow("toe", parent="foot"))
+    form.remove(foot)
+    assert twin.parent == "strut"
+    assert [r.label for r in regions().parse(form.answer())] == ["strut", "toe"]
+
+
+def test_a_part_moves_with_others_or_those_like_it_never_with_itself_alone() -> None:
+    form = form_of(coupled())
+    assert form.leaders(0) == {"nothing": 0, "part 2: drawer": 2}
+    assert form.leaders(1) == {"nothing": 0, "those like it": 2, "part 1: door": 1}
+    form.go(1)
+    assert form.place == "Part 2 of 2: drawer, one of 2 that move alike"
+    usual = {"joint": "fixed", "endless": False}
+    form.fill({"parts": [{"part": 1, "motion": 1, "with": 1, **usual}, {"part": 2, "motion": 1, **usual}]})
+    assert form.leads == [0, 0]
 
 
 def test_marks_that_differ_from_view_to_view_cannot_be_clicked_on_the_object() -> None:

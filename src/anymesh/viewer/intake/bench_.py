@@ -26,7 +26,7 @@ from anymesh.viewer.questions.desk_ import AskDesk
 
 log = logging.getLogger("anymesh")
 TICK, LOOK = 0.05, 0.25  # [s] between poses, and between checks of the work
-ALONE, MYSELF = "are left to geometry", "are put to me"
+ALONE, MYSELF, EACH = "are left to geometry", "are put to me", "are put to me, about each joint"
 UPS = ("auto", "x", "y", "z")
 EMPTY, ANOTHER, BACK = "Mesh", "Another mesh", "← Back to the last question"
 FAINT = "color:#868e96"
@@ -122,8 +122,10 @@ class Workbench:
 
     def _begin(self, job: MeshJob) -> None:
         options: dict[str, Any] = {"root": job.root, "up": self._up}
-        if self._who == MYSELF:
+        if self._who != ALONE:
             options |= {"answerer": f"{FILES}{job.questions}", "wait": True, "suggest": True}
+        if self._who == EACH:
+            options["ask"] = "all"
         pool, self._pool = self._pool, None
         self._message = ("", False)
         self._work = ArticulationWork(job.mesh, self._place(plain_name(job.mesh.stem)), pool=pool, **options)
@@ -182,7 +184,7 @@ class Workbench:
             if shows == ANOTHER:
                 gui.add_html(small_zone())
             upload = gui.add_upload_button("Choose a mesh, its files, or a zip", mime_type="*/*")
-            who = gui.add_dropdown("Questions", (ALONE, MYSELF), initial_value=self._who)
+            who = gui.add_dropdown("Questions", (ALONE, MYSELF, EACH), initial_value=self._who)
             up = gui.add_dropdown("Up axis", UPS, initial_value=self._up, hint="Of the file; auto goes by its format and shape")
             tried = gui.add_button_group("Examples", tuple(e.name for e in examples()))
             if shows == ANOTHER and self._job is not None and self._page.session is not None:

@@ -24,18 +24,8 @@ from anymesh.types import Mesh
 from anymesh.types.questions import Question
 from anymesh.viewer.panels import Page
 from anymesh.viewer.questions.fields_ import AskPanel, Choices, azimuth_of
-from anymesh.viewer.questions.forms import (
-    SPLIT,
-    ArrowsForm,
-    Form,
-    KindsForm,
-    MarksForm,
-    MotionsForm,
-    PartsForm,
-    PointsForm,
-    RecognizeForm,
-    RegionsForm,
-)
+from anymesh.viewer.questions.forms import SPLIT, ArrowsForm, Form, KindsForm, MarksForm, MotionsForm, PartsForm, PointsForm
+from anymesh.viewer.questions.label_forms import RecognizeForm, RegionsForm
 from anymesh.viewer.questions.scene_ import QuestionScene, closer_view
 
 WAITING = "Geometry is working out a suggestion; you need not wait for it."

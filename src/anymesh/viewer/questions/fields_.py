@@ -14,21 +14,17 @@ from anymesh.prompted.questions.recognition import MAX_COUNT
 from anymesh.types.motion import BASE
 from anymesh.viewer.panels import SMALL
 from anymesh.viewer.questions.forms import (
-    MOVES,
     SPLIT,
     ArrowsForm,
     Form,
     Group,
     KindsForm,
-    LabelRow,
     MarksForm,
     MotionsForm,
     PartsForm,
     PointsForm,
-    RecognizeForm,
-    RegionsForm,
-    RowsForm,
 )
+from anymesh.viewer.questions.label_forms import MOVES, LabelRow, RecognizeForm, RegionsForm, RowsForm
 from anymesh.viewer.questions.scene_ import group_color
 
 KINDS = {
@@ -147,12 +143,16 @@ class Fields:
             front.value = fronts[form.front]
 
         mine.on_click(lambda event: self._act(lambda: look(event)))
+        machine = gui.add_checkbox(
+            "Machine", form.machine, hint="Aircraft, ship, vehicle, robot, crane: a closer look comes next"
+        )
+        self._bound(form, machine, lambda v: setattr(form, "machine", bool(v)))
         self._rows(form)
 
     def _rows(self, form: RowsForm) -> None:
-        gui = self._gui
+        gui, follow = self._gui, list[Callable[[], None]]()
         for row in form.rows:
-            self._label_row(form, row)
+            follow.append(self._label_row(form, row, lambda: [f() for f in follow]))
         more = gui.add_button("Add a kind of part that moves", color="gray")
 
         def add() -> None:
@@ -162,19 +162,33 @@ class Fields:
 
         more.on_click(lambda _: self._act(add))
 
-    def _label_row(self, form: RowsForm, row: LabelRow) -> None:
+    def _label_row(self, form: RowsForm, row: LabelRow, changed: Callable[[], Any]) -> Callable[[], None]:
+        """Add the fields of one entry; return what shows the changes. changed: is called after one that others must show."""
         gui, words = self._gui, {v.value: k for k, v in MOVES.items()}
-        with gui.add_folder(row.words, expand_by_default=form.rows.index(row) == form.open_row):
-            self._bound(form, gui.add_text("Kind of part", row.label), lambda v: setattr(row, "label", v))
+
+        def over() -> tuple[str, ...]:
+            return tuple(dict.fromkeys((BASE, row.parent, *(r.label for r in form.rows))))
+
+        def rename(label: str) -> None:
+            form.rename(row, label)
+            changed()
+
+        def move(way: str) -> None:
+            row.moves = MOVES[way].value
+            changed()
+
+        folder = gui.add_folder(row.words, expand_by_default=form.rows.index(row) == form.open_row)
+        with folder:
+            self._bound(form, gui.add_text("Kind of part", row.label), rename)
             moves = gui.add_dropdown("Moves", tuple(MOVES), initial_value=words[row.moves])
-            self._bound(form, moves, lambda v: setattr(row, "moves", MOVES[v].value))
-            over = tuple(dict.fromkeys((BASE, row.parent, *(r.label for r in form.rows))))
-            parent = gui.add_dropdown("Mounted on", over, initial_value=row.parent)
+            self._bound(form, moves, move)
+            parent = gui.add_dropdown("Mounted on", over(), initial_value=row.parent)
             self._bound(form, parent, lambda v: setattr(row, "parent", v))
             limits = gui.add_vector2("From, to [° or cm]", (row.lower, row.upper), step=0.1)
 
             def set_limits(value: Any) -> None:
                 row.lower, row.upper = (float(v) for v in value)
+                changed()
 
             self._bound(form, limits, set_limits)
             count = gui.add_number("How many (0: unknown)", row.count, min=0, max=MAX_COUNT, step=1)
@@ -182,11 +196,17 @@ class Fields:
             gone = gui.add_button("Remove", color="gray")
 
         def remove() -> None:
-            form.rows.remove(row)
+            form.remove(row)
             form.touched, form.open_row = True, -1
             self._choices.again()
 
+        def follow() -> None:
+            folder.label, mount = row.words, row.parent
+            parent.options = over()
+            parent.value = mount
+
         gone.on_click(lambda _: self._act(remove))
+        return follow
 
     def _marks(self, form: MarksForm) -> None:
         gui, names = self._gui, {group_name(g): g for g in form.groups}
@@ -255,9 +275,10 @@ class Fields:
         if form.rows:
             self._kinds(form)
         if form.leads:
-            names = ("nothing", *(f"part {k}" for k in range(1, len(form.leads) + 1)))
-            lead = self._gui.add_dropdown("Moves only with", names, initial_value=names[form.leads[form.step]])
-            self._bound(form, lead, lambda v: form.leads.__setitem__(form.step, names.index(v)))
+            leaders = form.leaders(form.step)
+            names = {number: name for name, number in leaders.items()}
+            lead = self._gui.add_dropdown("Moves only with", tuple(leaders), initial_value=names[form.leads[form.step]])
+            self._bound(form, lead, lambda v: form.leads.__setitem__(form.step, leaders[v]))
         if form.fits:
             words = {v.value: k for k, v in FITS.items()}
             fit = self._gui.add_dropdown("The coloured part", tuple(FITS), initial_value=words[form.fits[form.step]])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 import numpy as np
@@ -21,20 +21,9 @@ from anymesh.prompted.questions.prompting import (
     WhichMotions,
     WhichPoints,
 )
-from anymesh.prompted.questions.recognition import Recognize, RecognizeRegions, folded
-from anymesh.prompted.questions.saved_question import answer_object
-from anymesh.types import JointType
-from anymesh.types.motion import BASE
 
-UNNAMED = "part"
-NO_LIMITS = {JointType.CONTINUOUS.value: {"lower": 0.0, "upper": 0.0}}
 SPLIT = ("to be divided", 0)  # the group of marks that lie on more than one part
 Group = tuple[str, int]  # label and instance of a part
-MOVES = {
-    "turns within limits": JointType.REVOLUTE,
-    "turns round and round": JointType.CONTINUOUS,
-    "slides": JointType.PRISMATIC,
-}
 
 
 class Form:
@@ -59,88 +48,6 @@ class Form:
     def answer(self) -> dict[str, Any]:
         """Return the object that the question checks."""
         raise NotImplementedError
-
-
-@dataclass
-class LabelRow:
-    """One kind of moving part; limits in degrees or centimetres."""
-
-    label: str = UNNAMED
-    moves: str = JointType.REVOLUTE.value
-    parent: str = BASE
-    lower: float = 0.0
-    upper: float = 90.0
-    count: int = 0
-
-    @property
-    def words(self) -> str:
-        """Description in one line."""
-        moves = JointType(self.moves)
-        words = next(k for k, v in MOVES.items() if v is moves)
-        unit = "cm" if moves is JointType.PRISMATIC else "°"
-        limits = "" if moves is JointType.CONTINUOUS else f", {self.lower:g} to {self.upper:g} {unit}"
-        return f"{self.label}: {words}{limits}"
-
-
-@dataclass
-class RowsForm(Form):
-    """Base of forms about kinds of moving parts. open_row: the expanded entry, -1 for none."""
-
-    rows: list[LabelRow] = field(default_factory=list)
-    open_row: int = -1
-    touched: bool = False
-
-    def fill(self, answer: Mapping[str, Any]) -> None:
-        self.rows = [LabelRow(**p | {end: round(float(p[end]), 1) for end in ("lower", "upper")}) for p in answer["parts"]]
-
-    def answer(self) -> dict[str, Any]:
-        return {"parts": [asdict(r) | NO_LIMITS.get(r.moves, {}) for r in self.rows]}
-
-
-class RecognizeForm(RowsForm):
-    """The object, and its kinds of moving parts. front: number of a picture, 0 for none."""
-
-    title = "What is this, and what moves?"
-    instructions = "Name the object and give one entry for each kind of part that moves; click an entry to change it."
-
-    def __init__(self, question: Recognize) -> None:
-        super().__init__()
-        self.question, self.category, self.longest, self.front, self.machine = question, "", 1.0, 0, False
-
-    def fill(self, answer: Mapping[str, Any]) -> None:
-        super().fill(answer)
-        self.machine = answer.get("machine", False)
-        self.category, self.longest, self.front = answer["category"], float(answer["longest_side_m"]), int(answer["front"])
-
-    def answer(self) -> dict[str, Any]:
-        own = {"category": self.category, "longest_side_m": self.longest, "front": self.front, "machine": self.machine}
-        return own | super().answer()
-
-    def look_from(self, azimuth: float) -> None:
-        """Choose the picture with the nearest azimuth [deg] as the one that shows the front."""
-        off = [abs((a - azimuth + 180) % 360 - 180) for a in self.question.azimuths]
-        self.front, self.touched = (off.index(min(off)) + 1 if off else 0), True
-
-
-class RegionsForm(RowsForm):
-    """The kinds of moving parts of a machine: those found so far, to which those of a closer look are added."""
-
-    title = "What else moves?"
-    instructions = "Look closely at each region; add kinds of part that move and are not listed, remove what does not move."
-
-    def __init__(self, question: RecognizeRegions) -> None:
-        super().__init__()
-        self.question = question
-        self.fill({"parts": ()})
-
-    def fill(self, answer: Mapping[str, Any]) -> None:
-        """Take over an answer, which lists only what differs from what was found."""
-        rows = {p["label"]: p for p in (*answer_object(self.question, self.question.known)["parts"], *answer["parts"])}
-        super().fill({"parts": [p for label, p in rows.items() if label not in answer.get("withdrawn", ())]})
-
-    def answer(self) -> dict[str, Any]:
-        left = {folded(r.label) for r in self.rows}
-        return answer_object(self.question, [r for r in self.question.known if r.label in left]) | super().answer()
 
 
 class MarksForm(Form):
@@ -384,11 +291,27 @@ class MotionsForm(TableForm):
             return "None of these."
         return f"Motion {number} of {len(table.motions)}: it {table.described[number - 1]}."
 
+    @property
+    def place(self) -> str:
+        alike = self.table.alike
+        return super().place + (f", one of {alike} that move alike" if alike > 1 else "")
+
+    def leaders(self, step: int) -> dict[str, int]:
+        """What a part may move together with, in words, with the number in the answer; its own stands for those like it."""
+        others = {f"part {k}: {t.part.label}": k for k, t in enumerate(self.tables, 1) if k != step + 1}
+        return {"nothing": 0, **({"those like it": step + 1} if self.tables[step].alike > 1 else {}), **others}
+
     def fill(self, answer: Mapping[str, Any]) -> None:
         super().fill(answer)
-        if self.rows:
-            self.rows = [KindRow.of(p) for p in sorted(answer["parts"], key=lambda p: p["part"])]
-        self.leads = self.leads and [p["with"] for p in sorted(answer["parts"], key=lambda p: p["part"])]
+        for p in answer["parts"]:
+            k = p["part"] - 1
+            if self.rows:
+                self.rows[k] = KindRow.of(p)
+            if self.fits:
+                self.fits[k] = p.get("part_is", PartFit.RIGHT.value)
+            if self.leads:
+                lead = p.get("with", 0)
+                self.leads[k] = lead if lead in self.leaders(k).values() else 0
 
     def answer(self) -> dict[str, Any]:
         answer = super().answer()

@@ -304,6 +304,9 @@ class QuestionScene:
         carried = np.setdiff1d(moving, form.part.faces)
         if len(carried):
             self._add(mesh, carried, color_of(2), below=self._moving.name)
+        for k, t in enumerate(form.tables if form.leads else ()):
+            if k != form.step:
+                self._label(str(k + 1), mesh.triangles[t.part.faces].mean((0, 1)))
         if form.chosen[form.step]:
             self._arrow(motion_axis(form.table, form.chosen[form.step] - 1, mesh), AXIS, mesh)
 
