@@ -32,11 +32,7 @@ from anymesh.mechanisms.handles import find_protrusion
 from anymesh.types.triangles import face_cross, unshared
 
 CLEAR = 0.002  # [m] that fingertips keep from what is behind a handle
-SAMPLED, PER_REGION, REGIONS = (
-    100,
-    12,
-    3,
-)  # candidates of a region, those that are tried, and most regions
+SAMPLED, PER_REGION, REGIONS = 100, 12, 3  # candidates of a region, those of them that are tried, and most regions
 SMALL = 0.5  # share of the part's surface; a connected piece below it is a region of its own
 AROUND = 0.02  # a grasp whose width is that of the part, but for this share, is around all of it
 PLACES, HOOK_ANGLES = 300, 12  # places of hooks, and directions from which fingers reach behind each
