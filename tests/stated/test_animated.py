@@ -2,8 +2,12 @@
 
 import numpy as np
 import pytest
+from mechanical import lever
 from scenes_that_move import Moving, cabinet, read, turns
 
+from anymesh.export.glb import glb_bytes
+from anymesh.export.links import split_links
+from anymesh.export.model import ExportConfig
 from anymesh.loading import load_mesh
 from anymesh.types import JointType
 
@@ -257,3 +261,12 @@ def test_joints_are_ignored_on_request(tmp_path):
     read(g, tmp_path)
     mesh = load_mesh(tmp_path / "scene.glb", animation="ignore").mesh
     assert (mesh.joints, {node.joint for node in mesh.nodes}) == ((), {-1})
+
+
+def test_what_follows_in_our_own_glb_moves_by_itself(tmp_path):
+    asset = lever()
+    (tmp_path / "lever.glb").write_bytes(glb_bytes(asset, split_links(asset), ExportConfig()))
+    mesh = load_mesh(tmp_path / "lever.glb").mesh
+    found = {joint.name: joint for joint in mesh.joints}
+    assert set(found) == {"lever", "left", "right"}
+    np.testing.assert_allclose([np.ptp(found[n].limits) for n in ("lever", "left", "right")], [0.75, 1.5, 1.5], atol=1e-4)

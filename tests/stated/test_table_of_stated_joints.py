@@ -30,6 +30,7 @@ ROWS = {
     "bones that bend a mesh, bones of DAE": bones.test_a_bone_that_bends_a_mesh_gives_no_joint,
     "`KHR_physics_rigid_bodies`, `OMI_physics_joint`": physics.test_a_hinge_between_the_world_and_a_door,
     "physics joints of several axes, or closing a loop": physics.test_what_is_no_joint_of_a_tree_is_counted,
+    "what follows what (`extras.joint.mimic` of our own GLB)": animated.test_what_follows_in_our_own_glb_moves_by_itself,
     "masses, colliders and drives of physics extensions": physics.test_a_tree_of_bodies_hangs_on_the_largest_if_none_is_static,
     "physics joint and animation": physics.test_a_physics_joint_counts_before_an_animation,
 }
