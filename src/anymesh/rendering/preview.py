@@ -15,6 +15,7 @@ from anymesh.entry_points import TOGETHER, resolve
 from anymesh.geometry.kinematics import posed
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.rendering.drawing import (
+    Samples,
     Window,
     draw,
     face_colors,
@@ -82,41 +83,43 @@ def render_preview(asset: Asset) -> UInt8[np.ndarray, "H W 3"]:
     opened = _Pose(posed(asset, at), axis_shapes(asset, at)) if any(at.values()) else rest
     camera = best_camera(asset, opened.mesh, [rest.scene, opened.scene])
     window = _window(camera, [rest, opened])
-    samples = sample(render_target(asset.mesh, rest.scene, asset.segmentation.face_part), camera, window)
-    panels = [draw(samples, material_colors(asset.mesh, samples), light_on(samples), ground(*window.shape))]
-    drawn = [_colored(asset, pose, camera, window) for pose in (rest, opened)]
+    still = _sampled(asset, rest, camera, window)
+    moved = still if opened is rest else _sampled(asset, opened, camera, window)
+    panels = [draw(still, material_colors(asset.mesh, still), light_on(still), ground(*window.shape))]
     width = 3 * window.shape[1]
-    insets, alone = _insets(asset, _Pose(opened.mesh, axis_shapes(asset, at, 0.0)), camera, drawn[1][1], width)
-    for pose, (picture, _) in zip((rest, opened), drawn, strict=True):
-        axes = [axis for part, axis in _moving(asset, pose) if part not in alone]
-        panels.append(draw_axes(picture, axes, camera, corner=(window.left, window.top)))
+    small = dict(_moving(asset, axis_shapes(asset, at, 0.0)))
+    insets, alone = _insets(asset, opened, small, camera, moved.first.face, width)
+    for pose, samples in ((rest, still), (opened, moved)):
+        axes = [axis for part, axis in _moving(asset, pose.axes) if part not in alone]
+        panels.append(draw_axes(_colored(asset, samples), axes, camera, corner=(window.left, window.top)))
     return np.concatenate([np.concatenate(panels, 1), *insets, _legend(asset, width)])
 
 
-def _moving(asset: Asset, pose: _Pose) -> list[tuple[int, AxisShape]]:
+def _moving(asset: Asset, axes: Sequence[AxisShape]) -> list[tuple[int, AxisShape]]:
     """Return the index of each part that moves, with its axis."""
     moving = [asset.segmentation.numbers[j.child] for j in asset.joints if j.type is not JointType.FIXED]
-    return list(zip(moving, pose.axes, strict=True))
+    return list(zip(moving, axes, strict=True))
 
 
-def _colored(
-    asset: Asset, pose: _Pose, camera: Camera, window: Window
-) -> tuple[UInt8[np.ndarray, "h w 3"], Int[np.ndarray, " n"]]:
-    """Draw the parts in colours, and return the face that each pixel shows, -1 for none."""
-    samples = sample(render_target(pose.mesh, pose.scene, asset.segmentation.face_part), camera, window)
-    picture = draw(samples, face_colors(part_colors(asset), samples), light_on(samples), ground(*window.shape))
-    return picture, samples.first.face
+def _sampled(asset: Asset, pose: _Pose, camera: Camera, window: Window) -> Samples:
+    """Cast the rays of a window at a pose."""
+    return sample(render_target(pose.mesh, pose.scene, asset.segmentation.face_part), camera, window)
+
+
+def _colored(asset: Asset, samples: Samples) -> UInt8[np.ndarray, "h w 3"]:
+    """Draw the parts in colours."""
+    return draw(samples, face_colors(part_colors(asset), samples), light_on(samples), ground(*samples.window.shape))
 
 
 def _insets(
-    asset: Asset, pose: _Pose, camera: Camera, face: Int[np.ndarray, " n"], width: int
+    asset: Asset, pose: _Pose, axes: Mapping[int, AxisShape], camera: Camera, face: Int[np.ndarray, " n"], width: int
 ) -> tuple[list[UInt8[np.ndarray, "h w 3"]], set[int]]:
     """Return a row of close-ups of moving parts that the panel hardly shows, if there are any, and the parts in them.
 
-    Each is shown from where it is seen best. face: face that each pixel of the panel shows.
+    Each is shown from where it is seen best. axes: of each part that moves; face: face that each pixel of the panel shows.
     """
     parts, cells, size, least = asset.segmentation.face_part, [], width // MAX_INSETS, SMALL_SHARE * SIZE**2
-    axes, window = dict(_moving(asset, pose)), Window(0, 0, size, size)
+    window = Window(0, 0, size, size)
     pixels = np.bincount(parts[face[face >= 0]], minlength=len(asset.segmentation.parts))
     small, done = {k for k in axes if pixels[k] < least}, set[int]()
     for part in sorted(small, key=lambda k: pixels[k]):
@@ -126,11 +129,12 @@ def _insets(
         around = [orbit_camera(pose.mesh.bounds, np.deg2rad(a), np.deg2rad(ELEVATION), SKETCH) for a in AZIMUTHS]
         near = _clearest([framed(c, corners, INSET_AIR, SKETCH) for c in (camera, *around)], [pose.scene], parts == part)
         near = replace(near, width=size, height=size)
-        picture, shown = _colored(asset, pose, near, window)
+        samples = _sampled(asset, pose, near, window)
+        shown = samples.first.face
         count = np.bincount(parts[shown[shown >= 0]], minlength=len(pixels))
         here = {k for k in small if k == part or count[k] >= INSET_SHARE * count[part]}
         done |= here
-        cells.append(draw_axes(picture, [axes[k] for k in here], near))
+        cells.append(draw_axes(_colored(asset, samples), [axes[k] for k in here], near))
         cells[-1][[0, -1]] = cells[-1][:, [0, -1]] = EDGE
     blank = [np.full((size, width - size * len(cells), 3), 255, np.uint8)]
     return ([np.concatenate(cells + blank, 1)] if cells else []), done
