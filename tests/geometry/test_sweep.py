@@ -265,6 +265,27 @@ def test_a_turning_point_is_stopped_at_the_angle_of_the_surface() -> None:
     assert stops(passage, 0, 39)[0] == pytest.approx([np.pi / 2], abs=1e-3)
 
 
+@pytest.mark.parametrize("chunk", [(0, 3), (9, 18), (18, 36)])
+def test_points_that_are_left_out_stay_outside_the_bounds(chunk: tuple[int, int]) -> None:
+    """At 400 positions between the steps; of points around a cube, some are left out and some come near."""
+    rng, target = np.random.default_rng(0), shape_of(box((-0.5, -0.5, -0.5), (0.5, 0.5, 0.5)))
+    axes, origins = rng.normal(size=(24, 3)), rng.normal(size=(24, 3))
+    motions = [turn(a, o) if k % 3 else slide(a) for k, (a, o) in enumerate(zip(axes, origins, strict=True))]
+    points, amounts = 2 * rng.normal(size=(300, 3)), np.tile(np.linspace(0, np.pi, 37), (len(motions), 1))
+    poses = np.array([m.transforms(a) for m, a in zip(motions, amounts, strict=True)])
+    passage = Passage.of(points, np.zeros_like(points), poses, amounts, target, 0.01)
+    begin, end = chunk
+    may = passage._may_meet(np.ascontiguousarray(passage.poses[:, :, begin : end + 3]), end - begin)
+    fine = np.linspace(amounts[0, begin], amounts[0, end], 400)
+    inside = [
+        (np.abs(np.einsum("kij,nj->kni", T[:, :3, :3], points) + T[:, None, :3, 3]) <= 0.5).all(2).any(0)
+        for T in (m.transforms(fine) for m in motions)
+    ]
+    assert not (np.array(inside) & ~may).any()
+    assert np.array(inside).any()
+    assert may.mean() < 0.5
+
+
 def test_no_point_passes_without_motion() -> None:
     assert stops(slides(POINTS, sheet(0.0), np.zeros(4)), 0, 3)[0].tolist() == [np.inf] * 4
     assert stops(slides(POINTS, shape_of(box((5, 5, 5), (6, 6, 6))), [0, 1, 2]), 0, 2)[0].tolist() == [np.inf] * 4

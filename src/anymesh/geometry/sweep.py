@@ -29,6 +29,7 @@ ONWARD = np.float32(1e-4)  # share of a segment between the first hit and the st
 TOUCH = np.float32(1e-2)  # of the tolerance: a path that begins this near to a surface touches it
 TURNED_AWAY = np.float32(-1e-3)  # cosine between a path and the outward normal at its point: below, the solid moves off there
 MARGIN = 1e-5  # of the target's longest side: margin of its bounds in the test of segments
+MIN_COSINE = 0.2  # of half the arc of a chunk of steps; the bounds of longer ones say little
 CHUNKS = (3, 6, 9, 18)  # steps cast at a time, where the last size repeats; most blocked motions are blocked early
 AT_ONCE = 8  # motions swept together; more do not fit into a core's cache
 REACH_RATIO = 0.75  # of the diagonal of the part's bounds: distance from them within which the rest has sample points
@@ -42,9 +43,9 @@ class Passage(Brief):
     """Points that move past a target along T motions, in the unit frame of the target's ray scene.
 
     points: homogeneous; normals: of the closed solids that points lie on, outward, 0 for points of open surfaces: a point is
-    stopped only where its solid moves forward; poses: rigid transforms of the points at each of k steps, the first at rest;
-    amounts: of the motions at these steps; off: returns the directions in which points (indices) move off faces of the target
-    (indices) that they touch, None if contact at rest stops them.
+    stopped only where its solid moves forward; poses: rigid transforms of the points at each of k equal steps, the first at
+    rest; amounts: of the motions at these steps; off: returns the directions in which points (indices) move off faces of the
+    target (indices) that they touch, None if contact at rest stops them.
     """
 
     points: Float32[np.ndarray, "4 n"]
@@ -82,18 +83,18 @@ class Passage(Brief):
         Points that are not passing are left out.
         """
         poses = np.ascontiguousarray(self.poses[:, motions, begin : end + LOOK_AHEAD + 1])
-        (count, known), n, steps = poses.shape[1:3], self.points.shape[1], end - begin
-        # not by BLAS, whose own threads would compete with those of the sweeps
-        path = np.einsum("rk,kn->rn", poses.reshape(-1, 4), self.points).reshape(3, count, known, n)
-        t, k, i = self._near(path, passing, steps)
-        path = path.reshape(3, -1)  # column (t * known + k) * n + i: point i at step k of motion t
-        live = self._forward(path, poses, (t * known + k) * n + i)
-        t, k, i = np.unravel_index(live, (count, known, n))
-        ends = (t * known + known - 1) * n + i  # the last known step
+        n, known, steps = self.points.shape[1], poses.shape[2], end - begin
+        of_motion, of_point = np.nonzero(passing & self._may_meet(poses, steps))
+        columns = len(of_motion)  # column k * columns + c of the path: the point of column c at step k of its motion
+        groups = np.searchsorted(of_motion, np.arange(len(motions) + 1))
+        path = _moved(poses, self.points[:, of_point], groups)
+        live = self._near(path.reshape(3, known, columns), steps)
+        live = live[self._forward(path, _moved(poses[..., :3], self.normals[:, of_point], groups), live, columns)]
+        ends = (known - 1) * columns + live % columns  # the last known step
         start = _rows(path, live)
-        span = _rows(path, live + n) - start
+        span = _rows(path, live + columns) - start
         done = np.zeros(len(live), np.float32)  # share of each segment that is already checked
-        stop = np.full((count, n), np.inf)
+        stop = np.full((len(motions), n), np.inf)
         for _ in range(2):  # the second pass checks behind surfaces that were only left
             if len(live) == 0:
                 break
@@ -101,9 +102,10 @@ class Passage(Brief):
             struck = np.flatnonzero(hits.face >= 0)
             start, span, live, ends, done = start[struck], span[struck], live[struck], ends[struck], done[struck]
             where = done + (1 - done) * hits.distance[struck]
-            ahead = [_rows(path, np.minimum(live + a * n, ends)) for a in range(1, LOOK_AHEAD + 2)]
+            ahead = [_rows(path, np.minimum(live + a * columns, ends)) for a in range(1, LOOK_AHEAD + 2)]
             counts = self._counts(ahead, start, span, done, where, hits.face[struck])
-            t, k, i = np.unravel_index(live, (count, known, n))
+            k, c = np.divmod(live, max(columns, 1))
+            t, i = of_motion[c], of_point[c]
             if begin == 0:
                 counts &= (k > 0) | ~self._leaves_contact(i, span, where, hits.face[struck])
             t, k, i = t[counts], k[counts], i[counts]
@@ -115,25 +117,47 @@ class Passage(Brief):
             done = np.minimum(where[~counts] + ONWARD, np.float32(1.0))
         return stop
 
-    def _near(self, path: np.ndarray, passing: np.ndarray, steps: int) -> tuple[np.ndarray, ...]:
-        """Return the segments that come within the target's bounds: motion, step and point of each."""
+    def _may_meet(self, poses: np.ndarray, steps: int) -> Bool[np.ndarray, "t n"]:
+        """Return which points may come within the target's bounds along some motions; the others do not.
+
+        An arc lies in the triangle of its ends and of the point where the tangents at them meet, and the path of a slide or
+        a screw as well, if the rest of it is straight.
+        """
+        half_way = -(-steps // 2)
+        near = np.ones((poses.shape[1], self.points.shape[1]), bool)
+        if 2 * half_way >= poses.shape[2]:
+            return near
+        knots = poses[:, :, [0, half_way, 2 * half_way]]
+        turned = np.einsum("rtc,rtc->t", knots[:, :, 0, :3], knots[:, :, 1, :3]) / 2 - np.float32(0.5)  # cosine of half the arc
+        placed = np.einsum("rk,kn->rn", knots.reshape(-1, 4), self.points)
+        begin, middle, end = placed.reshape(3, len(turned), 3, -1).transpose(2, 0, 1, 3)
+        chord = (begin + end) / 2
+        tangents = chord + ((1 + turned) / np.maximum(turned, MIN_COSINE))[:, None] * (middle - chord)
+        margin = MARGIN * (2 + np.abs(knots[..., 3]).max() + np.abs(self.points).max())  # rounding
+        for axis, half in enumerate(self.target.scene.unit_half + margin):
+            corners = begin[axis], end[axis], tangents[axis]
+            near &= (np.maximum.reduce(corners) >= -half) & (np.minimum.reduce(corners) <= half)
+        return near | (turned < MIN_COSINE)[:, None]
+
+    def _near(self, path: Float32[np.ndarray, "3 k c"], steps: int) -> Int[np.ndarray, " s"]:
+        """Return the segments (columns of their first ends) that come within the target's bounds."""
         half = self.target.scene.unit_half + MARGIN
         above, below = path[0] >= -half[0], path[0] <= half[0]
-        near = (above[:, :steps] | above[:, 1 : steps + 1]) & (below[:, :steps] | below[:, 1 : steps + 1])
-        t, k, i = np.nonzero(near & passing[:, None])
+        near = (above[:steps] | above[1 : steps + 1]) & (below[:steps] | below[1 : steps + 1])
+        live = np.flatnonzero(near)
         for axis in (1, 2):
-            a, b = path[axis][t, k, i], path[axis][t, k + 1, i]
-            kept = np.flatnonzero((np.maximum(a, b) >= -half[axis]) & (np.minimum(a, b) <= half[axis]))
-            t, k, i = t[kept], k[kept], i[kept]
-        return t, k, i
+            along = path[axis].reshape(-1)
+            a, b = along[live], along[live + path.shape[2]]
+            live = live[(np.maximum(a, b) >= -half[axis]) & (np.minimum(a, b) <= half[axis])]
+        return live
 
-    def _forward(self, path: np.ndarray, poses: np.ndarray, live: Int[np.ndarray, " s"]) -> Int[np.ndarray, " f"]:
-        """Return the segments (columns of the path) along which the solid of the point moves forward at that point."""
-        n = self.points.shape[1]
-        normals = np.einsum("rk,kn->rn", poses[..., :3].reshape(-1, 3), self.normals).reshape(3, -1)
-        normal, span = normals.take(live, axis=1), path.take(live + n, axis=1) - path.take(live, axis=1)
+    def _forward(
+        self, path: Float32[np.ndarray, "3 m"], normals: Float32[np.ndarray, "3 m"], live: Int[np.ndarray, " s"], columns: int
+    ) -> Bool[np.ndarray, " s"]:
+        """Return along which segments (columns of the path) the solid of the point moves forward at that point."""
+        normal, span = normals.take(live, axis=1), path.take(live + columns, axis=1) - path.take(live, axis=1)
         length = np.sqrt(np.einsum("ij,ij->j", span, span))
-        return live[np.einsum("ij,ij->j", normal, span) >= TURNED_AWAY * length]
+        return np.einsum("ij,ij->j", normal, span) >= TURNED_AWAY * length
 
     def _counts(
         self,
@@ -193,6 +217,17 @@ class Passage(Brief):
     def _leaves(self, face: Int[np.ndarray, " h"], span: Float32[np.ndarray, "h 3"]) -> Bool[np.ndarray, " h"]:
         """Return which paths through a face of the target leave a closed solid there."""
         return self.target.solid[face] & (np.einsum("ij,ij->i", span, self.target.normals[face]) >= 0)
+
+
+def _moved(
+    poses: Float32[np.ndarray, "3 T k c"], points: Float32[np.ndarray, "c n"], groups: Int[np.ndarray, " t"]
+) -> np.ndarray:
+    """Return points at each step of their motion, in columns by step, then point. groups: first point of each motion, and n."""
+    path = np.empty((3, poses.shape[2], points.shape[1]), np.float32)
+    for motion, (a, b) in enumerate(itertools.pairwise(groups)):
+        # not by BLAS, whose own threads would compete with those of the sweeps
+        np.einsum("rkc,cn->rkn", poses[:, motion], points[:, a:b], out=path[:, :, a:b])
+    return path.reshape(3, -1)
 
 
 def _rows(path: Float32[np.ndarray, "3 k"], columns: Int[np.ndarray, " m"]) -> Float32[np.ndarray, "m 3"]:
