@@ -7,7 +7,7 @@ from functools import cache
 from typing import Any
 
 import numpy as np
-from jaxtyping import Float, Float32, Int, Int32
+from jaxtyping import Float, Float32, Int, Int32, Shaped
 
 from anymesh.errors import MissingExtraError
 from anymesh.types import Brief
@@ -63,21 +63,45 @@ def _device() -> Any:
     return EmbreeDevice()
 
 
-class RayScene:
-    """Triangles to cast rays at. Embree uses float32, so geometry is centred and scaled to keep its precision."""
+MAX_ROWS = 50_000  # faces that are turned into objects for speed, 180 bytes each
 
-    def __init__(self, vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> None:
+
+def index_rows(faces: Int[np.ndarray, "F 3"]) -> Shaped[np.ndarray, " F"]:
+    """Return the three indices of each face as a list.
+
+    Embreex copies vertices and faces in a loop that reads each number as an object. This takes 2.7 times as long if it has to
+    be made from an array of numbers first.
+    """
+    return np.fromiter(faces.tolist(), object, len(faces))
+
+
+class RayScene:
+    """Triangles to cast rays at. Embree uses float32, so geometry is centred and scaled to keep its precision.
+
+    faces: indices, or lists of them from `index_rows`; bounds: of the vertices that the faces have, if there are others.
+    """
+
+    def __init__(
+        self,
+        vertices: Float[np.ndarray, "V 3"],
+        faces: Int[np.ndarray, "F 3"] | Shaped[np.ndarray, " F"],
+        bounds: Float[np.ndarray, "2 3"] | None = None,
+    ) -> None:
         try:
             from embreex.mesh_construction import TriangleMesh  # ty: ignore[import-not-found]
             from embreex.rtcore_scene import EmbreeScene  # ty: ignore[import-not-found]
         except ImportError:
             raise MissingExtraError("embreex is missing; it is a dependency of articulate-anymesh; reinstall that") from None
-        low, high = bounds_of(vertices)
+        low, high = bounds_of(vertices) if bounds is None else bounds
         self.center, self.scale = (low + high) / 2, 1.0 / (float((high - low).max()) or 1.0)
         self.unit_half = ((high - low) / 2 * self.scale).astype(np.float32)  # half extents of the bounds in the unit frame
         self._scene = EmbreeScene(_device())
         inside = self.to_unit(vertices)
-        self._mesh = TriangleMesh(self._scene, inside, np.ascontiguousarray(faces, np.int32))
+        rows = index_rows(faces) if faces.ndim == 2 and len(faces) <= MAX_ROWS else faces
+        try:
+            self._mesh = TriangleMesh(self._scene, inside.astype(object) if rows.ndim == 1 else inside, rows)
+        except (TypeError, ValueError):  # an embreex that reads arrays as such takes no objects
+            self._mesh = TriangleMesh(self._scene, inside, np.array(rows.tolist(), np.int32))
         self.first_hit_unit(np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32))
 
     def first_hit(

@@ -13,11 +13,11 @@ from threading import Lock
 from typing import ParamSpec, TypeVar
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Bool, Float, Int, Shaped
 
 from anymesh.geometry.boxes import OrientedBox, box_in_frame, fit_box
 from anymesh.geometry.distance_ import TriangleTree
-from anymesh.geometry.raycast_ import RayScene
+from anymesh.geometry.raycast_ import RayScene, index_rows
 from anymesh.types import Brief
 from anymesh.types.triangles import bounds_of, box_corners, boxes_meet, corner_bounds, crosses, normals_and_areas, unshared
 
@@ -131,29 +131,41 @@ class KnownFaces(Brief):
     """Data shared by a triangle set and all its subsets.
 
     positions: (V, 3) distinct corner positions in lexical order, including those of faces that were not taken [m]; corner: (F,
-    3) position index of each corner; areas: (F,) [m^2].
+    3) position index of each corner; areas: (F,) [m^2]; rows: (F,) the position indices, as from `index_rows`.
     """
 
     positions: Float[np.ndarray, "V 3"]
     corner: Int[np.ndarray, "F 3"]
     areas: Float[np.ndarray, " F"]
+    rows: Shaped[np.ndarray, " F"]
 
     @classmethod
     def of(cls, triangles: Float[np.ndarray, "F 3 3"]) -> KnownFaces:
         """Build the data of the faces of an object."""
         positions, corner = np.unique(triangles.reshape(-1, 3), axis=0, return_inverse=True)
-        return cls(positions, corner.reshape(-1, 3), normals_and_areas(triangles)[1])
+        corner = corner.reshape(-1, 3)
+        return cls(positions, corner, normals_and_areas(triangles)[1], index_rows(corner))
 
     def take(self, index: np.ndarray) -> KnownFaces:
         """Return the data of some of the faces."""
-        return KnownFaces(self.positions, self.corner[index], self.areas[index])
+        return KnownFaces(self.positions, self.corner[index], self.areas[index], self.rows[index])
 
     @cached_property
-    def compact(self) -> tuple[Float[np.ndarray, "n 3"], Int[np.ndarray, "F 3"]]:
-        """Return the corner positions of these faces in lexical order, and the faces as indices of them."""
+    def _used(self) -> Bool[np.ndarray, " V"]:
         used = np.zeros(len(self.positions), bool)
         used[self.corner.reshape(-1)] = True
-        return self.positions[used], (np.cumsum(used) - 1)[self.corner]
+        return used
+
+    @cached_property
+    def corners(self) -> Float[np.ndarray, "n 3"]:
+        """Return the corner positions of these faces in lexical order."""
+        return self.positions[self._used]
+
+    def scene(self, bounds: Float[np.ndarray, "2 3"]) -> RayScene:
+        """Return the ray caster of these faces with these bounds: with all positions, unless most of them are of others."""
+        if 2 * len(self.corners) > len(self.positions):
+            return RayScene(self.positions, self.rows, bounds)
+        return RayScene(self.corners, (np.cumsum(self._used) - 1)[self.corner])
 
 
 @dataclass(frozen=True, eq=False)
@@ -213,12 +225,12 @@ class TriangleSet(Brief):
     @cached_property
     def scene(self) -> RayScene:
         """Return the ray caster of these triangles."""
-        return RayScene(*(unshared(self.triangles) if self.known is None else self.known.compact))
+        return RayScene(*unshared(self.triangles)) if self.known is None else self.known.scene(self.bounds)
 
     @cached_property
     def corners(self) -> Float[np.ndarray, "n 3"]:
         """Return the distinct corner positions [m]."""
-        return np.unique(self.triangles.reshape(-1, 3), axis=0) if self.known is None else self.known.compact[0]
+        return np.unique(self.triangles.reshape(-1, 3), axis=0) if self.known is None else self.known.corners
 
     @cached_property
     def samples(self) -> SurfacePoints:
