@@ -154,7 +154,7 @@ def test_no_triangles_to_search_are_an_error_not_a_crash() -> None:
 def test_far_triangles_are_left_out_of_the_search(monkeypatch: pytest.MonkeyPatch) -> None:
     sizes = []
     monkeypatch.setattr(
-        "anymesh.geometry.triangle_set.TriangleTree", lambda some: (sizes.append(len(some)), TriangleTree(some))[1]
+        "anymesh.geometry.distance_.TriangleTree", lambda some: (sizes.append(len(some)), TriangleTree(some))[1]
     )
     ball = sphere()
     ball.nearest(np.array([[0.0, 0.0, 1.01], [0.02, 0.0, 1.0]]))

@@ -182,7 +182,7 @@ def test_a_wheel_has_surface_on_its_axis(gap: float, held: bool) -> None:
 
 def test_the_contact_grows_until_eight_samples_touch() -> None:
     part = context([box((0, 0, 0.05), (1, 1, 0.1))], [box((0, 0, -1), (1, 1, 0))])
-    near, normals = touching(part, 0.01)  # 5 cm apart: 1, 2, 4, 8 cm
+    near, normals, _ = touching(part, 0.01)  # 5 cm apart: 1, 2, 4, 8 cm
     assert near.sum() >= 8
     assert part.gap[near].max() < 0.08
     assert np.mean(normals[near] @ [0, 0, 1]) > 0.95

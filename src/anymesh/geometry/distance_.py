@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
+
 import numpy as np
 from jaxtyping import Float, Int
 
-from anymesh.types.triangles import unshared
+from anymesh.types import Brief
+from anymesh.types.triangles import bounds_of, boxes_meet, unshared
 
 
 def distance_to_mesh(
@@ -51,6 +55,81 @@ class TriangleTree:
 def distance_to_triangles(points: Float[np.ndarray, "n 3"], triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, " n"]:
     """Return the distance of each point to the closest of some triangles."""
     return TriangleTree(triangles).distance(points) if len(points) else np.zeros(0)
+
+
+def distances_within(
+    points: Float[np.ndarray, "n 3"], triangles: Float[np.ndarray, "F 3 3"], limit: float
+) -> Float[np.ndarray, " n"]:
+    """Return the distance of each point to the closest of some triangles, inf if it is `limit` or more.
+
+    The search for a point ends once nothing is left within the limit, which takes less time than finding what is farther.
+    """
+    import igl
+
+    if not len(points) or not len(triangles):
+        return np.full(len(points), np.inf)
+    vertices, faces = (np.ascontiguousarray(array) for array in unshared(triangles))
+    probe, kind = np.ascontiguousarray(points, np.float64), igl.SignedDistanceType.SIGNED_DISTANCE_TYPE_UNSIGNED
+    distance = np.atleast_1d(igl.signed_distance(probe, vertices, faces, kind, 0.0, limit)[0])
+    return np.where(np.isnan(distance), np.inf, distance)
+
+
+GUESSED_STRIDE, GUESSED_SHARE = 30, 0.62  # one of so many points is measured; share of them within the distance of half of all
+
+
+@dataclass(frozen=True, eq=False)
+class NearestSearch(Brief):
+    """The search for the triangles nearest to some points.
+
+    Triangles that are further from the bounds of the points than any of them is from one corner are left out before a tree is
+    built, which takes longer than the search.
+
+    corners: of the triangles; boxes: lower and upper corner of the axis-aligned box of each triangle.
+    """
+
+    points: Float[np.ndarray, "n 3"]
+    triangles: Float[np.ndarray, "F 3 3"]
+    corners: Float[np.ndarray, "k 3"]
+    boxes: tuple[Float[np.ndarray, "F 3"], Float[np.ndarray, "F 3"]]
+
+    @cached_property
+    def _rows(self) -> Int[np.ndarray, " m"]:
+        low, high = bounds_of(self.points)
+        corner = self.corners[((self.corners - (low + high) / 2) ** 2).sum(1).argmin()]
+        return self._within(float(np.linalg.norm(self.points - corner, axis=1).max()))
+
+    def _within(self, reach: float) -> Int[np.ndarray, " m"]:
+        """Return the triangles within `reach` of the bounds of the points; rounding must not leave out one at this distance."""
+        low, high = bounds_of(self.points)
+        return np.flatnonzero(boxes_meet(*self.boxes, low - 1.001 * reach, high + 1.001 * reach))
+
+    @cached_property
+    def _tree(self) -> TriangleTree:
+        return TriangleTree(self.triangles[self._rows])
+
+    def nearest(self, which: Int[np.ndarray, " k"]) -> tuple[Float[np.ndarray, " k"], Int[np.ndarray, " k"]]:
+        """Return the distance of some of the points [units of the input], and the index of the nearest triangle."""
+        if not len(which):
+            return np.zeros(0), np.zeros(0, np.int64)
+        distance, face, _ = self._tree.nearest(self.points[which])
+        return distance, self._rows[face]
+
+    def within(self, limit: float) -> Float[np.ndarray, " n"]:
+        """Return the distance of each point [units of the input], inf if it is `limit` or more."""
+        return distances_within(self.points, self.triangles[self._within(limit)], limit)
+
+    def nearer_half(self, least: float) -> Float[np.ndarray, " n"]:
+        """Return the distance of each point [units of the input]; inf for some that are farther than half of all and `least`.
+
+        The limit of the search is estimated from a few points.
+        """
+        if not len(self.points):
+            return np.zeros(0)
+        few = np.sort(self.nearest(np.arange(0, len(self.points), GUESSED_STRIDE))[0])
+        limit = max(least, float(few[int(GUESSED_SHARE * (len(few) - 1))]))
+        distance = self.within(limit)
+        enough = np.isfinite(distance).sum() > len(distance) // 2
+        return distance if enough else self.nearest(np.arange(len(distance)))[0]
 
 
 def winding_number(

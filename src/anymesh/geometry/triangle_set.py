@@ -16,10 +16,10 @@ import numpy as np
 from jaxtyping import Bool, Float, Int, Shaped
 
 from anymesh.geometry.boxes import OrientedBox, box_in_frame, fit_box
-from anymesh.geometry.distance_ import TriangleTree
+from anymesh.geometry.distance_ import NearestSearch, TriangleTree
 from anymesh.geometry.raycast_ import RayScene, index_rows
 from anymesh.types import Brief
-from anymesh.types.triangles import bounds_of, box_corners, boxes_meet, corner_bounds, crosses, normals_and_areas, unshared
+from anymesh.types.triangles import bounds_of, box_corners, corner_bounds, crosses, normals_and_areas, unshared
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -208,19 +208,12 @@ class TriangleSet(Brief):
         return TriangleTree(self.triangles)
 
     def nearest(self, points: Float[np.ndarray, "n 3"]) -> tuple[Float[np.ndarray, " n"], Int[np.ndarray, " n"]]:
-        """Return the distance of each point to these triangles [m], and the index of the nearest triangle.
+        """Return the distance of each point to these triangles [m], and the index of the nearest triangle."""
+        return self.search(points).nearest(np.arange(len(points)))
 
-        Triangles that are further from the bounds of the points than any of them is from one corner are left out before a tree
-        is built, which takes longer than the search.
-        """
-        if not len(points):
-            return np.zeros(0), np.zeros(0, np.int64)
-        low, high = bounds_of(points)
-        corner = self.corners[((self.corners - (low + high) / 2) ** 2).sum(1).argmin()]
-        reach = 1.001 * float(np.linalg.norm(points - corner, axis=1).max())  # rounding must not leave out the corner itself
-        near = np.flatnonzero(boxes_meet(self.lowest, self.highest, low - reach, high + reach))
-        distance, face, _ = TriangleTree(self.triangles[near]).nearest(points)
-        return distance, near[face]
+    def search(self, points: Float[np.ndarray, "n 3"]) -> NearestSearch:
+        """Return the search for the triangles nearest to some points."""
+        return NearestSearch(points, self.triangles, self.corners, (self.lowest, self.highest))
 
     @cached_property
     def scene(self) -> RayScene:

@@ -69,16 +69,24 @@ class _Part(Brief):
 class _Protrusion(Brief):
     """What lies beyond a level of a part's box.
 
-    points: (n, 3) samples in the box frame [m]; corners: (c, 3) in the box frame, exact [m]; share: of the part's surface; gap:
-    distances of some samples to the parent [m]; spacing: mean distance of neighbouring samples [m]; faces: of the part.
+    points: (n, 3) samples in the box frame [m]; corners: (c, 3) in the box frame, exact [m]; share: of the part's surface;
+    probes: some of the samples [m]; spacing: mean distance of neighbouring samples [m]; faces: of the part.
     """
 
     points: Float[np.ndarray, "n 3"]
     corners: Float[np.ndarray, "c 3"]
     share: float
-    gap: Float[np.ndarray, " m"]
+    probes: Float[np.ndarray, "m 3"]
     spacing: float
     faces: Int[np.ndarray, " k"]
+
+    def is_near(self, parent: TriangleSet, share: float, limit: float) -> bool:
+        """Return whether a quantile of the distances of the probes to the parent is below a limit [m]."""
+        search = parent.search(self.probes)
+        gap, low = np.sort(search.within(limit)), int(share * (len(self.probes) - 1))
+        if np.isinf(gap[low : low + 2]).any() and np.isfinite(gap[low]):  # the quantile is between both
+            gap = search.nearest(np.arange(len(gap)))[0]
+        return bool(np.isfinite(gap[low])) and quantile(gap, share) < limit
 
 
 def _beyond(part: _Part, axis: int, sign: float, level: float) -> _Protrusion | None:
@@ -99,7 +107,7 @@ def _beyond(part: _Part, axis: int, sign: float, level: float) -> _Protrusion | 
     share = float(some.areas @ shares_above(heights[faces], level)) / max(part.shape.area, 1e-300)
     corners = core.local(points_above(some.triangles, heights[faces], level))
     spacing = float(np.sqrt(some.area / len(local)))
-    return _Protrusion(local[out], corners, share, part.parent.nearest(some.samples.points[few])[0], spacing, faces)
+    return _Protrusion(local[out], corners, share, some.samples.points[few], spacing, faces)
 
 
 def _tab(part: _Part, scale: float, opening_direction: np.ndarray) -> Handle | None:
@@ -109,7 +117,7 @@ def _tab(part: _Part, scale: float, opening_direction: np.ndarray) -> Handle | N
     for row, k in enumerate(face):
         for sign in (-1.0, 1.0):
             out = _beyond(part, k, sign, least)
-            if out is None or out.share > MAX_PROTRUSION_RATIO or float(np.median(out.gap)) < MIN_TAB_GAP_RATIO * scale:
+            if out is None or out.share > MAX_PROTRUSION_RATIO or out.is_near(part.parent, 0.5, MIN_TAB_GAP_RATIO * scale):
                 continue
             along, half = out.corners[:, face[1 - row]], max(float(core.half[face[1 - row]]), 1e-9)
             if np.ptp(along) < half:  # at most half of the rim; a wider one is a ledge
@@ -129,7 +137,7 @@ def _face_handle(part: _Part, scale: float, opening_direction: np.ndarray) -> Ha
     sign = float(np.sign(core.axes[k] @ opening_direction))
     height, least = float(part.heights(k, sign).max()), MIN_HANDLE_HEIGHT_RATIO * core.diagonal
     out = _beyond(part, k, sign, max(least, height / 2))
-    if out is None or out.share > MAX_COVERED_SHARE or quantile(out.gap, 0.1) < MIN_HANDLE_GAP_RATIO * scale:
+    if out is None or out.share > MAX_COVERED_SHARE or out.is_near(part.parent, 0.1, MIN_HANDLE_GAP_RATIO * scale):
         return None
     at = out.points[:: max(1, len(out.points) // GROUPED_POINTS), face]
     near = KDTree(at).query_pairs(max(0.03 * core.diagonal, 6 * out.spacing), output_type="ndarray")

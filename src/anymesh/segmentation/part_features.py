@@ -110,12 +110,21 @@ def on_axis(context: PartContext) -> bool:
     return bool((context.rest.scene.first_hit(ends - rays, 2 * rays, 1.0).face >= 0).any())
 
 
-def touching(context: PartContext, tolerance: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return which samples are within `tolerance` [m] of the rest, and the rest's normal at the closest point of each."""
-    gap, face = context.nearest
+def touching(context: PartContext, tolerance: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return which samples are within `tolerance` [m] of the rest, the rest's normals at their closest points, and the gaps.
+
+    Normals of other samples are 0. Gaps larger than those of half of the samples may be inf [m].
+    """
+    search = context.parent.search(context.part.samples.points)
+    gap = search.nearer_half(tolerance)
     while (gap < tolerance).sum() < min(8, len(gap)):  # as the connecting area grows in the paper
         tolerance *= 2
-    return gap < tolerance, context.parent.normals[face]
+    if tolerance > gap[np.isfinite(gap)].max(initial=0.0):
+        gap = search.nearer_half(tolerance)
+    near = np.flatnonzero(gap < tolerance)
+    normals = np.zeros((len(gap), 3))
+    normals[near] = context.parent.normals[search.nearest(near)[1]]
+    return gap < tolerance, normals, gap
 
 
 def fit_of_rim(context: PartContext) -> tuple[int, float]:
@@ -253,9 +262,9 @@ def _place(context: PartContext) -> dict[str, float]:
 
 
 def _fit(context: PartContext) -> dict[str, float]:
-    near, normals = touching(context, 2 * TOUCH_RATIO * context.diagonal)
+    near, normals, gap = touching(context, 2 * TOUCH_RATIO * context.diagonal)
     sides, flush = fit_of_rim(context)
-    gaps = [quantile(context.gap, share) / context.diagonal for share in (0.05, 0.5)]
+    gaps = [quantile(gap, share) / context.diagonal for share in (0.05, 0.5)]
     outer = context.part.samples.normals @ context.opening_direction
     back = outer < -FACING_COSINE
     return {
