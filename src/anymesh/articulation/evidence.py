@@ -182,11 +182,12 @@ def sides(context: PartContext, motion: Motion) -> np.ndarray:
 
 def _guided_share(context: PartContext, prismatic: list[Motion]) -> list[float]:
     """Return the share of the four directions across each slide in which the part is stopped within GUIDE_STEP_RATIO."""
-    sideways = [Motion(JointType.PRISMATIC, d, m.origin, "sideways") for m in prismatic for d in sides(context, m)]
-    step = [GUIDE_STEP_RATIO * context.tolerance_length] * (2 * len(sideways))
-    signs = [1] * len(sideways) + [-1] * len(sideways)
-    free = free_amounts(context.obstacles_with_others, sideways + sideways, signs, step, 3) if prismatic else []
-    stopped = np.array([not clear for _, clear in free], bool).reshape(2, len(prismatic), 2)
+    ways = [sign * d + 0.0 for sign in (1, -1) for m in prismatic for d in sides(context, m)]  # without -0
+    apart = {way.tobytes(): Motion(JointType.PRISMATIC, way, context.body_obb.center, "sideways") for way in ways}
+    step = [GUIDE_STEP_RATIO * context.tolerance_length] * len(apart)
+    free = free_amounts(context.obstacles_with_others, list(apart.values()), [1] * len(apart), step, 3) if prismatic else []
+    clear = dict(zip(apart, [clear for _, clear in free], strict=True))  # slides share directions
+    stopped = np.array([not clear[way.tobytes()] for way in ways], bool).reshape(2, len(prismatic), 2)
     return [float(share) for share in stopped.mean((0, 2))]
 
 
