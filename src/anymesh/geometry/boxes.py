@@ -85,12 +85,12 @@ def fit_box(
     directions = dominant_normals(normals, weights)
     spread = points - points.mean(0)
     principal = np.linalg.svd(spread.T @ spread / max(len(points), 1))[2]
+    flat = [spread - np.outer(spread @ first, first) for first in directions]
+    longest = np.linalg.svd(np.array([f.T @ f for f in flat]).reshape(-1, 3, 3))[2][:, 0]
     for i, first in enumerate(directions):
         rest = [directions[j] for j in range(len(directions)) if j != i and abs(directions[j] @ first) < 0.1]
-        flat = spread - np.outer(spread @ first, first)
-        rest.append(np.linalg.svd(flat.T @ flat)[2][0])
-        rest.extend(np.eye(3))
-        frames.extend(f for second in rest if (f := _frame(first, second)) is not None)
+        others = {second.tobytes(): second for second in (*rest, longest[i], *np.eye(3))}  # one frame of equal ones
+        frames.extend(f for second in others.values() if (f := _frame(first, second)) is not None)
     frames.append(_frame(principal[0], principal[1]) if len(points) > 2 else None)
     tried = np.array([f for f in frames if f is not None])
     step = max(1, BLOCK // max(len(points), len(normals), 1))

@@ -90,7 +90,11 @@ def _last_per_bin(bin_of: Int[np.ndarray, " n"], key: Float[np.ndarray, " n"]) -
 
 def roundest(points: Float[np.ndarray, "n 3"], axes: Float[np.ndarray, "k 3"]) -> Outline:
     """Return the roundest outline among those along the given axes; the first one at a tie, and if none is at all round."""
-    outlines = [outline_about(points, axis) for axis in axes]
+    outlines = list[Outline]()
+    for axis in axes:
+        outlines.append(outline_about(points, axis))
+        if outlines[-1].roundness == 1:
+            break
     best = max(outlines, key=lambda o: o.roundness)
     return best if best.roundness > CHANCE_ROUNDNESS else outlines[0]
 
