@@ -21,13 +21,14 @@ from anymesh.errors import InputError, OutputError
 from anymesh.export import write_asset
 from anymesh.export.asset_json import asset_record, schema
 from anymesh.export.formats import write_formats
-from anymesh.export.links import split_links, unique_rows
+from anymesh.export.links import split_links
 from anymesh.export.model import build_model
 from anymesh.export.options import DEFAULT, Base, ExportOptions
 from anymesh.formats.packed import check_zip, write_package, write_zip
 from anymesh.pipeline.results import JointResult
 from anymesh.pipeline.stage_files import JOINTS, read_stage, write_stage
 from anymesh.types import Asset, Hull, Part, Segmentation
+from anymesh.types.triangles import unique_rows
 
 SHARED = Path(__file__).parents[3] / "shared" / "check_contract.py"
 

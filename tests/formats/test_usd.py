@@ -8,6 +8,7 @@ pytest.importorskip("pxr")
 from usda import BOUND, QUAD, TWO, material, mesh, picture, pixel, read, reader, texture, xform
 
 from anymesh.types.mesh import CLAMP, MIRROR, REPEAT
+from anymesh.types.triangles import face_cross
 
 
 def concave_faces(folder):
@@ -55,7 +56,7 @@ def primitives(folder):
     for text, (extents, volume) in size.items():
         found, _ = read(folder, text.replace("{ ", "{\n").replace(" }", "\n}") + "\n")
         assert found.mesh.extents == pytest.approx(extents)
-        enclosed = np.einsum("ij,ij->i", found.mesh.triangles[:, 0], found.mesh.face_cross).sum() / 6
+        enclosed = np.einsum("ij,ij->i", found.mesh.triangles[:, 0], face_cross(found.mesh.triangles)).sum() / 6
         assert enclosed == pytest.approx(volume, rel=0.03)
     plane, _ = read(folder, 'def Plane "p"\n{\ndouble width = 4\ndouble length = 2\nuniform token axis = "Y"\n}\n')
     assert plane.mesh.extents == pytest.approx((4, 0, 2))

@@ -27,7 +27,7 @@ def area(triangles: np.ndarray) -> float:
 
 def test_the_smallest_index_comes_first_and_the_winding_stays() -> None:
     faces = np.array([[2, 0, 1], [5, 3, 4], [3, 4, 5], [8, 9, 7]])
-    assert simplify_._smallest_index_first(faces).tolist() == [[0, 1, 2], [3, 4, 5], [3, 4, 5], [7, 8, 9]]
+    assert simplify_.smallest_index_first(faces).tolist() == [[0, 1, 2], [3, 4, 5], [3, 4, 5], [7, 8, 9]]
 
 
 def test_a_closed_surface_has_no_border_and_without_a_face_it_has_one() -> None:

@@ -16,13 +16,14 @@ from anymesh.prompted.pictures.drawing import (
     draw_arrows,
     draw_marks,
     draw_points,
+    highlight,
     labels_apart,
     mark_positions,
 )
 from anymesh.prompted.pictures.plates import beside, contrast, mark_color, plate_size, window_sums
 from anymesh.prompted.pictures.sheet import question_sheet
 from anymesh.prompted.pictures.views import hidden_points, views
-from anymesh.rendering.marks import highlight, rim
+from anymesh.rendering.marks import rim
 from anymesh.types import Picture
 from anymesh.types.camera import Camera
 

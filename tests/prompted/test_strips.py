@@ -7,6 +7,7 @@ from assets import box, mesh_of
 from anymesh.config import Config
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.prompted.pictures import strips
+from anymesh.prompted.pictures.drawing import HIGHLIGHT
 from anymesh.prompted.pictures.sides import CLEAR, SeenFrom, Sides, emptiest_corner
 from anymesh.prompted.pictures.strips import (
     PANEL,
@@ -21,7 +22,6 @@ from anymesh.prompted.pictures.strips import (
 )
 from anymesh.prompted.pictures.views import is_beside, views
 from anymesh.prompted.pictures.visual_prompts import BAR, card_view, part_card, titled
-from anymesh.rendering.marks import HIGHLIGHT
 from anymesh.rendering.render import render
 from anymesh.rendering.viewpoints import away
 from anymesh.types import JointType, Motion

@@ -12,6 +12,7 @@ from anymesh.geometry.circles import outline_about
 from anymesh.geometry.superpoints import superpoints
 from anymesh.geometry.topology import EdgePairs, edge_pairs, label_connected
 from anymesh.types import Asset, Brief
+from anymesh.types.triangles import face_cross
 
 FLAT = np.deg2rad(5)  # [rad] maximum angle between faces of one plane
 SMOOTH = np.deg2rad(40)  # [rad] maximum angle between neighbours on a round surface
@@ -63,7 +64,7 @@ class PickedPart:
     def normal(self, point: Float[np.ndarray, " 3"]) -> Line:
         """Return the normal of the picked plane, through the point [m]."""
         plane = self.faces[self._region(FLAT, of_first=True)]
-        total = self._mesh.face_cross[plane].sum(0)
+        total = face_cross(self._mesh.triangles[plane]).sum(0)
         if np.linalg.norm(total) == 0:
             raise CorrectionError("the face picked has no area; pick another")
         return Line(total / np.linalg.norm(total), point, "snapped to a plane's normal")

@@ -5,10 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from jaxtyping import Float, Float32, Int, UInt8, UInt64
+from jaxtyping import Float, Float32, Int, UInt8
 
 from anymesh.names import legal_name, legal_names
 from anymesh.types import Asset, Brief, Joint, Mesh, Part
+from anymesh.types.triangles import corners_of, unique_rows
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,7 +49,7 @@ class Link(Brief):
     @property
     def triangles(self) -> Float[np.ndarray, "m 3 3"]:
         """Return the corner positions of all faces in the link frame [m]."""
-        return np.concatenate([p.positions[p.triangles] for p in self.primitives])
+        return np.concatenate([corners_of(p.positions, p.triangles) for p in self.primitives])
 
 
 def with_legal_names(asset: Asset) -> Asset:
@@ -103,7 +104,7 @@ def split_links(asset: Asset) -> tuple[Link, ...]:
 def _primitive(mesh: Mesh, faces: np.ndarray, origin: np.ndarray) -> Primitive:
     """Return the faces, all of one material, with equal corners merged."""
     corner = mesh.faces[faces].reshape(-1)
-    positions = mesh.vertices[corner] + 0.0  # -0.0 becomes 0.0, so that the two are equal
+    positions = mesh.vertices.take(corner, axis=0) + 0.0  # -0.0 becomes 0.0, so that the two are equal
 
     def rows(attribute: np.ndarray | None, width: int) -> np.ndarray | None:
         return None if attribute is None else attribute[faces].reshape(-1, width)
@@ -139,31 +140,3 @@ def _unit(normals: np.ndarray, fallback: np.ndarray) -> np.ndarray:
     length[bad] = 1
     exact[bad & ~exact.any(1)] = (0, 0, 1)
     return (exact / length).astype(np.float32) + np.float32(0)
-
-
-def unique_rows(columns: list[UInt64[np.ndarray, " n"]]) -> tuple[Int[np.ndarray, " k"], Int[np.ndarray, " n"]]:
-    """Return the first row of each distinct value, in order of appearance, and the index of the value of every row.
-
-    Rows are hashed and the hash is sorted, which is 5 times faster than sorting rows. The result is checked against the rows.
-    """
-    key = np.zeros(len(columns[0]), np.uint64)
-    for column in columns:
-        key = (key ^ column) * np.uint64(0x9E3779B97F4A7C15)
-        key ^= key >> np.uint64(29)
-    first, inverse = _kinds(key)
-    if all((c == c[first][inverse]).all() for c in columns):
-        return first, inverse
-    kinds = np.unique(np.stack(columns, 1), axis=0, return_inverse=True)[1]
-    return _kinds(kinds.reshape(-1).astype(np.uint64))
-
-
-def _kinds(key: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    order = np.argsort(key)
-    ordered = key[order]
-    starts = np.flatnonzero(np.r_[True, ordered[1:] != ordered[:-1]])
-    first = np.minimum.reduceat(order, starts)  # independent of the order of equal keys in the sort
-    rank = np.empty(len(first), np.int64)
-    rank[np.argsort(first)] = np.arange(len(first))
-    inverse = np.empty(len(key), np.int64)
-    inverse[order] = np.repeat(rank, np.diff(np.r_[starts, len(key)]))
-    return np.sort(first), inverse

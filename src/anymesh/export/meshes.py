@@ -17,7 +17,7 @@ from anymesh.export.model import FOLDER, ExportConfig, ExportLink, Model, faces_
 from anymesh.names import legal_names
 from anymesh.types import Hull, Material, Mesh
 from anymesh.types.mesh import TEXTURE_SLOTS, to_srgb
-from anymesh.types.triangles import CUBE_CORNERS, face_cross
+from anymesh.types.triangles import CUBE_CORNERS, bounds_of, corners_of, face_cross, lengths
 
 POINT = 1e-4  # [m] side of a link without any extent
 SUFFIXES = {"image/png": ".png", "image/jpeg": ".jpg"}
@@ -89,7 +89,7 @@ def _mtl(name: str, material: Material, textures: Mapping[bytes, str]) -> str:
 def visible(link: Link, config: ExportConfig) -> tuple[Primitive, ...]:
     """Return the link's primitives that have an area, with a back sheet if they are flat; a small box if there are none."""
     triangles = link.triangles
-    size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0)))
+    size = float(np.linalg.norm(np.ptp(bounds_of(triangles.reshape(-1, 3)), axis=0)))
     least = max(MIN_AREA, MIN_AREA_SHARE * size**2)
     primitives = tuple(p for p in link.primitives if _area(p) > least)
     if not primitives:
@@ -112,7 +112,7 @@ def with_four_corners(primitive: Primitive) -> Primitive:
 
 
 def _area(primitive: Primitive) -> float:
-    return float(np.linalg.norm(face_cross(primitive.positions[primitive.triangles]), axis=1).sum() / 2)
+    return float(lengths(face_cross(corners_of(primitive.positions, primitive.triangles))).sum() / 2)
 
 
 def _with_back(primitive: Primitive, shift: np.ndarray) -> Primitive:
@@ -187,7 +187,7 @@ def flat_normal(points: Float[np.ndarray, "n 3"], *, share: float) -> Float[np.n
     """Return the unit normal of points within `share` of their diagonal of a plane, None if they are not plane."""
     spread = points - points.mean(0)
     normal = np.linalg.eigh(spread.T @ spread)[1][:, 0]
-    if float(np.ptp(spread @ normal)) > share * float(np.linalg.norm(np.ptp(points, axis=0))):
+    if float(np.ptp(spread @ normal)) > share * float(np.linalg.norm(np.ptp(bounds_of(points), axis=0))):
         return None
     return normal if normal[np.abs(normal).argmax()] > 0 else -normal
 
@@ -219,7 +219,7 @@ def display_color(mesh: Mesh, p: Primitive) -> tuple[float, ...]:
 
 def widest(link: Link) -> Primitive:
     """Return the primitive that covers most of the link."""
-    return max(link.primitives, key=lambda p: float(np.linalg.norm(face_cross(p.positions[p.triangles]), axis=1).sum()))
+    return max(link.primitives, key=_area)
 
 
 def texture_files(*meshes: Mesh) -> dict[bytes, str]:

@@ -17,7 +17,7 @@ from anymesh.finishing.texture import Carried, Painted, colors_at
 from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.topology import edge_pairs, label_connected
 from anymesh.types import Brief, Material, Mesh, Texture
-from anymesh.types.triangles import unshared
+from anymesh.types.triangles import face_cross, unshared
 
 WHITE = (1.0, 1.0, 1.0, 1.0)
 BASE, ALPHA, METAL, LIGHT = "base_color", "alpha", "metallic_roughness", "emissive"
@@ -134,8 +134,9 @@ def lay_out(mesh: Mesh, size: int, padding: int) -> Layout:
     A chart is a connected set of faces with the same dominant axis, projected along that axis, so no length shrinks by more
     than a factor of 1.8. Raise OptionError if the charts do not fit.
     """
-    direction = 2 * np.abs(mesh.face_cross).argmax(1)
-    direction += np.take_along_axis(mesh.face_cross, direction[:, None] // 2, 1)[:, 0] < 0
+    cross = face_cross(mesh.triangles)
+    direction = 2 * np.abs(cross).argmax(1)
+    direction += np.take_along_axis(cross, direction[:, None] // 2, 1)[:, 0] < 0
     flat, depth = _flattened(mesh, direction)
     pairs = edge_pairs(mesh.vertices, mesh.faces).faces
     pairs = pairs[direction[pairs[:, 0]] == direction[pairs[:, 1]]]

@@ -11,10 +11,10 @@ from jaxtyping import Float
 
 from anymesh.errors import InputError
 from anymesh.export.glb import INDICES, VERTICES, GlbBuffer
-from anymesh.export.links import unique_rows
 from anymesh.formats.gltf.scene import read_gltf
 from anymesh.loading.files import Folder
 from anymesh.types import Mesh
+from anymesh.types.triangles import unique_rows
 
 Y_UP = np.array([[1.0, 0, 0], [0, 0, 1], [0, -1, 0]])  # from Z up
 SAMPLER = {"magFilter": 9729, "minFilter": 9987, "wrapS": 10497, "wrapT": 10497}

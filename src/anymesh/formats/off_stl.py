@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.formats.polygons_ import fans, recut, usable_polygons, with_points
-from anymesh.loading.files import ASCII_STL, Folder, check_count
+from anymesh.formats.polygons_ import check_count, fans, recut, usable_polygons, with_points
+from anymesh.loading.files import ASCII_STL, Folder
 from anymesh.loading.join import check_geometry, join, rgba, simple_mesh, unit
 from anymesh.types import Material, Mesh
 from anymesh.types.mesh import to_linear

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from anymesh.errors import InputError
-from anymesh.formats.polygons_ import fans, recut, usable_polygons, with_points
-from anymesh.loading.files import Folder, check_count, picture_file
+from anymesh.formats.polygons_ import check_count, fans, recut, usable_polygons, with_points
+from anymesh.loading.files import Folder, picture_file
 from anymesh.loading.join import rgba, simple_mesh, unit
 from anymesh.types import Material, Mesh
 

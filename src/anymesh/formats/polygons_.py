@@ -13,7 +13,7 @@ from collections.abc import Sequence
 import numpy as np
 from jaxtyping import Bool, Float, Int
 
-from anymesh.errors import MissingExtraError
+from anymesh.errors import InputError, MissingExtraError
 from anymesh.loading.files import Folder
 
 COMMA = re.compile(r"(?<!\S)([+-]?\d*),(\d+(?:[eE][+-]?\d+)?)(?!\S)")  # a number with a decimal comma
@@ -121,3 +121,9 @@ def with_points(text: str, folder: Folder) -> str:
     if pointed != text:
         folder.warn("found decimal commas, which are taken for points")
     return pointed
+
+
+def check_count(name: str, what: str, stated: int, room: int) -> None:
+    """Raise InputError if a header states more elements than the file has room for."""
+    if stated < 0 or stated > room:
+        raise InputError(f"{name} is truncated or broken: it states {stated} {what}, and has room for at most {max(room, 0)}")

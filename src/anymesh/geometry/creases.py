@@ -11,7 +11,7 @@ from scipy.spatial import KDTree
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.superpoints import superpoints
 from anymesh.geometry.topology import edge_pairs, label_connected
-from anymesh.types.triangles import normals_and_areas, unshared
+from anymesh.types.triangles import centers_of, lengths, normals_and_areas, unshared
 
 MAX_CREASE_FACES = 40_000  # denser components are simplified before they are cut into superpoints
 CREASE_STRENGTH = 0.05  # of l0 cut pursuit on normals (the paper's implementation)
@@ -41,18 +41,18 @@ def convex_regions(triangles: Float[np.ndarray, "F 3 3"], diagonal: float) -> In
     normals, areas = normals_and_areas(few)
     areas = np.maximum(areas, 1e-300)
     middle = corners[edges.vertices].mean(1)
-    length = np.linalg.norm(corners[edges.vertices[:, 0]] - corners[edges.vertices[:, 1]], axis=1)
+    length = lengths(corners[edges.vertices[:, 0]] - corners[edges.vertices[:, 1]])
     label = superpoints(normals, areas, edges.faces, length, CREASE_STRENGTH)
     count = int(label.max()) + 1
     pairs = np.sort(label[edges.faces], 1)
     border = np.flatnonzero(pairs[:, 0] != pairs[:, 1])
     key, where = np.unique(pairs[border] @ np.array([count, 1]), return_inverse=True)
     pull = np.bincount(where.reshape(-1), length[border], len(key))
-    pull[_folds_inwards(few.mean(1), normals, areas, label, key, where.reshape(-1), middle[border], diagonal)] *= -1
+    pull[_folds_inwards(centers_of(few), normals, areas, label, key, where.reshape(-1), middle[border], diagonal)] *= -1
     region = _contract(count, {divmod(int(k), count): float(p) for k, p in zip(key, pull, strict=True)})[label]
     if len(few) == len(triangles):
         return region
-    return region[KDTree(few.mean(1)).query(triangles.mean(1), workers=-1)[1]]
+    return region[KDTree(centers_of(few)).query(centers_of(triangles), workers=-1)[1]]
 
 
 def _folds_inwards(

@@ -13,11 +13,11 @@ from jaxtyping import Bool, Float, Int, Shaped
 
 from anymesh.geometry.distance_ import TriangleTree, winding_number
 from anymesh.geometry.holes import missing_triangles
-from anymesh.geometry.simplify_ import simplify
+from anymesh.geometry.simplify_ import simplify, smallest_index_first
 from anymesh.geometry.topology import MAX_CRACK_RATIO, Components, components, label_connected, weld, without_cracks
 from anymesh.geometry.triangle_set import TriangleSet, spread_directions, spread_points
 from anymesh.types import Brief, Mesh
-from anymesh.types.triangles import normals_and_areas, unshared
+from anymesh.types.triangles import centers_of, corner_bounds, corners_of, label_bounds, normals_and_areas, unshared
 
 BACK_TO_BACK_COSINE = 0.999  # minimum cosine between the normals of a face and one that lies on it, up to the sign
 SAME_AREA = 1e-6  # maximum relative difference of the areas of copies
@@ -54,7 +54,7 @@ def mesh_surface(mesh: Mesh, seed: int = 0) -> MeshSurface:
     copy, parts = without_copies(mesh.vertices, mesh.faces)
     kept = originals(copy)
     row = np.searchsorted(kept, copy)
-    void = _voids(mesh.triangles[kept], mesh.face_areas[kept], parts)
+    void = _voids(mesh, kept, parts)
     flip = parts.flip ^ void[parts.label]
     shape = _wound(mesh, kept, flip, parts, seed)
     behind = seen_from_behind(shape, parts.label, ~shape.solid)
@@ -68,27 +68,28 @@ def mesh_surface(mesh: Mesh, seed: int = 0) -> MeshSurface:
 
 def _wound(mesh: Mesh, kept: Int[np.ndarray, " K"], flip: Bool[np.ndarray, " K"], parts: Components, seed: int) -> TriangleSet:
     """Return some faces of a mesh, some of them reversed."""
-    triangles = mesh.triangles[kept]
+    triangles = mesh.triangles.take(kept, axis=0)
     triangles[flip] = triangles[flip, ::-1]
     return TriangleSet(triangles, normals_and_areas(triangles)[0], parts.solid[parts.label], kept, seed)
 
 
-def _voids(triangles: Float[np.ndarray, "K 3 3"], areas: Float[np.ndarray, " K"], parts: Components) -> Bool[np.ndarray, " c"]:
-    """Return which components are mostly inverted and lie within a solid one: walls of its cavities.
+def _voids(mesh: Mesh, kept: Int[np.ndarray, " K"], parts: Components) -> Bool[np.ndarray, " c"]:
+    """Return which components of some faces of a mesh are mostly inverted and lie within a solid one: walls of its cavities.
 
     If all others lie in the bounds of inverted solids, the object is inside out, and these are its cavities. Only the winding
     tells a cavity from a solid inside: if each face is wound by chance, there is none.
     """
     void = np.zeros(parts.count, bool)
+    areas = mesh.face_areas[kept]
     turned = np.bincount(parts.label, np.where(parts.flip, areas, -areas), parts.count) > 0
     solid, inverted = np.flatnonzero(parts.solid & ~turned), np.flatnonzero(parts.solid & turned)
     if not (len(solid) and len(inverted)):
         return void
     order = np.argsort(parts.label, kind="stable")
     start = np.searchsorted(parts.label[order], np.arange(parts.count + 1))
-    triangles = np.where(parts.flip[order][:, None, None], triangles[order][:, ::-1], triangles[order])
-    low = np.minimum.reduceat(triangles.min(1), start[:-1])
-    high = np.maximum.reduceat(triangles.max(1), start[:-1])
+    triangles = mesh.triangles.take(kept[order], axis=0)
+    triangles = np.where(parts.flip[order][:, None, None], triangles[:, ::-1], triangles)
+    low, high = label_bounds(parts.label[order], *corner_bounds(triangles))
     if all(((low[inverted] < low[s]) & (high[inverted] > high[s])).all(1).any() for s in solid):
         solid, inverted = inverted, solid
     points = triangles[start[inverted]].mean(1)  # one on each inverted component
@@ -113,7 +114,7 @@ def seen_from_behind(shape: TriangleSet, label: Int[np.ndarray, " F"], asked: Bo
     triangles, normals, areas, scene = shape.triangles[faces], shape.normals[faces], shape.areas[faces], shape.scene
     points, at = spread_points(triangles, areas, LOOKING_POINTS, shape.seed)
     largest = _largest(label[faces], areas)[:LOOKING_POINTS]
-    points, at = np.concatenate([points, triangles[largest].mean(1)]), np.concatenate([at, largest])
+    points, at = np.concatenate([points, centers_of(triangles[largest])]), np.concatenate([at, largest])
     ways = spread_directions(LOOKS)
     ahead = normals[at] @ ways.T > 0
     # a little off the surface, on the side that the ray leaves from
@@ -143,7 +144,7 @@ def plain_triangles(
     diagonal: of the object that they are part of [m].
     """
     vertices, faces, kept, parts = _plain(*unshared(triangles), diagonal)
-    plain = vertices[np.where(parts.flip[:, None], faces[:, ::-1], faces)]
+    plain = corners_of(vertices, np.where(parts.flip[:, None], faces[:, ::-1], faces))
     missing, beside = (np.zeros((0, 3, 3)), np.zeros(0, np.int64)) if parts.solid.all() else missing_triangles(plain)
     return np.concatenate([plain, missing]), np.concatenate([kept, kept[beside]])
 
@@ -172,9 +173,7 @@ def _plain(
 def ground_faces(mesh: Mesh) -> Bool[np.ndarray, " F"]:
     """Return which faces are the ground: the level component below all others, if it reaches beyond them on all sides."""
     parts = components(mesh.vertices, mesh.faces)
-    low, high = np.full((parts.count, 3), np.inf), np.full((parts.count, 3), -np.inf)
-    np.minimum.at(low, parts.label, mesh.triangles.min(1))
-    np.maximum.at(high, parts.label, mesh.triangles.max(1))
+    low, high = label_bounds(parts.label, *corner_bounds(mesh.triangles))
     widest = int(np.prod((high - low)[:, :2], axis=1).argmax())
     others = np.arange(len(low)) != widest
     if not others.any():
@@ -196,12 +195,12 @@ def without_copies(
     with the corners and the area of an earlier one, such as backs that are divided along other diagonals; and faces with the
     corners and the winding of an earlier one. Where solids touch, single faces lie on each other, and are no copies.
     """
-    corner = weld(vertices)[faces]
+    corner = weld(vertices).take(faces)
     place = _places(corner)
     first = _several_times(corner, place)
     kept = originals(first)
     parts = components(vertices, faces[kept])
-    of_components = _same_components(corner[kept], vertices[faces[kept]], parts)
+    of_components = _same_components(corner[kept], corners_of(vertices, faces[kept]), parts)
     left = kept[originals(of_components)]
     of_faces = np.arange(len(faces))
     if len(_repeated(place[left])):
@@ -260,7 +259,7 @@ def _same_components(
     """
     normals, areas = normals_and_areas(triangles)
     f, g = parts.edges.faces.T
-    cosine = np.einsum("ij,ij->i", normals[f], normals[g])
+    cosine = np.einsum("ij,ij->i", normals.take(f, axis=0), normals.take(g, axis=0))
     folded = np.where(parts.edges.aligned, -cosine, cosine) > BACK_TO_BACK_COSINE
     label = label_connected(len(corner), parts.edges.faces[~folded]) if folded.any() else parts.label
     first = np.arange(len(corner))
@@ -279,7 +278,7 @@ def _same_components(
         if like is None:
             same.append(c)
         else:
-            first[mine] = like[TriangleTree(triangles[like]).nearest(triangles[mine].mean(1))[1]]
+            first[mine] = like[TriangleTree(triangles[like]).nearest(centers_of(triangles[mine]))[1]]
     return first
 
 
@@ -294,8 +293,7 @@ def _places(corner: Int[np.ndarray, "n 3"]) -> Int[np.ndarray, " n"]:
 
 def _number_wound(corner: Int[np.ndarray, "n 3"]) -> Int[np.ndarray, " n"]:
     """Number faces by their corners and winding, whichever corner is first."""
-    turn = (corner.argmin(1)[:, None] + np.arange(3)) % 3
-    return number_rows(np.take_along_axis(corner, turn, 1))
+    return number_rows(smallest_index_first(corner))
 
 
 def earlier_equals(number: Int[np.ndarray, " n"]) -> Int[np.ndarray, " n"]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 
@@ -11,7 +12,7 @@ from scipy.spatial import KDTree
 
 from anymesh.geometry.triangle_set import SLANTED, TriangleSet, remembering
 from anymesh.types import Brief
-from anymesh.types.triangles import bounds_of, face_cross, normals_and_areas, unshared
+from anymesh.types.triangles import bounds_of, by_key, centers_of, corners_of, face_cross, lengths, normals_and_areas, unshared
 
 MIN_VOLUME_SHARE = 0.1  # of the volumes between the faces and their middle: a surface around less has no outside
 FLAT = 1e-9  # of the area to the power of 1.5: a smaller volume is rounding
@@ -70,12 +71,12 @@ def outward(triangles: Float[np.ndarray, "F 3 3"], pairs: Int[np.ndarray, "m 2"]
     label, flip, two_sided = agreeing(len(triangles), pairs, aligned)
     count = len(two_sided)
     faces = np.bincount(label, minlength=count)
-    middle = np.stack([np.bincount(label, triangles[:, :, k].mean(1), count) for k in range(3)], 1) / faces[:, None]
-    t = triangles - middle[label][:, None]
+    middle = np.stack([np.bincount(label, column, count) for column in centers_of(triangles).T], 1) / faces[:, None]
+    t = triangles - middle.take(label, axis=0)[:, None]
     cross = face_cross(t)
     volume = np.where(flip, -1, 1) * np.einsum("ij,ij->i", t[:, 0], cross)
     total, enclosed = np.bincount(label, volume, count), np.bincount(label, np.abs(volume), count)
-    areas = np.linalg.norm(cross, axis=1)
+    areas = lengths(cross)
     area, kept = np.bincount(label, areas, count), np.bincount(label, np.where(flip, -areas, areas), count)
     around = np.abs(total) > np.maximum(MIN_VOLUME_SHARE * enclosed, FLAT * area**1.5)
     inside_out = (np.sign(total) * kept)[around].sum() < 0
@@ -140,16 +141,17 @@ def weld(vertices: Float[np.ndarray, "V 3"]) -> Int[np.ndarray, " V"]:
 
     The cells of a grid of 2**20 parts are joined if each has a vertex within a sixteenth of a cell of their border.
     """
-    low = vertices.min(0)
-    extent = float((vertices.max(0) - low).max()) or 1.0
-    at = (vertices - low) / extent * 2**20
-    cell = np.rint(at).astype(np.int64)
+    low, high = bounds_of(vertices)
+    extent = float((high - low).max()) or 1.0
+    at = [(column - least) / extent * 2**20 for column, least in zip(vertices.T, low, strict=True)]
+    cell = [np.rint(a).astype(np.int64) for a in at]
     number = np.unique(_grid_key(cell), return_inverse=True)[1].reshape(-1)
-    near = np.abs(at - cell) >= 7 / 16
+    near = [np.abs(a - c) >= 7 / 16 for a, c in zip(at, cell, strict=True)]
     joined = [np.zeros((0, 2), np.int64)]
     for axes in list(product([False, True], repeat=3))[1:]:  # the axes on which two vertices may lie on two sides of a border
-        rows = np.flatnonzero(near[:, axes].all(1))
-        key = _grid_key(np.where(axes, np.floor(at[rows]).astype(np.int64), cell[rows]))  # half a cell aside on those axes
+        rows = np.flatnonzero(np.logical_and.reduce([n for n, across in zip(near, axes, strict=True) if across]))
+        # half a cell aside on those axes
+        key = _grid_key([np.floor(at[k][rows]).astype(np.int64) if axes[k] else cell[k][rows] for k in range(3)])
         order = np.argsort(key)
         met = number[rows[order]]
         same = (np.diff(key[order]) == 0) & (np.diff(met) != 0)
@@ -158,8 +160,9 @@ def weld(vertices: Float[np.ndarray, "V 3"]) -> Int[np.ndarray, " V"]:
     return label_connected(int(number.max()) + 1, pairs)[number] if len(pairs) else number
 
 
-def _grid_key(cell: np.ndarray) -> np.ndarray:
-    return (cell[:, 0] << 42) | (cell[:, 1] << 21) | cell[:, 2]
+def _grid_key(cell: Sequence[np.ndarray]) -> np.ndarray:
+    x, y, z = cell
+    return (x << 42) | (y << 21) | z
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +190,7 @@ def edge_pairs(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
     left, right = [two], [two + 1]
     if (half.size > 2).any():
         owner, forward = half.owner, half.forward
-        flip, unsure = _outer_windings(vertices[faces], welded[faces], half)
+        flip, unsure = _outer_windings(corners_of(vertices, faces), welded[faces], half)
         outer, unsure = forward ^ flip[owner], unsure[owner]
         for count in np.unique(half.size[(half.size > 2) & (half.size <= MAX_AROUND)]):
             rows = half.start[half.size == count][:, None] + np.arange(count)
@@ -201,10 +204,9 @@ def edge_pairs(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]
     i, j = np.concatenate(left), np.concatenate(right)
     paired = np.zeros(len(half.owner), bool)
     paired[i] = paired[j] = True
-    loose = np.unique(half.owner[~paired])
-    return EdgePairs(
-        np.stack([half.owner[i], half.owner[j]], 1), half.ends[i], half.forward[i] != half.forward[j], loose
-    )  # fmt: skip
+    loose = np.bincount(half.owner[~paired], minlength=len(faces)) > 0
+    pairs, ends = np.stack([half.owner[i], half.owner[j]], 1), half.ends.take(i, axis=0)
+    return EdgePairs(pairs, ends, half.forward[i] != half.forward[j], np.flatnonzero(loose))
 
 
 def _outer_windings(
@@ -238,17 +240,18 @@ class _HalfEdges(Brief):
     @classmethod
     def of(cls, welded: Int[np.ndarray, " V"], faces: Int[np.ndarray, "F 3"]) -> _HalfEdges:
         """List the edges of all faces except those without a length."""
-        f = welded[faces]
-        a, b = f.reshape(-1), f[:, [1, 2, 0]].reshape(-1)
-        ends = np.stack([faces.reshape(-1), faces[:, [1, 2, 0]].reshape(-1)], 1)
-        third = faces[:, [2, 0, 1]].reshape(-1)
-        owner = np.repeat(np.arange(len(faces)), 3)
-        key = np.minimum(a, b).astype(np.int64) * (int(welded.max()) + 1) + np.maximum(a, b)
-        kept = np.flatnonzero(a != b)
-        order = kept[np.argsort(key[kept], kind="stable")]
-        key = key[order]
+        corner, count = faces.reshape(-1), int(welded.max(initial=0)) + 1
+        a, b = (welded.take(some).reshape(-1) for some in (faces, np.roll(faces, -1, 1)))
+        order, key = by_key(np.minimum(a, b) * count + np.maximum(a, b), count**2)
+        kept = (a != b)[order]
+        if not kept.all():
+            order, key = order[kept], key[kept]
+        owner, slot = np.divmod(order, 3)
+        following = order + 1 - 3 * (slot == 2)
+        third = corner[3 * owner + 3 - slot - (following - 3 * owner)]  # slots are 0, 1 and 2
         start = np.flatnonzero(np.r_[True, key[1:] != key[:-1]])
-        return cls(ends[order], third[order], owner[order], (a < b)[order], start, np.diff(np.r_[start, len(key)]))
+        size = np.diff(np.r_[start, len(key)])
+        return cls(np.stack([corner[order], corner[following]], 1), third, owner, a[order] < b[order], start, size)
 
 
 def without_cracks(
@@ -276,7 +279,7 @@ def _welded(
     place, first = np.unique(welded[ends], return_index=True)
     points = vertices[ends[first]]
     if reach is None:
-        low, high = bounds_of(vertices[faces].reshape(-1, 3))
+        low, high = bounds_of(corners_of(vertices, faces).reshape(-1, 3))
         reach = MAX_CRACK_RATIO * float(np.linalg.norm(high - low))
     near = KDTree(points).query(points, MAX_CRACK_ENDS, distance_upper_bound=reach, workers=-1)[1].reshape(len(points), -1)
     row, slot = np.nonzero((near < len(points)) & (near != np.arange(len(points))[:, None]))
@@ -352,7 +355,7 @@ class Components(Brief):
 def components(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "F 3"]) -> Components:
     """Find the connected components of the welded mesh, and which of them enclose a volume."""
     edges = edge_pairs(vertices, faces)
-    wound = outward(vertices[faces], edges.faces, edges.aligned)
+    wound = outward(corners_of(vertices, faces), edges.faces, edges.aligned)
     solid, agree = wound.two_sided.copy(), np.ones(len(wound.two_sided), bool)
     solid[wound.label[edges.open_faces]] = False
     agree[wound.label[edges.faces[~edges.aligned, 0]]] = False

@@ -249,9 +249,3 @@ def is_binary_stl(data: bytes) -> bool:
     count = struct.unpack_from("<I", data, 80)[0]
     known = any(re.match(sign, data) for kind, sign in SIGNS.items() if "STL" not in kind)
     return len(data) >= 84 + 50 * count or (b"\0" in data and not known)
-
-
-def check_count(name: str, what: str, stated: int, room: int) -> None:
-    """Raise InputError if a header states more elements than the file has room for."""
-    if stated < 0 or stated > room:
-        raise InputError(f"{name} is truncated or broken: it states {stated} {what}, and has room for at most {max(room, 0)}")

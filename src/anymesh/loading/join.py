@@ -23,7 +23,7 @@ def check_geometry(name: str, vertices: Float[np.ndarray, "V 3"], faces: Int[np.
     if faces.min() < 0 or faces.max() >= len(vertices):
         index = int(faces.min() if faces.min() < 0 else faces.max())
         raise InputError(f"{name}: a face refers to vertex {index + first}; valid are {first} to {len(vertices) - 1 + first}")
-    if not np.isfinite(vertices[faces]).all():
+    if not np.isfinite(vertices).all() and not np.isfinite(vertices[faces]).all():
         raise InputError(f"{name}: found a vertex that is not finite (NaN or infinite); valid are finite coordinates")
 
 

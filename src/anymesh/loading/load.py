@@ -21,6 +21,7 @@ from anymesh.loading.files import ARCHIVE, FORMATS, MAX_FACES, FileMesh, Folder,
 from anymesh.loading.scene_graph import scene_of_objects
 from anymesh.loading.upright import AUTO, AXES, INFER, Up, infer_up, read_up, up_of
 from anymesh.types import Brief, Mesh
+from anymesh.types.triangles import bounds_of
 
 FARTHEST = 1e12  # coordinates above are no plausible lengths
 MAX_UV = 1e6  # a larger texture coordinate in single precision does not tell the place in the picture
@@ -105,10 +106,10 @@ def _with_usable_uv(mesh: Mesh, folder: Folder) -> Mesh:
 
 
 def _check_numbers(name: str, mesh: Mesh) -> None:
-    used = mesh.triangles
-    if np.abs(used).max() > FARTHEST:
-        raise InputError(f"{name}: found a coordinate of {np.abs(used).max():.3g}; at most {FARTHEST:.0e} is sensible")
-    if mesh.diagonal <= 1e-12 * max(1.0, float(np.abs(used).max())) or mesh.face_areas.max() <= 0:
+    farthest = float(np.abs(mesh.bounds).max())
+    if farthest > FARTHEST:
+        raise InputError(f"{name}: found a coordinate of {farthest:.3g}; at most {FARTHEST:.0e} is sensible")
+    if mesh.diagonal <= 1e-12 * max(1.0, farthest) or mesh.face_areas.max() <= 0:
         raise InputError(f"{name}: the mesh has no extent, all faces are degenerate")
 
 
@@ -149,7 +150,7 @@ def place_mesh(loaded: LoadedMesh, *, up: str = "auto", scale: str = "auto", cat
     used = np.zeros(len(loaded.mesh.vertices), bool)
     used[loaded.mesh.faces] = True
     turned = loaded.mesh.vertices[used] @ R.T
-    low, high = turned.min(0), turned.max(0)
+    low, high = bounds_of(turned)
     factor, scale_note, warnings = _scale(loaded, high - low, scale, category)
     T = np.eye(4)
     T[:3, :3] = factor * R

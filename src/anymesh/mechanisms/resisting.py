@@ -16,6 +16,7 @@ from anymesh.mechanisms.handles import find_protrusion
 from anymesh.physics.inertia import Inertia
 from anymesh.physics.resistance import GRAVITY, FoundHandle, Pull, Resistance, ResistanceLevel, crossing
 from anymesh.types import Asset, Joint, JointType
+from anymesh.types.triangles import bounds_of, crosses, lengths
 from anymesh.vocabulary import recognize, words_of
 
 UPRIGHT = 0.999  # minimum cosine to the vertical of an upright joint, which tilts nothing that it carries
@@ -220,7 +221,8 @@ class _Moved:
 
     def distance(self, points: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
         """Return the distance of points from the axis [m]."""
-        return np.linalg.norm(np.cross(self.joint.axis, points - self.joint.origin), axis=1)
+        offset = points - self.joint.origin
+        return lengths(crosses(np.broadcast_to(self.joint.axis, offset.shape), offset))
 
     def _handle(self, tree: _Tree) -> tuple[Float[np.ndarray, " 3"], FoundHandle | None]:
         """Return where the joint is opened [m, asset frame], and its handle.
@@ -229,7 +231,7 @@ class _Moved:
         middle of the face of a slide, from which a button is pushed. What is turned by a torque is turned in its middle.
         """
         joint, along = self.joint, self.opens * self.joint.axis
-        middle = (self.corners.min(0) + self.corners.max(0)) / 2
+        middle = bounds_of(self.corners).sum(0) / 2
         heights, touched = (self.corners - middle) @ along, self.kind.form == "touch"
         rim = self.corners[self.distances >= 0.98 * self.radius]
         arms = np.cross(joint.axis, rim - joint.origin)

@@ -13,7 +13,7 @@ from anymesh.geometry.boxes import dominant_normals, fit_box
 from anymesh.geometry.circles import roundest
 from anymesh.geometry.triangle_set import spread_directions
 from anymesh.types import Box, Cylinder, Hull, Shape
-from anymesh.types.triangles import CUBE_CORNERS, face_cross, normals_and_areas
+from anymesh.types.triangles import CUBE_CORNERS, face_cross, normals_and_areas, unique_rows
 
 MIN_VOLUME = 1e-12  # [m^3] MuJoCo refuses smaller meshes, also in a URDF
 MAX_CORNERS = 64  # corners of a hull; GPU engines accept no more
@@ -31,7 +31,10 @@ def hull_of(points: Float[np.ndarray, "n 3"], wall: float = 0.0, inward: np.ndar
 
     Return None if there are fewer than three points off a line, or if they are flat and `wall` is 0.
     """
-    points = np.unique(points + 0.0, axis=0)
+    points = points + 0.0
+    if len(points) > 10_000:  # leave out equal ones before rows are sorted, which takes a third of the time
+        points = points[unique_rows(list(np.ascontiguousarray(points).view(np.uint64).T))[0]]
+    points = np.unique(points, axis=0)
     if len(points) < 3:
         return None
     spread = points - points.mean(0)

@@ -65,6 +65,7 @@ def articulate_loaded(run: Run, loaded: Keyed[LoadResult], parts: str, how: Expo
     solver, recognized = recognize(run, loaded, parts, sized=sized)
     segmented = find_parts(run, solver, recognized, parts)
     estimate_joints(run, solver, recognized.result, segmented)
+    del solver, recognized, segmented  # their surfaces need not stay in memory while files are written
     return write_files(run.folder, how, run.deadline, run.progress)
 
 

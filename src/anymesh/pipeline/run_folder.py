@@ -190,6 +190,7 @@ class RunFolder(Saved):
         self._resumable = False  # whether the next run looks for what this one leaves
         self._foreign: set[str] = set()  # files of others that are copied to the new output
         self._stale: set[str] = set()  # stages whose results no longer follow from earlier stages
+        self._made: dict[Stage[Any], Any] = {}  # results that this run saved, so that none is read again
         self._redone: set[str] = set()  # stages after a recomputed one, for which results of earlier runs are not valid
 
     @classmethod
@@ -272,8 +273,12 @@ class RunFolder(Saved):
         later = STAGES[STAGES.index(stage) + 1 :]
         self._stale |= {s.name for s in (stage, *later)}
         self._redone |= {s.name for s in later}
+        self._made = {s: made for s, made in self._made.items() if s not in later} | {stage: result}
         for name in (name for s in later for name in stage_files(s)):
             (self.folder / name).unlink(missing_ok=True)
+
+    def _find(self, stage: Stage[Result]) -> Result | None:
+        return self._made.get(stage) or super()._find(stage)
 
     def _places(self, stage: Stage[Any] | None) -> list[Path]:
         stale = stage is not None and stage.name in self._stale

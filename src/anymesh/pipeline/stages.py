@@ -149,7 +149,7 @@ def write_files(folder: RunFolder, how: ExportOptions, deadline: Deadline, progr
             return aside.submit(write_legend if brief else write_preview, asset, folder.folder / "preview.png")
 
         picture = draw() if len(asset.mesh.faces) <= ASIDE else None  # while child processes divide components
-        model = write_asset(asset, folder.folder, how, cache=cache_folder("shapes"), deadline=deadline)
+        warnings = write_asset(asset, folder.folder, how, cache=cache_folder("shapes"), deadline=deadline).asset.warnings
         progress("export", "preview", 1, 2)
         (picture or draw()).result()
-    return replace(asset, warnings=model.asset.warnings, timing=folder.timing())
+    return replace(asset, warnings=warnings, timing=folder.timing())

@@ -16,6 +16,7 @@ from anymesh.geometry.topology import edge_pairs, label_connected, weld, without
 from anymesh.rendering.render import KEY_LIGHT, base_colors, dot, texels_per_pixel
 from anymesh.types import Brief, Mesh
 from anymesh.types.camera import Camera
+from anymesh.types.triangles import face_cross
 
 GRID = 3  # rays per side of a pixel where the surface changes
 FLAT = 1e-4  # tolerance of the cosine between corner normals and face normal, below which normals are not interpolated
@@ -124,7 +125,7 @@ def smoothed(mesh: Mesh) -> Mesh:
     faces, ends = pairs.faces[smooth], welded[pairs.vertices[smooth]]
     corners = [3 * faces + (welded[mesh.faces][faces] == end[:, None, None]).argmax(2) for end in ends.T]
     group = label_connected(3 * len(mesh.faces), np.concatenate(corners))
-    weight = np.repeat(mesh.face_cross, 3, axis=0)
+    weight = np.repeat(face_cross(mesh.triangles), 3, axis=0)
     total = np.stack([np.bincount(group, weight[:, k]) for k in range(3)], 1)[group]
     length = np.linalg.norm(total, axis=1, keepdims=True)
     normal = np.divide(total, length, out=np.zeros_like(total), where=length > 0).astype(np.float32)

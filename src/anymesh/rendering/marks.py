@@ -18,7 +18,7 @@ from anymesh.geometry.kinematics import link_transforms
 from anymesh.types import Asset, Brief, JointType
 from anymesh.types.camera import Camera
 from anymesh.types.motion import SLIDING
-from anymesh.types.triangles import transformed
+from anymesh.types.triangles import bounds_of, transformed
 
 AXIS_COLOR = (190, 20, 40)
 WHITE = (255, 255, 255)
@@ -27,7 +27,6 @@ RING_RADIUS = 0.04  # radius of the ring, as a share of the object's diagonal
 SMALL_AXIS, MIN_AXIS = 10.0, 0.25
 HEAD = 12  # [px] margin at scale 1 by which arrow heads and lines extend beyond their points
 FINE = 3  # supersampling factor per side with which axes are drawn
-HIGHLIGHT = (30, 110, 245)  # colour of the part in question; furniture is seldom blue
 
 
 def axis_line(
@@ -107,7 +106,7 @@ def axis_shapes(asset: Asset, positions: Mapping[str, float], least: float = MIN
             continue
         corners = asset.mesh.triangles[asset.segmentation.face_part == number[joint.child]].reshape(-1, 3)
         slides, T = joint.type in SLIDING, transforms[joint.parent]
-        size = min(max(SMALL_AXIS * float(np.linalg.norm(np.ptp(corners, axis=0))), least * whole), whole)
+        size = min(max(SMALL_AXIS * float(np.linalg.norm(np.ptp(bounds_of(corners), axis=0))), least * whole), whole)
         ends, center = axis_line(corners, joint.origin, joint.axis, slides, size)
         circle = None if slides else transformed(ring(center, joint.axis, RING_RADIUS * size), T)
         shapes.append(AxisShape(transformed(ends, T), circle))
@@ -169,16 +168,6 @@ def lighten(image: UInt8[np.ndarray, "*n 3"], share: float) -> UInt8[np.ndarray,
 def rim(mask: Bool[np.ndarray, "H W"], width: int) -> Bool[np.ndarray, "H W"]:
     """Return the pixels just outside a mask, up to `width` [px] from it."""
     return ndimage.binary_dilation(mask, np.ones((3, 3), bool), iterations=width) & ~mask if mask.any() else mask
-
-
-def highlight(
-    image: UInt8[np.ndarray, "H W 3"], mask: Bool[np.ndarray, "H W"], *, alpha: float = 0.3
-) -> UInt8[np.ndarray, "H W 3"]:
-    """Return a copy with a part tinted and outlined. The outline lies outside the part, so that small parts stay visible."""
-    width = max(2, round(image.shape[0] / 240))
-    tinted = blend(image, mask, HIGHLIGHT, alpha)
-    outer = rim(mask, width + 1)
-    return blend(blend(tinted, outer, (255, 255, 255), 1.0), rim(mask, width), HIGHLIGHT, 1.0)
 
 
 @lru_cache(maxsize=16)

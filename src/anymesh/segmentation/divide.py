@@ -18,7 +18,7 @@ from anymesh.geometry.triangle_set import spread_points
 from anymesh.segmentation.handles import region_sizes
 from anymesh.segmentation.panels import split_panels
 from anymesh.types import Mesh
-from anymesh.types.triangles import boxes_meet
+from anymesh.types.triangles import boxes_meet, centers_of, label_bounds, lengths
 
 # lengths are relative to the object's diagonal
 FUSED_SIZE_RATIO = 0.35  # smaller components are not cut along their creases
@@ -46,9 +46,11 @@ def divide_surface(mesh: Mesh, seed: int, *, seams: bool = False, soft: bool = T
     drawn = resolve(DRAWN_OUT)(surface)
     # a cut through the front of a body would otherwise go through what is sunk into it
     patch = split_patches(surface if drawn is None else replace(surface, shape=drawn), seams=seams, soft=soft)
-    pairs = np.sort(patch[surface.components.edges.faces], 1)
-    shared = np.unique(pairs[pairs[:, 0] != pairs[:, 1]], axis=0)
-    shape, patch = surface.shape.take(surface.row), patch[surface.row]
+    pairs = patch.take(surface.components.edges.faces)
+    shared = np.unique(np.sort(pairs[pairs[:, 0] != pairs[:, 1]], 1), axis=0)
+    shape = surface.shape
+    if len(patch) < len(mesh.faces):  # otherwise none is a copy
+        shape, patch = shape.take(surface.row), patch[surface.row]
     return DividedSurface(shape, surface.copy, patch, shared, surface.diagonal, mesh.face_pivot)
 
 
@@ -69,8 +71,8 @@ def split_patches(surface: MeshSurface, *, seams: bool, soft: bool) -> Int[np.nd
     if seams:
         region = _split_at_seams(surface, region, large & (np.bincount(component) > MAX_SHARP_FACES))
     cut |= region[pairs[:, 0]] != region[pairs[:, 1]]
-    length = np.linalg.norm(_ends(surface, 0) - _ends(surface, 1), axis=1)
-    region = _absorb_crumbs(surface, region, pairs[cut], length[cut])
+    ends = surface.vertices[edges.vertices[cut]]
+    region = _absorb_crumbs(surface, region, pairs[cut], lengths(ends[:, 0] - ends[:, 1]))
     region = _fill_voids(surface, region)
     region = _limit_count(surface, region, MAX_PATCHES)
     return _limit_pairs(surface, region, MAX_MEETING_PAIRS)
@@ -106,22 +108,19 @@ def _split_at_seams(surface: MeshSurface, region: np.ndarray, dense: Bool[np.nda
         finer = divide_at_seams(points[inside], surface.shape.normals[faces[inside]], points[outside])
         if finer.any():
             all_ = np.flatnonzero(region == r)
-            nearest = KDTree(points[inside]).query(surface.shape.triangles[all_].mean(1), workers=-1)[1]
+            nearest = KDTree(points[inside]).query(centers_of(surface.shape.triangles[all_]), workers=-1)[1]
             divided[all_] = np.where(finer[nearest] > 0, int(divided.max()) + finer[nearest], r)
     return np.unique(divided, return_inverse=True)[1]  # coarse faces may leave numbers unused
-
-
-def _ends(surface: MeshSurface, which: int) -> np.ndarray:
-    return surface.vertices[surface.components.edges.vertices[:, which]]
 
 
 def _concave(surface: MeshSurface, min_angle: float) -> np.ndarray:
     """Return which edge pairs fold inwards by more than `min_angle` [deg]."""
     f, g = surface.components.edges.faces.T
-    normals, centers = surface.shape.normals, surface.shape.triangles.mean(1)
-    inward = np.einsum("ij,ij->i", centers[g] - centers[f], normals[f])
-    inward += np.einsum("ij,ij->i", centers[f] - centers[g], normals[g])
-    cosine = np.einsum("ij,ij->i", normals[f], normals[g])
+    centers = centers_of(surface.shape.triangles)
+    away = centers.take(g, axis=0) - centers.take(f, axis=0)
+    normals, others = (surface.shape.normals.take(faces, axis=0) for faces in (f, g))
+    inward = np.einsum("ij,ij->i", away, normals) - np.einsum("ij,ij->i", away, others)
+    cosine = np.einsum("ij,ij->i", normals, others)
     return (inward > 0) & (cosine < np.cos(np.deg2rad(min_angle)))
 
 
@@ -146,7 +145,7 @@ def _fill_voids(surface: MeshSurface, region: np.ndarray) -> np.ndarray:
     hidden = surface.void[surface.components.label]
     if not hidden.any():
         return region
-    centers = surface.shape.triangles.mean(1)
+    centers = centers_of(surface.shape.triangles)
     nearest = KDTree(centers[~hidden]).query(centers[hidden], workers=-1)[1]
     target = region.copy()
     for r in np.unique(region[hidden]):
@@ -172,7 +171,7 @@ def _limit_count(surface: MeshSurface, region: np.ndarray, max_count: int) -> np
 def _keep(surface: MeshSurface, region: np.ndarray, keep: np.ndarray) -> np.ndarray:
     """Join all other regions to the nearest of those that are kept."""
     count = int(region.max()) + 1
-    centers = surface.shape.triangles.mean(1)
+    centers = centers_of(surface.shape.triangles)
     lost = np.setdiff1d(np.arange(count), keep)
     middle = np.zeros((count, 3))
     np.add.at(middle, region, centers)
@@ -199,8 +198,5 @@ def _limit_pairs(surface: MeshSurface, region: np.ndarray, max_pairs: int) -> np
 
 def _meeting_boxes(surface: MeshSurface, region: np.ndarray) -> int:
     """Return the number of pairs of regions whose axis-aligned boxes meet."""
-    order = np.argsort(region, kind="stable")
-    start = np.searchsorted(region[order], np.arange(int(region.max()) + 1))
-    low = np.minimum.reduceat(surface.shape.lowest[order], start)
-    high = np.maximum.reduceat(surface.shape.highest[order], start)
+    low, high = label_bounds(region, surface.shape.lowest, surface.shape.highest)
     return sum(int(boxes_meet(low[k + 1 :], high[k + 1 :], low[k], high[k]).sum()) for k in range(len(low)))

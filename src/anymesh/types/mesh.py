@@ -16,7 +16,7 @@ from PIL import Image
 
 from anymesh.types.brief import Brief
 from anymesh.types.motion import StatedJoint
-from anymesh.types.triangles import face_cross
+from anymesh.types.triangles import bounds_of, corners_of, normals_and_areas
 
 REPEAT, MIRROR, CLAMP = "repeat", "mirror", "clamp"
 TEXTURE_SLOTS = ("base_color", "metallic_roughness", "normal", "occlusion", "emissive")
@@ -146,7 +146,7 @@ class Mesh(Brief):
     @cached_property
     def triangles(self) -> Float[np.ndarray, "F 3 3"]:
         """Return the corner positions of each face [m]."""
-        return self.vertices[self.faces]
+        return corners_of(self.vertices, self.faces)
 
     @cached_property
     def face_pivot(self) -> Float[np.ndarray, "F 3"] | None:
@@ -155,28 +155,21 @@ class Mesh(Brief):
         return None if np.isnan(pivots).all() else np.array(pivots)[self.face_node]
 
     @cached_property
-    def face_cross(self) -> Float[np.ndarray, "F 3"]:
-        """Return twice the area times the unit normal of each face."""
-        return face_cross(self.triangles)
-
-    @cached_property
     def face_areas(self) -> Float[np.ndarray, " F"]:
         """Return the area of each face [m^2]."""
-        return 0.5 * np.linalg.norm(self.face_cross, axis=1)
+        return normals_and_areas(self.triangles)[1]
 
     @cached_property
     def face_normals(self) -> Float[np.ndarray, "F 3"]:
         """Return the unit normal of each face, zero where it has no area."""
-        length = np.linalg.norm(self.face_cross, axis=1, keepdims=True)
-        return np.divide(self.face_cross, length, out=np.zeros_like(self.face_cross), where=length > 0)
+        return normals_and_areas(self.triangles)[0]
 
     @cached_property
     def bounds(self) -> Float[np.ndarray, "2 3"]:
         """Return the axis-aligned bounds of all used vertices [m]."""
         used = np.zeros(len(self.vertices), bool)
         used[self.faces] = True
-        columns = [axis[used] for axis in self.vertices.T]
-        return np.array([[c.min() for c in columns], [c.max() for c in columns]])
+        return bounds_of(self.vertices[used])
 
     @property
     def extents(self) -> Float[np.ndarray, " 3"]:

@@ -5,16 +5,38 @@ from __future__ import annotations
 from itertools import product
 
 import numpy as np
-from jaxtyping import Bool, Float, Int
+from jaxtyping import Bool, Float, Int, UInt64
 
 MAX_PIECES = 20_000  # pieces up to which triangles are divided
 CUBE_CORNERS = np.array(list(product((0, 1), repeat=3)))  # of a box: index of its lower or upper bound along x, y, z
+BLOCK = 4096
 MAX_HALVINGS = 40  # of a side, which a box of the size of a rounding error would need without end
 
 
+def corners_of(vertices: Float[np.ndarray, "V 3"], faces: Int[np.ndarray, "*n 3"]) -> Float[np.ndarray, "*n 3 3"]:
+    """Return the corner positions of faces: `vertices[faces]`, which takes three times as long."""
+    return vertices.take(faces, axis=0)
+
+
+def centers_of(triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, "F 3"]:
+    """Return the middle of each triangle: `triangles.mean(1)`, which takes three times as long."""
+    a, b, c = triangles.transpose(1, 0, 2)
+    return (a + b + c) / 3
+
+
+def lengths(vectors: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, " n"]:
+    """Return the length of each vector, to the last bit as `np.linalg.norm`, which takes three times as long."""
+    x, y, z = vectors.T
+    return np.sqrt(x * x + y * y + z * z)
+
+
 def face_cross(triangles: Float[np.ndarray, "F 3 3"]) -> Float[np.ndarray, "F 3"]:
-    """Return twice the area times the unit normal of every triangle."""
-    return crosses(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
+    """Return twice the area times the unit normal of every triangle, block by block, each of which fits into the cache."""
+    made = np.empty(triangles.shape[::2], triangles.dtype)
+    for start in range(0, len(triangles), BLOCK):
+        a, b, c = triangles[start : start + BLOCK].transpose(1, 0, 2)
+        made[start : start + BLOCK] = crosses(b - a, c - a)
+    return made
 
 
 def crosses(a: Float[np.ndarray, "n 3"], b: Float[np.ndarray, "n 3"]) -> Float[np.ndarray, "n 3"]:
@@ -33,7 +55,7 @@ def unshared(triangles: Float[np.ndarray, "F 3 3"]) -> tuple[Float[np.ndarray, "
 def normals_and_areas(triangles: Float[np.ndarray, "F 3 3"]) -> tuple[Float[np.ndarray, "F 3"], Float[np.ndarray, " F"]]:
     """Return the unit normals, zero for triangles without area, and the areas."""
     normals = face_cross(triangles)
-    double = np.linalg.norm(normals, axis=1)
+    double = lengths(normals)
     return np.divide(normals, double[:, None], out=np.zeros_like(normals), where=double[:, None] > 0), double / 2
 
 
@@ -82,6 +104,17 @@ def corner_bounds(triangles: Float[np.ndarray, "F 3 3"]) -> tuple[Float[np.ndarr
     return np.minimum(np.minimum(a, b), c), np.maximum(np.maximum(a, b), c)
 
 
+def label_bounds(
+    label: Int[np.ndarray, " F"], lowest: Float[np.ndarray, "F 3"], highest: Float[np.ndarray, "F 3"]
+) -> tuple[Float[np.ndarray, "n 3"], Float[np.ndarray, "n 3"]]:
+    """Return the lower and the upper corner of the box of each label, whose members have these boxes."""
+    low, high = (np.full((int(label.max()) + 1, 3), end) for end in (np.inf, -np.inf))
+    for k in range(3):  # one axis at a time: numpy is ten times as fast on flat arrays
+        np.minimum.at(low[:, k], label, lowest[:, k])
+        np.maximum.at(high[:, k], label, highest[:, k])
+    return low, high
+
+
 def boxes_meet(
     lowest: Float[np.ndarray, "F 3"],
     highest: Float[np.ndarray, "F 3"],
@@ -116,3 +149,43 @@ def pieces_within(
         met = meet_box(parts, low, high)
         pieces, face = np.concatenate([pieces[~large], parts[met]]), np.concatenate([face[~large], of[met]])
     return pieces, face
+
+
+def unique_rows(columns: list[UInt64[np.ndarray, " n"]]) -> tuple[Int[np.ndarray, " k"], Int[np.ndarray, " n"]]:
+    """Return the first row of each distinct value, in order of appearance, and the index of the value of every row.
+
+    Rows are hashed and the hash is sorted, which is 5 times faster than sorting rows. The result is checked against the rows.
+    """
+    key = np.zeros(len(columns[0]), np.uint64)
+    for column in columns:
+        key = (key ^ column) * np.uint64(0x9E3779B97F4A7C15)
+        key ^= key >> np.uint64(29)
+    first, inverse = _kinds(key)
+    if all((c == c[first][inverse]).all() for c in columns):
+        return first, inverse
+    kinds = np.unique(np.stack(columns, 1), axis=0, return_inverse=True)[1]
+    return _kinds(kinds.reshape(-1).astype(np.uint64))
+
+
+def _kinds(key: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    order = np.argsort(key)
+    ordered = key[order]
+    starts = np.flatnonzero(np.r_[True, ordered[1:] != ordered[:-1]])
+    first = np.minimum.reduceat(order, starts)  # independent of the order of equal keys in the sort
+    rank = np.empty(len(first), np.int64)
+    rank[np.argsort(first)] = np.arange(len(first))
+    inverse = np.empty(len(key), np.int64)
+    inverse[order] = np.repeat(rank, np.diff(np.r_[starts, len(key)]))
+    return np.sort(first), inverse
+
+
+def by_key(key: Int[np.ndarray, " n"], end: int) -> tuple[Int[np.ndarray, " n"], Int[np.ndarray, " n"]]:
+    """Return the rows in the stable order of their keys, all below `end`, and the keys; both are sorted as one number."""
+    shift = len(key).bit_length()
+    if end.bit_length() + shift > 63:
+        order = np.argsort(key, kind="stable")
+        return order, key[order]
+    both = key << shift
+    both |= np.arange(len(key))
+    both.sort()
+    return both & ((1 << shift) - 1), both >> shift

@@ -12,12 +12,11 @@ from trimesh.remesh import subdivide_to_size
 from anymesh.geometry.surface import ObjectShape
 from anymesh.pipeline.solving import Solver
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud
-from anymesh.prompted.grounding.faces import face_parts, join_unseen, mark_parts, stays_free
+from anymesh.prompted.grounding.faces import face_parts, join_unseen, mark_parts, patch_sizes, stays_free
 from anymesh.prompted.grounding.ground import add_hidden_parts
 from anymesh.prompted.grounding.views import MAX_CLOSE_UPS, close_ups, inner_faces, unseen_patches
 from anymesh.rendering.render import render
 from anymesh.segmentation.divide import object_shape
-from anymesh.segmentation.handles import patch_sizes
 from anymesh.types import JointType, Mesh, Part, Segmentation
 from anymesh.types.camera import Camera
 

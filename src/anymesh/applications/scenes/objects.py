@@ -23,7 +23,7 @@ from anymesh.geometry.topology import label_connected, weld
 from anymesh.geometry.triangle_set import spread_points
 from anymesh.kinds.usual import usual_size
 from anymesh.types import Brief, Mesh
-from anymesh.types.triangles import normals_and_areas
+from anymesh.types.triangles import bounds_of, corner_bounds, label_bounds, normals_and_areas
 from anymesh.vocabulary import is_fixed_name, recognize, words_of
 
 MAX_PIECES = 4000  # above, pieces of one node are not told apart
@@ -72,11 +72,15 @@ class _Unit(Brief):
 
     @cached_property
     def low(self) -> Float[np.ndarray, " 3"]:
-        return self.triangles.min((0, 1))
+        return self._bounds[0]
 
     @cached_property
     def high(self) -> Float[np.ndarray, " 3"]:
-        return self.triangles.max((0, 1))
+        return self._bounds[1]
+
+    @cached_property
+    def _bounds(self) -> Float[np.ndarray, "2 3"]:
+        return bounds_of(self.triangles.reshape(-1, 3))
 
     @cached_property
     def diagonal(self) -> float:
@@ -114,7 +118,7 @@ class _Unit(Brief):
         points = self.triangles.reshape(-1, 3)[:, :2]
         centred = points - points.mean(0)
         across = centred @ np.linalg.svd(centred.T @ centred)[0]
-        return bool(np.ptp(across, axis=0).min() >= STEADY * (self.high[2] - self.low[2]))
+        return bool(min(float(np.ptp(column)) for column in across.T) >= STEADY * (self.high[2] - self.low[2]))
 
 
 def _closer(a: _Unit, b: _Unit, limit: float) -> bool:
@@ -186,7 +190,7 @@ class _Scene:
 
     def __init__(self, mesh: Mesh) -> None:
         self.mesh = mesh
-        corner = weld(mesh.vertices)[mesh.faces]
+        corner = weld(mesh.vertices).take(mesh.faces)
         links = np.concatenate([corner[:, [0, 1]], corner[:, [1, 2]]])
         connected = label_connected(int(corner.max()) + 1, links)[corner[:, 0]]
         across = int(connected.max()) + 1
@@ -201,8 +205,7 @@ class _Scene:
         self.node = rows[:, 0]
         self.paths = [mesh.nodes[n].path or (mesh.nodes[n].name,) for n in self.node]
         self._below = [(*path[:-1], mesh.nodes[n].geometry) for path, n in zip(self.paths, self.node, strict=True)]
-        self.low = np.minimum.reduceat(mesh.triangles.min(1)[self._order], self._start[:-1])
-        self.high = np.maximum.reduceat(mesh.triangles.max(1)[self._order], self._start[:-1])
+        self.low, self.high = label_bounds(self.label, *corner_bounds(mesh.triangles))
 
     def faces(self, pieces: Sequence[int] | np.ndarray) -> Int[np.ndarray, " n"]:
         """Return the faces of some pieces, in order."""
@@ -274,7 +277,7 @@ class _Scene:
         children = {self._below[p][level : level + 1] for p in pieces}
         names = tuple(sorted(child[0] for child in children if child))
         moved = all(self.mesh.nodes[n].joint >= 0 for n in self.node[pieces])
-        return _Unit(name, pieces, names, self.mesh.triangles[self.faces(pieces)], ground, moved)
+        return _Unit(name, pieces, names, self.mesh.triangles.take(self.faces(pieces), axis=0), ground, moved)
 
 
 def _grouped(units: list[_Unit]) -> list[list[_Unit]]:

@@ -158,6 +158,8 @@ class GltfMeshes:
 
     def _usable(self, vertices: np.ndarray, faces: np.ndarray) -> np.ndarray:
         """Return the faces whose corners are finite and there. Raise DataError if there are none."""
+        if faces.min() >= 0 and faces.max() < len(vertices) and np.isfinite(vertices).all():
+            return faces
         inside = np.all((faces >= 0) & (faces < len(vertices)), axis=1)
         usable = np.array(inside)
         usable[inside] = np.isfinite(vertices[faces[inside]]).all((1, 2))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Sequence
 
 import numpy as np
-from jaxtyping import Bool, Int
+from jaxtyping import Bool, Float, Int
 from scipy.spatial import KDTree
 
 from anymesh.articulation.candidate_motions import Candidate
@@ -20,9 +20,8 @@ from anymesh.prompted.grounding.cloud import Cloud
 from anymesh.prompted.grounding.fuse import Instances
 from anymesh.segmentation.contacts import Contacts, dominated_by, find_contacts
 from anymesh.segmentation.divide import FUSED_SIZE_RATIO
-from anymesh.segmentation.handles import patch_sizes
 from anymesh.types import JointType, Mesh
-from anymesh.types.triangles import boxes_meet
+from anymesh.types.triangles import boxes_meet, corner_bounds, label_bounds, lengths
 
 UNSEEN = -1
 StaysFree = Callable[[Int[np.ndarray, " R"], Int[np.ndarray, " R"], int], bool]
@@ -282,3 +281,9 @@ def stays_free(
     after = sweep_candidates(gained, [(c.role, c.motion) for c in likely])[::2]
     far = [(max(c.opening, c.closing), max(a.opening, a.closing)) for c, a in zip(likely, after, strict=True)]
     return any(now >= MIN_FREE_RATIO * min(before, SUFFICIENT_OPENING) for before, now in far)
+
+
+def patch_sizes(mesh: Mesh, whole: ObjectShape) -> Float[np.ndarray, " P"]:
+    """Return the diagonal of the axis-aligned box of each patch, with all faces of the mesh [m]."""
+    low, high = label_bounds(whole.mesh_patch, *corner_bounds(mesh.triangles))
+    return lengths(high - low)

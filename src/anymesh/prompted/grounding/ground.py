@@ -14,7 +14,7 @@ from anymesh.prompted.answerers.question_files import NAME as FILES
 from anymesh.prompted.grounding.alike import SMALL_RATIO
 from anymesh.prompted.grounding.cloud import seen_points
 from anymesh.prompted.grounding.em import refine_instances
-from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE, StaysFree, face_parts, mark_parts, point_parts
+from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE, StaysFree, face_parts, mark_parts, patch_sizes, point_parts
 from anymesh.prompted.grounding.fuse import (
     Proposal,
     count_points,
@@ -32,7 +32,6 @@ from anymesh.prompted.models.reliability import MARKS, confidence_in_marks, in_w
 from anymesh.prompted.pictures.views import normal_picture
 from anymesh.rendering.render import View
 from anymesh.runtime import Progress, silent
-from anymesh.segmentation.handles import patch_sizes
 from anymesh.segmentation.naming import named_parts
 from anymesh.types import Brief, JointType, Segmentation
 from anymesh.types.motion import Recognition

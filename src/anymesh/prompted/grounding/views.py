@@ -13,12 +13,11 @@ from anymesh.config import REFERENCE_PX, Config
 from anymesh.geometry.surface import ObjectShape
 from anymesh.prompted.grounding.alike import region_sizes, small_regions, wires
 from anymesh.prompted.grounding.cloud import Cloud, sample_cloud, seen_points
-from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE
+from anymesh.prompted.grounding.faces import MIN_SEEN_SHARE, patch_sizes
 from anymesh.prompted.grounding.mark_questions import MarkQuestioner
 from anymesh.prompted.grounding.regions import face_regions, join_doubled, join_wires
 from anymesh.rendering.render import View
 from anymesh.rendering.viewpoints import framed
-from anymesh.segmentation.handles import patch_sizes
 from anymesh.types import Brief, Mesh
 from anymesh.types.camera import Camera
 

@@ -12,7 +12,7 @@ from scipy import ndimage
 from anymesh.config import REFERENCE_PX
 from anymesh.prompted.pictures.plates import Plate, beside, draw_leader, draw_plate, mark_color, plate_size, take
 from anymesh.prompted.pictures.views import visible_pixels
-from anymesh.rendering.marks import blend, draw_arrow
+from anymesh.rendering.marks import blend, draw_arrow, rim
 from anymesh.rendering.render import View
 from anymesh.types.camera import Camera
 
@@ -22,7 +22,18 @@ POINT_FONT, DOT = 16, 4  # [px] in a picture of 640 px: font size; radius of a d
 LARGE_FONT, SMALL_FONT = 19, 15  # [px] font sizes in a picture of 640 px: for regions with enough space, and for the others
 MAX_OVERHANG = 0.3  # share of a plate that may extend beyond its region
 MIDDLE_WEIGHT = 0.02  # weight of the distance to the region's centroid, which keeps a number near the middle of a long region
+HIGHLIGHT = (30, 110, 245)  # colour of the part in question; furniture is seldom blue
 FOREIGN_COST, HIDDEN_COST = 40.0, 300.0  # [px] cost of covering other marks with a whole plate; of hiding a whole mark
+
+
+def highlight(
+    image: UInt8[np.ndarray, "H W 3"], mask: Bool[np.ndarray, "H W"], *, alpha: float = 0.3
+) -> UInt8[np.ndarray, "H W 3"]:
+    """Return a copy with a part tinted and outlined. The outline lies outside the part, so that small parts stay visible."""
+    width = max(2, round(image.shape[0] / 240))
+    tinted = blend(image, mask, HIGHLIGHT, alpha)
+    outer = rim(mask, width + 1)
+    return blend(blend(tinted, outer, (255, 255, 255), 1.0), rim(mask, width), HIGHLIGHT, 1.0)
 
 
 def clearest_view(

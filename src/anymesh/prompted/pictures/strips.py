@@ -15,10 +15,11 @@ from jaxtyping import Bool, Float, Int, UInt8
 from PIL import Image, ImageDraw
 
 from anymesh.geometry.raycast_ import Hits, RayScene
+from anymesh.prompted.pictures.drawing import HIGHLIGHT
 from anymesh.prompted.pictures.plates import PAD, Plate, broken, draw_plate, plate_size
 from anymesh.prompted.pictures.sides import ANYWHERE, SeenFrom, emptiest_corner, in_corner, with_compass
 from anymesh.prompted.pictures.views import box_of, is_beside
-from anymesh.rendering.marks import HIGHLIGHT, WHITE, axis_line, blend, draw_arrow, draw_ring, lighten, rim, ring
+from anymesh.rendering.marks import WHITE, axis_line, blend, draw_arrow, draw_ring, lighten, rim, ring
 from anymesh.rendering.render import lit, shade, turned
 from anymesh.rendering.viewpoints import SKETCH, away, framed, orbit_camera, zoom
 from anymesh.types import Brief, JointType, Mesh, Motion

@@ -12,7 +12,7 @@ from PIL import Image, ImageDraw
 
 from anymesh.config import REFERENCE_PX, Config
 from anymesh.geometry.raycast_ import RayScene
-from anymesh.prompted.pictures.drawing import clearest_view, draw_arrows, draw_points
+from anymesh.prompted.pictures.drawing import HIGHLIGHT, clearest_view, draw_arrows, draw_points, highlight
 from anymesh.prompted.pictures.sides import ANYWHERE, SeenFrom
 from anymesh.prompted.pictures.strips import motion_strip, silhouette
 from anymesh.prompted.pictures.views import (
@@ -28,7 +28,7 @@ from anymesh.prompted.pictures.views import (
     visible_pixels,
 )
 from anymesh.rendering.drawing import smoothed
-from anymesh.rendering.marks import HIGHLIGHT, font, highlight, lighten
+from anymesh.rendering.marks import font, lighten
 from anymesh.rendering.render import View, encode, face_colors
 from anymesh.types import Brief, Mesh, Motion, Picture
 from anymesh.types.camera import Camera
