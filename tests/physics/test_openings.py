@@ -10,9 +10,10 @@ from manifold3d import CrossSection, Manifold
 
 import anymesh
 from anymesh.errors import OptionError
+from anymesh.physics.collision import merged_hulls
 from anymesh.physics.convex import as_hull, hull_of
 from anymesh.physics.decompose import Component, Resolution, component_shapes
-from anymesh.physics.openings import NONE, Openings, merged_hulls, openings_of
+from anymesh.physics.openings import NONE, Openings, openings_of
 from anymesh.types import Hull
 
 

@@ -133,15 +133,16 @@ def test_a_solid_with_a_cavity_is_decomposed_and_stays_open():
     assert sum(volume(as_hull(s)) for s in shapes) == pytest.approx(float(solid.volume), rel=0.05)
 
 
-def test_the_last_component_holds_no_other_and_needs_no_hull(monkeypatch):
+def test_a_component_needs_a_hull_only_if_another_lies_within_its_bounds(monkeypatch):
     made = []
     monkeypatch.setattr("anymesh.physics.decompose.hull_of", lambda corners: made.append(corners.max()) or hull_of(corners))
     pieces = [box((0, 0, 0), (size, size, size)) for size in (3.0, 2.0, 1.0)]
     shifted = [triangles(v + 10 * k, f) for k, (v, f) in enumerate(pieces)]
     assert len(split_components(np.concatenate(shifted), 0.0)) == 3
-    assert made == [3, 12]  # the largest corner coordinates of the first two
-    assert len(split_components(shifted[0], 0.0)) == 1
-    assert made == [3, 12]
+    assert made == []
+    inner, outer = box((8, 8, 8), (9, 9, 9)), box((5, 5, 5), (12, 12, 12))
+    assert len(split_components(np.concatenate([shifted[0], triangles(*inner), triangles(*outer)]), 0.0)) == 2
+    assert made == [12]  # the largest corner coordinate of the outer one
 
 
 def test_inside_out_solids_are_turned():

@@ -19,7 +19,7 @@ from anymesh.physics.contacts_ import Contact, ContactBench, Pose
 from anymesh.physics.convex import EXACT, as_hull, fitted, trimmed, volume
 from anymesh.physics.decompose import Component
 from anymesh.physics.split import outline
-from anymesh.types import Brief, Shape
+from anymesh.types import Brief, Hull, Shape
 from anymesh.types.triangles import box_corners, normals_and_areas, transformed, unshared
 
 MAX_PLANED_RATIO = 0.15  # maximum share of a shape that is trimmed before its component is refined instead
@@ -263,7 +263,7 @@ def _planed(
         if cuts[side][0] > max_ratio:
             costly.append(fault)
         else:
-            shapes[sides[side][0]][sides[side][1]] = cuts[side][1]
+            shapes[sides[side][0]][sides[side][1]] = fitted(cuts[side][1], EXACT)
     return [replace(p, shapes=tuple(some)) for p, some in zip(components, shapes, strict=True)], costly
 
 
@@ -282,11 +282,13 @@ def _apart(components: list[ComponentShapes], near: Sequence[Fault], scene: Cont
             continue
         cuts = [_cut(s, T, n, overlap + scene.gap) for (_, _, T, s), n in zip(sides, normals, strict=True)]
         touch = overlap > (1 - MIN_GAP_RATIO) * scene.gap
-        kept = [k for k in (0, 1) if touch or type(cuts[k][1]) is type(sides[k][3])]
-        side = min(kept, key=lambda k: cuts[k][0], default=None)
-        if side is None or cuts[side][0] > (MAX_PLANED_RATIO_LAST if touch else MAX_PLANED_RATIO):
-            continue
-        shapes[sides[side][0]][sides[side][1]], changed = cuts[side][1], True
+        for (share, left), (k, n, _, shape) in sorted(zip(cuts, sides, strict=True), key=lambda pair: pair[0][0]):
+            if share > (MAX_PLANED_RATIO_LAST if touch else MAX_PLANED_RATIO):
+                break
+            rest = fitted(left, EXACT)
+            if touch or type(rest) is type(shape):
+                shapes[k][n], changed = rest, True
+                break
     return [replace(p, shapes=tuple(some)) for p, some in zip(components, shapes, strict=True)] if changed else None
 
 
@@ -295,12 +297,9 @@ def placed_hull(shape: Shape, T: np.ndarray) -> np.ndarray:
     return transformed(as_hull(shape).vertices, T)
 
 
-def _cut(shape: Shape, T: np.ndarray, normal: np.ndarray, depth: float) -> tuple[float, Shape]:
-    """Return the share that a shape loses and its rest, when it is trimmed by `depth` [m] from its furthest point.
-
-    The shape itself if nothing would be left.
-    """
+def _cut(shape: Shape, T: np.ndarray, normal: np.ndarray, depth: float) -> tuple[float, Hull]:
+    """Return the share that a shape loses, 1 if it is all, and its rest, when it is trimmed by `depth` [m] from its end."""
     hull = as_hull(shape)
     n = T[:3, :3].T @ normal
     left = trimmed(hull, n, float((hull.vertices @ n).max()) - depth)
-    return (1.0, shape) if left is None else (1 - volume(left) / volume(hull), fitted(left, EXACT))
+    return (1.0, hull) if left is None else (1 - volume(left) / volume(hull), left)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import heapq
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field, replace
@@ -11,22 +12,23 @@ import numpy as np
 from jaxtyping import Float
 
 from anymesh.entry_points import CLOSED, resolve
-from anymesh.geometry.kinematics import carried_links, joint_transform, link_transforms
+from anymesh.geometry.kinematics import carried_links, joint_motion, link_transforms
 from anymesh.geometry.simplify_ import simplify
 from anymesh.isolation import ChildPool, shared_pool
 from anymesh.physics.clear import ComponentShapes, ContactScene, LinkSurface, clear, cross
 from anymesh.physics.contacts_ import ContactBench
-from anymesh.physics.convex import as_hull, engine_shape, fitted, hull_of, thinned
+from anymesh.physics.convex import as_hull, engine_shape, fitted, hull_of, thinned, volume
 from anymesh.physics.decompose import FACES, Component, Decomposer, Fallback, Resolution, smallest_box, split_components
-from anymesh.physics.openings import Openings, merged_hulls, openings_of
+from anymesh.physics.openings import Openings, openings_of
 from anymesh.runtime import COLLISION, Deadline
-from anymesh.types import Asset, Joint, Shape
+from anymesh.types import Asset, Hull, Joint, Shape
 from anymesh.types.motion import STILL, leaders
 
 MAX_CROSSING_FACES = 50_000  # faces of a link for tests of crossing surfaces
 MAX_POSES, MIN_POSES = 2000, 3  # sampled poses: maximum in all, minimum per joint
 RUBBING_POSES = 73  # of each joint, for touches between the sampled poses
 MIN_KEPT = 0.88  # share of the radius of openings; a link that keeps less is warned about
+NEIGHBOURS = 12  # nearest shapes with which one may be merged
 MIN_COMPONENT_SIZE_RATIO = 0.3  # of the first gap: smaller components get no shape beside larger ones
 
 
@@ -193,6 +195,39 @@ def _limited(pieces: Sequence[ComponentShapes], openings: Mapping[str, Openings]
     return limited
 
 
+def merged_hulls(hulls: Sequence[Hull], openings: Openings, most: int) -> list[Hull]:
+    """Merge hulls until there are at most `most`: pairs that take least of the openings, then add least volume, first."""
+    kept = dict(enumerate(hulls))
+    taken = {k: openings.taken(hull) for k, hull in kept.items()}
+    queue: list[tuple[float, float, int, int, Hull]] = []
+
+    def add(a: int, others: Sequence[int]) -> None:
+        middle = kept[a].vertices.mean(0)
+        others = sorted(others, key=lambda b: round(float(np.linalg.norm(kept[b].vertices.mean(0) - middle)), 9))
+        for b in others[:NEIGHBOURS]:
+            hull = hull_of(np.concatenate([kept[a].vertices, kept[b].vertices]))
+            if hull is not None:
+                more = openings.taken(hull) - taken[a] - taken[b], volume(hull) - volume(kept[a]) - volume(kept[b])
+                heapq.heappush(queue, (round(more[0], 12), round(more[1], 15), min(a, b), max(a, b), thinned(hull)))
+
+    for a in list(kept):
+        add(a, [b for b in kept if b > a])
+    new = len(kept)
+    while len(kept) > most:
+        if not queue:
+            first = min(kept)
+            add(first, [b for b in kept if b != first])
+            if not queue:
+                return [kept[k] for k in sorted(kept, key=lambda k: -volume(kept[k]))[:most]]
+        *_, a, b, hull = heapq.heappop(queue)
+        if a in kept and b in kept:
+            del kept[a], kept[b]
+            kept[new], taken[new] = hull, openings.taken(hull)
+            add(new, [b for b in kept if b != new])
+            new += 1
+    return list(kept.values())
+
+
 def _one_hull(component: Component, wall: float) -> tuple[Shape, ...]:
     hull = hull_of(component.triangles.reshape(-1, 3), wall)
     return () if hull is None else (engine_shape(thinned(hull)),)
@@ -232,7 +267,7 @@ def _alone(
     span = next(j.span for j in asset.joints if j.name == name)
     amounts = [float(v) for v in np.linspace(*span, count) if v != 0]
     if not ways and not asset.loops:
-        carried, moved = carried_links(asset, joint), (joint_transform(joint, amount) for amount in amounts)
+        carried, moved = carried_links(asset, joint), joint_motion(joint).transforms(np.array(amounts))
         return [rest | {name: T @ rest[name] for name in carried} for T in moved]
     led = (link_transforms(asset, at) for at in resolve(CLOSED)(asset, name, amounts))
     return [{link: at if (T[link] == np.eye(4)).all() else T[link] @ at for link, at in rest.items()} for T in led]

@@ -13,13 +13,11 @@ from anymesh.geometry.boxes import dominant_normals, fit_box
 from anymesh.geometry.circles import roundest
 from anymesh.geometry.triangle_set import spread_directions
 from anymesh.types import Box, Cylinder, Hull, Shape
-from anymesh.types.triangles import CUBE_CORNERS, face_cross, normals_and_areas, unique_rows
+from anymesh.types.triangles import CUBE_CORNERS, crosses, face_cross, normals_and_areas
 
 MIN_VOLUME = 1e-12  # [m^3] MuJoCo refuses smaller meshes, also in a URDF
 MAX_CORNERS = 64  # corners of a hull; GPU engines accept no more
 MIN_THICKNESS_RATIO = 1e-4  # of the diagonal: no engine accepts thinner hulls
-
-
 DIRECTIONS = spread_directions(MAX_CORNERS)
 EXACT = 1e-6  # for a trimmed hull, which a box must not exceed again
 FIT = 0.02  # maximum relative difference between the volumes of a primitive and the hull
@@ -31,10 +29,8 @@ def hull_of(points: Float[np.ndarray, "n 3"], wall: float = 0.0, inward: np.ndar
 
     Return None if there are fewer than three points off a line, or if they are flat and `wall` is 0.
     """
-    points = points + 0.0
-    if len(points) > 10_000:  # leave out equal ones before rows are sorted, which takes a third of the time
-        points = points[unique_rows(list(np.ascontiguousarray(points).view(np.uint64).T))[0]]
-    points = np.unique(points, axis=0)
+    points = points[np.lexsort(points.T[::-1])] + 0.0  # distinct ones in order, in a fifth of the time of `np.unique`
+    points = points[np.append(True, (points[1:] != points[:-1]).any(1))[: len(points)]]
     if len(points) < 3:
         return None
     spread = points - points.mean(0)
@@ -53,11 +49,11 @@ def hull_of(points: Float[np.ndarray, "n 3"], wall: float = 0.0, inward: np.ndar
         else:
             points = np.concatenate([flat, flat + normal * wall * (1.0 if inward @ normal > 0 else -1.0)])
     try:
-        hull = ConvexHull(points)
+        hull = ConvexHull(points, qhull_options="Q5")  # without a check at the end, which changes nothing
     except QhullError:
         return None
-    used, inverse = np.unique(hull.simplices, return_inverse=True)
-    vertices, faces = points[used], inverse.reshape(-1, 3)
+    used = np.bincount(hull.simplices.reshape(-1), minlength=len(points)) > 0
+    vertices, faces = points[used], (np.cumsum(used) - 1)[hull.simplices]
     inside = np.einsum("ij,ij->i", face_cross(vertices[faces]), hull.equations[:, :3]) < 0
     faces[inside] = faces[inside][:, ::-1]
     return Hull(vertices, faces)
@@ -74,7 +70,7 @@ def thinned(hull: Hull) -> Hull:
 def volume(hull: Hull) -> float:
     """Return the volume of a hull [m^3]."""
     t = hull.vertices[hull.faces] - hull.vertices.mean(0)
-    return float(np.einsum("ij,ij->i", t[:, 0], np.cross(t[:, 1], t[:, 2])).sum() / 6)
+    return float(np.einsum("ij,ij->i", t[:, 0], crosses(t[:, 1], t[:, 2])).sum() / 6)
 
 
 def planes(hull: Hull) -> Float[np.ndarray, "F 4"]:
@@ -98,24 +94,19 @@ def cut(
     height = np.where(np.abs(height) <= tolerance, 0.0, height)
     above = (height >= 0).all(1) & (height > 0).any(1)
     crossing = (height > 0).any(1) & (height < 0).any(1)
-    parts = [triangles[~above & ~crossing]], [triangles[above]]
-    for t, h in zip(triangles[crossing], height[crossing], strict=True):
-        for side, sign in zip(parts, (-1, 1), strict=True):
-            polygon = _clipped(t, h * sign)
-            side.append(np.stack([polygon[[0, k, k + 1]] for k in range(1, len(polygon) - 1)]))
-    return np.concatenate(parts[0]), np.concatenate(parts[1])
+    below = np.concatenate([triangles[~above & ~crossing], _clipped(triangles[crossing], -height[crossing])])
+    return below, np.concatenate([triangles[above], _clipped(triangles[crossing], height[crossing])])
 
 
-def _clipped(triangle: np.ndarray, height: np.ndarray) -> np.ndarray:
-    """Return the polygon of a triangle where `height` >= 0."""
-    polygon = []
-    for k in range(3):
-        a, b = height[k], height[(k + 1) % 3]
-        if a >= 0:
-            polygon.append(triangle[k])
-        if (a > 0 > b) or (a < 0 < b):
-            polygon.append(triangle[k] + (triangle[(k + 1) % 3] - triangle[k]) * (a / (a - b)))
-    return np.array(polygon)
+def _clipped(triangles: np.ndarray, height: np.ndarray) -> np.ndarray:
+    """Return the parts of triangles where `height` >= 0, one or two triangles of each; each has corners on both sides of 0."""
+    ahead, then = height[:, [1, 2, 0]], triangles[:, [1, 2, 0]]
+    met = ((height > 0) & (ahead < 0)) | ((height < 0) & (ahead > 0))
+    share = height / np.where(met, height - ahead, 1.0)
+    corners = np.stack([triangles, triangles + (then - triangles) * share[:, :, None]], 2).reshape(-1, 6, 3)
+    there = np.stack([height >= 0, met], 2).reshape(-1, 6)
+    order = np.argsort(~there, axis=1, kind="stable")[:, [0, 1, 2, 0, 2, 3], None]
+    return np.take_along_axis(corners, order, 1).reshape(-1, 2, 3, 3)[there.sum(1)[:, None] >= [3, 4]]
 
 
 def trimmed(hull: Hull, normal: Float[np.ndarray, " 3"], offset: float) -> Hull | None:

@@ -10,7 +10,7 @@ import hashlib
 import os
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from enum import StrEnum
 from itertools import pairwise
 from pathlib import Path
@@ -27,7 +27,7 @@ from anymesh.physics.openings import NONE, Openings, openings_of
 from anymesh.physics.solids_ import FACETED_PLANES, decompose_solid
 from anymesh.physics.split import MIN_CONCAVE_ANGLE_DEG, concave_planes, patch_of, solid_mesh, split_surface
 from anymesh.types import Box, Brief, Cylinder, Hull, Shape
-from anymesh.types.triangles import CUBE_CORNERS, normals_and_areas, unshared
+from anymesh.types.triangles import CUBE_CORNERS, bounds_of, normals_and_areas, unshared
 
 FACES = 3000  # faces of a component for its shapes; more take seconds without better accuracy
 SOLID_FACES = 1000  # faces of a solid that is cut exactly
@@ -94,12 +94,15 @@ def split_components(
     kept: list[Component] = []
     around: list[_Around] = []
     separate = large[: len(large) - len(small)]
-    for k in separate:
+    low, high = np.array([bounds_of(piece.reshape(-1, 3)) for piece in pieces]).transpose(1, 0, 2)
+    for n, k in enumerate(separate):
         corners = pieces[k].reshape(-1, 3)
         if any(other.holds(corners, 1e-6 * sizes[k]) for other in around):
             continue
         kept.append(Component(pieces[k], bool(surface_components.solid[k])))
-        hull = hull_of(corners) if surface_components.solid[k] and k != separate[-1] else None
+        later, near = separate[n + 1 :], 1e-6 * sizes[separate[n + 1 :], None]
+        around_any = ((low[later] >= low[k] - near) & (high[later] <= high[k] + near)).all(1).any()
+        hull = hull_of(corners) if surface_components.solid[k] and around_any else None
         if hull is not None and len(hull.faces) <= AROUND_FACES:
             this = _Around(planes(hull), corners.min(0), corners.max(0))
             surface = np.concatenate([corners, pieces[k].mean(1)])  # all corners of a concave prism are on its hull
@@ -145,7 +148,7 @@ def component_shapes(component: Component, resolution: Resolution, method: Metho
     whole = patch_of(triangles, resolution.wall)
     if whole is None:
         return ()
-    exact = hull_of(component.triangles.reshape(-1, 3)) or whole.hull
+    exact = whole.hull if triangles is component.triangles else hull_of(component.triangles.reshape(-1, 3)) or whole.hull
     openings = openings_of(triangles, exact, resolution.gap, solid=component.solid)
     if whole.gap <= resolution.gap and not openings.lost(exact).any():
         return (fitted(exact),)
@@ -156,8 +159,8 @@ def component_shapes(component: Component, resolution: Resolution, method: Metho
     smooth = _is_smooth(surface, openings)
     plain = () if smooth else _divided(triangles, closed, resolution, resolution.max_pieces, NONE)
     lost = 0.0 if smooth else _lost(plain, openings)
-    curved = openings.round.any() or _has_many_sides(surface, SMOOTH_ANGLE_DEG)
-    if not smooth and not (curved and (lost > MAX_LOST or (openings.round.any() and (lost > 0 or len(plain) > FEW_PIECES)))):
+    bored = openings.round.any() and (lost > 0 or len(plain) > FEW_PIECES)
+    if not smooth and not bored and not (lost > MAX_LOST and _has_many_sides(surface, SMOOTH_ANGLE_DEG)):
         return plain
     opened = _divided(triangles, closed, resolution, max(resolution.max_pieces, OPEN_PIECES), openings)
     left = _lost(opened, openings)
@@ -223,8 +226,7 @@ def cleaned(triangles: Float[np.ndarray, "n 3 3"]) -> Float[np.ndarray, "m 3 3"]
 
 def smallest_box(triangles: Float[np.ndarray, "n 3 3"], wall: float) -> Shape:
     """Return a box around a link without volume, at least `wall` [m] thick."""
-    corners = triangles.reshape(-1, 3)
-    low, high = corners.min(0), corners.max(0)
+    low, high = bounds_of(triangles.reshape(-1, 3))
     half = np.maximum(high - low, wall) / 2
     hull = hull_of((low + high) / 2 + (2 * CUBE_CORNERS - 1) * half)
     assert hull is not None  # a box with a thickness has a hull
@@ -256,7 +258,7 @@ def save_shapes(folder: Path | None, key: str, shapes: tuple[Shape, ...]) -> Non
     """Store shapes under a key; a folder that cannot be written is ignored."""
     if folder is None:
         return
-    rows = [_arrays(shape) for shape in shapes]
+    rows = [[np.asarray(getattr(shape, field.name)) for field in fields(shape)] for shape in shapes]
     named = {f"{k}_{n}": array for k, some in enumerate(rows) for n, array in enumerate(some)}
     own = folder / f"{key}.{os.getpid()}.tmp.npz"
     try:
@@ -267,26 +269,10 @@ def save_shapes(folder: Path | None, key: str, shapes: tuple[Shape, ...]) -> Non
         return
 
 
-def _arrays(shape: Shape) -> list[np.ndarray]:
-    match shape:
-        case Hull():
-            return [shape.vertices, shape.faces]
-        case Box():
-            return [shape.center, shape.rotation, shape.size]
-        case Cylinder():
-            return [shape.center, shape.rotation, np.array(shape.radius), np.array(shape.length)]
-
-
 def _shape(arrays: list[np.ndarray]) -> Shape:
-    match arrays:
-        case [vertices, faces]:
-            return Hull(vertices, faces)
-        case [center, rotation, size]:
-            return Box(center, rotation, size)
-        case [center, rotation, radius, length]:
-            return Cylinder(center, rotation, float(radius), float(length))
-        case _:
-            raise ValueError(f"a shape is kept in 2 to 4 arrays, found {len(arrays)}")
+    """Return the shape with these values of its fields; raise KeyError if no shape has as many."""
+    kind = {2: Hull, 3: Box, 4: Cylinder}[len(arrays)]
+    return kind(*(array if array.ndim else float(array) for array in arrays))  # ty: ignore[invalid-argument-type]
 
 
 @dataclass(frozen=True)

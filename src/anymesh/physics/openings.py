@@ -8,7 +8,6 @@ hull ranks all cuts through a ring alike.
 
 from __future__ import annotations
 
-import heapq
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, fields
 
@@ -18,7 +17,7 @@ from jaxtyping import Bool, Float, Int
 from anymesh.geometry.distance_ import TriangleTree, distance_to_triangles
 from anymesh.geometry.topology import label_connected
 from anymesh.geometry.triangle_set import sample_surface, spread_directions
-from anymesh.physics.convex import hull_of, planes, thinned, volume
+from anymesh.physics.convex import planes, volume
 from anymesh.types import Brief, Hull
 from anymesh.types.triangles import face_cross, normals_and_areas
 
@@ -42,9 +41,9 @@ FACING, BESIDE = 0.7, 0.3  # cosine from which a wall faces a center, and maximu
 HALVED = 0.2  # mean of the directions to a piece, from which it lies on one side
 UNUSUAL = 0.8  # of what is lost after the best of the usual cuts: at most this must be lost after another one
 TOUCHED = 1.1  # of the radius, for a hull that touches a ball
-NEIGHBOURS = 12  # nearest shapes with which one may be merged
 PLACES, ANGLES = 3, 8  # balls whose planes are tried per cut, and planes through the axis of each
 Plane = tuple[np.ndarray, float]  # unit normal and offset
+Balls = tuple[np.ndarray, np.ndarray]  # centers and radii
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,7 +76,7 @@ class Openings(Brief):
 
     def lost(self, hull: Hull) -> Float[np.ndarray, " m"]:
         """Return how far a hull reaches into the balls beyond what is allowed, in radii; 0 for most."""
-        return np.maximum(self.kept - self.distances(hull), 0) / self.radii
+        return np.maximum(self.kept - self.distances(hull), 0) / self.radii if len(self) else np.zeros(0)
 
     @staticmethod
     def joined(some: Sequence[Openings]) -> Openings:
@@ -258,23 +257,14 @@ def openings_of(triangles: Float[np.ndarray, "n 3 3"], hull: Hull, gap: float, *
     size = float(np.linalg.norm(np.ptp(triangles.reshape(-1, 3), axis=0)))
     sides = planes(hull)
     sides[:, 3] += DEEP * size  # centers lie inside by more than rounding
-    c, r = _inside(sides, *_balls(tree, points, facing, size), least / 4)
+    c, r = _inside(sides, *_balls(tree, points, facing, size, least / 4), least / 4)
     for steps in (COARSE, FINE):
-        c, r = _distinct(c, r, 2 * MAX_BALLS)
-        if not len(c):
-            return NONE
-        for step in steps:
-            tried = c[:, None] + step * r[:, None, None] * _free_ways(tree, c, r)
-            inside = (tried @ sides[:, :3].T + sides[:, 3]).max(2, initial=-np.inf) < 0
-            wider = np.where(inside, tree.distance(tried.reshape(-1, 3)).reshape(inside.shape), 0.0)
-            best, rows = wider.argmax(1), np.arange(len(c))
-            better = wider[rows, best] > r
-            c, r = np.where(better[:, None], tried[rows, best], c), np.where(better, wider[rows, best], r)
+        c, r = _widest(tree, sides, *_distinct(c, r, 2 * MAX_BALLS), steps)
     c, r = _distinct(*_inside(sides, c, r, least), MAX_BALLS)
     if not len(c):
         return NONE
     walls = triangles[tree.nearest(c)[1]]
-    axes = _axes(c, r, _walls(tree, c, r)[0], points, facing)
+    axes = _axes(c, r, _free_axes(_around_centers(tree, c, r)[0])[0], points, facing)
     halfway = c[:, None] + 0.5 * r[:, None, None] * _around(axes, LOOKS)
     walled = tree.distance(halfway.reshape(-1, 3)).reshape(len(c), -1) < ROUND_WALL * r[:, None]
     round_ = walled.mean(1) > ALL_AROUND
@@ -306,17 +296,18 @@ def _distinct(c: np.ndarray, r: np.ndarray, most: int) -> tuple[np.ndarray, np.n
     """Return balls, the largest first, without those in corners beside larger ones, and one at each place."""
     order = np.argsort(-np.round(r / max(float(r.max(initial=0)), 1e-300), 4), kind="stable")
     c, r = c[order], r[order]
-    away = np.linalg.norm(c[:, None] - c, axis=2)
-    corners = ((away < r) & (r[:, None] < SMALLER * r)).any(1)
+    x, y, z = (column[:, None] - column for column in c.T)
+    away = np.sqrt(x * x + y * y + z * z)  # in a third of the time of `norm`
+    left = ~((away < r) & (r[:, None] < SMALLER * r)).any(1)
     chosen: list[int] = []
-    for k in np.flatnonzero(~corners):
-        if len(chosen) < most and (away[k, chosen] > APART * r[k]).all():
-            chosen.append(int(k))
+    while len(chosen) < most and left.any():
+        chosen.append(int(left.argmax()))
+        left &= away[chosen[-1]] > APART * r
     return c[chosen], r[chosen]
 
 
-def _balls(tree: TriangleTree, points: np.ndarray, normals: np.ndarray, size: float) -> tuple[np.ndarray, np.ndarray]:
-    """Return center and radius of the largest empty ball that touches the surface at each point, up to `size`; 0 for none."""
+def _balls(tree: TriangleTree, points: np.ndarray, normals: np.ndarray, size: float, least: float) -> Balls:
+    """Return the largest empty ball that touches the surface at each point, up to `size`; any or 0 below `least`."""
     radii = np.full(len(points), size)
     left = np.arange(len(points))
     for _ in range(ROUNDS):
@@ -330,7 +321,8 @@ def _balls(tree: TriangleTree, points: np.ndarray, normals: np.ndarray, size: fl
         squared = (chord**2).sum(1)
         real = (along > 0) & (squared > (1e-5 * size) ** 2)
         radii[left] = np.where(real, squared / np.where(real, 2 * along, 1.0), 0.0)
-    radii[left] = 0.0
+        left = left[radii[left] >= least]
+    radii[left], radii[radii == size] = 0.0, 0.0  # what touches nothing else has its center outside of the hull
     return points + normals * radii[:, None], radii
 
 
@@ -344,51 +336,49 @@ def _axes(c: np.ndarray, r: np.ndarray, rough: np.ndarray, points: np.ndarray, n
     return np.where(np.abs((axes * rough).sum(1)) > 1 - BESIDE, axes.T, rough.T).T
 
 
-def _walls(tree: TriangleTree, c: np.ndarray, r: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+def _widest(tree: TriangleTree, sides: np.ndarray, c: np.ndarray, r: np.ndarray, steps: Sequence[float]) -> Balls:
+    """Return the balls after each has moved to the widest place at each of some steps, if there is a wider one in the hull.
+
+    No place is wider than its distance from a known point of a wall, and a ball that did not move finds none at the same step.
+    """
+    c, r = c.copy(), r.copy()
+    near, walls = np.zeros((len(c), LOOKS)), np.zeros((len(c), LOOKS, 3))
+    moved, before = np.arange(len(c)), np.inf
+    for step in steps:
+        near[moved], walls[moved] = _around_centers(tree, c[moved], r[moved])
+        some = moved if step == before else np.arange(len(c))
+        ways, before = _free_ways(near)[some], step
+        tried = c[some, None] + step * r[some, None, None] * ways
+        to = (walls[some] - c[some, None]) / r[some, None, None]
+        squared = to @ (-2 * step * ways).transpose(0, 2, 1) + (to * to).sum(2)[:, :, None]  # distances, less that of the step
+        asked = squared.min(1) + step**2 > 1 - 1e-9
+        asked[asked] = (tried[asked] @ sides[:, :3].T + sides[:, 3]).max(1, initial=-np.inf) < 0
+        wider = np.zeros(asked.shape)
+        wider[asked] = tree.distance(tried[asked])
+        best, rows = wider.argmax(1), np.arange(len(some))
+        better = wider[rows, best] > r[some]
+        moved = some[better]
+        c[moved], r[moved] = tried[rows, best][better], wider[rows, best][better]
+    return c, r
+
+
+def _around_centers(tree: TriangleTree, c: np.ndarray, r: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return how near walls are to places around each center (0..1), and the nearest point of a wall to each of these."""
+    distance, _, wall = tree.nearest((c[:, None] + 0.5 * r[:, None, None] * spread_directions(LOOKS)).reshape(-1, 3))
+    near = np.clip(3 - 4 * distance.reshape(-1, LOOKS) / np.maximum(r, 1e-300)[:, None], 0, 1)
+    return near, wall.reshape(-1, LOOKS, 3)
+
+
+def _free_axes(near: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the direction in which there are least walls around each center, and by how much they are on one side (0..1)."""
     ways = spread_directions(LOOKS)
-    halfway = (c[:, None] + 0.5 * r[:, None, None] * ways).reshape(-1, 3)
-    near = np.clip(3 - 4 * tree.distance(halfway).reshape(len(c), -1) / np.maximum(r, 1e-300)[:, None], 0, 1)
     axes = np.linalg.eigh(np.einsum("mk,ki,kj->mij", near, ways, ways))[1][:, :, 0]
     return axes, np.linalg.norm(near @ ways, axis=1) / np.maximum(near.sum(1), 1e-300)
 
 
-def _free_ways(tree: TriangleTree, c: np.ndarray, r: np.ndarray) -> np.ndarray:
+def _free_ways(near: np.ndarray) -> np.ndarray:
     """Return directions in which to move each center: across the axis of an opening, all around where walls are on one side."""
-    axes, lean = _walls(tree, c, r)
-    ways = np.tile(spread_directions(LOOKS), (len(c), 1, 1))
+    axes, lean = _free_axes(near)
+    ways = np.tile(spread_directions(LOOKS), (len(near), 1, 1))
     ways -= np.where(lean > LEAN, 0.0, (ways * axes[:, None]).sum(2).T).T[:, :, None] * axes[:, None]
     return ways / np.maximum(np.linalg.norm(ways, axis=2, keepdims=True), 1e-300)
-
-
-def merged_hulls(hulls: Sequence[Hull], openings: Openings, most: int) -> list[Hull]:
-    """Merge hulls until there are at most `most`: pairs that take least of the openings, then add least volume, first."""
-    kept = dict(enumerate(hulls))
-    taken = {k: openings.taken(hull) for k, hull in kept.items()}
-    queue: list[tuple[float, float, int, int, Hull]] = []
-
-    def add(a: int, others: Sequence[int]) -> None:
-        middle = kept[a].vertices.mean(0)
-        others = sorted(others, key=lambda b: round(float(np.linalg.norm(kept[b].vertices.mean(0) - middle)), 9))
-        for b in others[:NEIGHBOURS]:
-            hull = hull_of(np.concatenate([kept[a].vertices, kept[b].vertices]))
-            if hull is not None:
-                more = openings.taken(hull) - taken[a] - taken[b], volume(hull) - volume(kept[a]) - volume(kept[b])
-                heapq.heappush(queue, (round(more[0], 12), round(more[1], 15), min(a, b), max(a, b), thinned(hull)))
-
-    for a in list(kept):
-        add(a, [b for b in kept if b > a])
-    new = len(kept)
-    while len(kept) > most:
-        if not queue:
-            first = min(kept)
-            add(first, [b for b in kept if b != first])
-            if not queue:
-                return [kept[k] for k in sorted(kept, key=lambda k: -volume(kept[k]))[:most]]
-        *_, a, b, hull = heapq.heappop(queue)
-        if a in kept and b in kept:
-            del kept[a], kept[b]
-            kept[new], taken[new] = hull, openings.taken(hull)
-            add(new, [b for b in kept if b != new])
-            new += 1
-    return list(kept.values())

@@ -176,7 +176,7 @@ def hull_volume(points: np.ndarray, wall: float = 0.0) -> float:
     """Return the volume of the hull of some points, at least that of a sheet `wall` [m] thick; 0 if there is none."""
     if len(points) < 4:
         return 0.0
-    for options in (None, "QJ") if wall > 0 else (None,):  # with joggled input (QJ), flat points have a hull too
+    for options in ("Q5", "QJ") if wall > 0 else ("Q5",):  # with joggled input (QJ), flat points have a hull too
         try:
             hull = ConvexHull(points, qhull_options=options)
         except QhullError:
