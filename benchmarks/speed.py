@@ -12,7 +12,8 @@ the growth of the processor time with the size, sizes below a tenth of the large
 python -m benchmarks.speed --count [--renew]
 
 Counts the work on three objects (`benchmarks/recordings/work.json`) and fails where a count is over 1.2 times the recorded one:
-rays and calls of the ray caster, points and calls of exact distances, candidates with features, and calls of Python functions.
+rays and calls of the ray caster, points and calls of exact distances and of those up to a limit, candidates with features, and
+calls of Python functions.
 --renew records the present counts.
 """
 
@@ -281,17 +282,17 @@ def write(lines: list[str], how: argparse.Namespace) -> None:
 def counts(name: str) -> dict[str, int]:
     """Count the work of one example in this process; child processes do not count."""
     from anymesh import articulate
-    from anymesh.geometry.distance_ import TriangleTree
+    from anymesh.geometry import distance_
     from anymesh.geometry.raycast_ import RayScene
     from anymesh.segmentation import segment
 
     found: Counter[str] = Counter()
 
-    def counted(function: Callable[..., Any], calls: str, size: str = "") -> Callable[..., Any]:
+    def counted(function: Callable[..., Any], calls: str, size: str = "", points: int = 1) -> Callable[..., Any]:
         def call(*arguments: Any, **named: Any) -> Any:
             found[calls] += 1
             if size:
-                found[size] += len(arguments[1])
+                found[size] += len(arguments[points])
             return function(*arguments, **named)
 
         return call
@@ -300,7 +301,9 @@ def counts(name: str) -> dict[str, int]:
     with ExitStack() as stack, tempfile.TemporaryDirectory() as folder:
         stack.enter_context(patch.dict(os.environ, {"ANYMESH_CACHE": f"{folder}/cache"}))
         stack.enter_context(patch.object(RayScene, "first_hit", counted(RayScene.first_hit, "ray calls", "rays")))
-        stack.enter_context(patch.object(TriangleTree, "nearest", counted(TriangleTree.nearest, "distance calls", "distances")))
+        exact, near = counted(distance_.TriangleTree.nearest, "distance calls", "distances"), distance_.distances_within
+        stack.enter_context(patch.object(distance_.TriangleTree, "nearest", exact))
+        stack.enter_context(patch.object(distance_, "distances_within", counted(near, "limited calls", "limited distances", 0)))
         stack.enter_context(patch.object(segment, "part_features", counted(segment.part_features, "candidate features")))
         stack.enter_context(patch.object(segment, "ThreadPoolExecutor", InTurn))
         profile.runcall(articulate, EXAMPLES / "meshes" / f"{name}.glb", Path(folder) / name)
