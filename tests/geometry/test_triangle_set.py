@@ -8,13 +8,21 @@ import numpy as np
 import pytest
 import trimesh
 from assets import box, mesh_of
+from embreex.mesh_construction import TriangleMesh
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rigid import apply, move, shape_of
 from scipy.spatial.distance import cdist
 
 from anymesh.geometry import surface
-from anymesh.geometry.distance_ import TriangleTree, distance_to_mesh, distance_to_triangles, winding_number
+from anymesh.geometry.distance_ import (
+    TriangleTree,
+    distance_to_mesh,
+    distance_to_triangles,
+    distances_within,
+    winding_number,
+)
+from anymesh.geometry.raycast_ import RayScene
 from anymesh.geometry.simplify_ import simplify
 from anymesh.geometry.surface import mesh_surface
 from anymesh.geometry.triangle_set import (
@@ -27,7 +35,7 @@ from anymesh.geometry.triangle_set import (
 )
 from anymesh.motion.part_context import connecting_area
 from anymesh.segmentation.divide import object_shape
-from anymesh.types.triangles import normals_and_areas
+from anymesh.types.triangles import normals_and_areas, unshared
 
 
 def outwardness(shape) -> np.ndarray:
@@ -326,3 +334,34 @@ def test_fewer_triangles_bound_the_same_ball():
 def test_what_is_coarse_stays_as_it_is():
     mesh, _ = mesh_of([box((0, 0, 0), (1, 2, 3))])
     assert simplify(mesh.triangles, 12) is mesh.triangles
+
+
+@pytest.mark.parametrize("limit", [0.0, 0.1, 0.4, 9.0])
+def test_distances_up_to_a_limit_are_exact_and_the_others_infinite(limit: float) -> None:
+    ball, points = sphere(), np.random.default_rng(0).normal(size=(200, 3))
+    exact = distance_to_triangles(points, ball.triangles)
+    expected = np.where(exact < limit, exact, np.inf)
+    assert distances_within(points, ball.triangles, limit) == pytest.approx(expected, abs=1e-12)
+    assert ball.search(points).within(limit) == pytest.approx(expected, abs=1e-12)
+
+
+def test_the_nearer_half_of_some_points_has_exact_distances() -> None:
+    ball, points = sphere(), np.random.default_rng(0).normal(size=(301, 3))
+    exact, found = distance_to_triangles(points, ball.triangles), sphere().search(points).nearer_half(0.2)
+    known = np.isfinite(found)
+    assert found[known] == pytest.approx(exact[known], abs=1e-12)
+    assert known[exact <= max(0.2, float(np.median(exact)))].all()
+    assert ball.search(points).nearest(np.arange(301))[0] == pytest.approx(exact, abs=1e-12)
+
+
+def test_a_ray_caster_that_takes_no_objects_gets_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
+    ball, start = sphere(), np.array([[0.0, 0, 5]])
+    expected = RayScene(*unshared(ball.triangles)).first_hit(start, -start).distance
+
+    def strict(scene: object, vertices: np.ndarray, faces: np.ndarray) -> TriangleMesh:
+        if vertices.dtype == object:
+            raise ValueError("Buffer dtype mismatch")
+        return TriangleMesh(scene, vertices, faces)
+
+    monkeypatch.setattr("embreex.mesh_construction.TriangleMesh", strict)
+    assert RayScene(*unshared(ball.triangles)).first_hit(start, -start).distance == pytest.approx(expected)
